@@ -1,8 +1,9 @@
 //! Is the stated error of α, or of a plate's mean load ratio, honest? Random motors or plates, each solved at every fidelity; the true
-//! error of the others is taken to be the distance to reference. Measured numbers are in `docs/validation.md`.
+//! error of the others is taken to be the distance to reference. Measured numbers are in `docs/validation.md`. Of any other result, named
+//! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
 //!
 //! ```text
-//! cargo run --release --example error_coverage [mild|wide|plates] [COUNT]
+//! cargo run --release --example error_coverage [mild|wide|plates] [COUNT] [RESULT]
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
@@ -11,8 +12,8 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
-use squeezefilm::analysis::quantity::Numbers;
-use squeezefilm::analysis::quantity::Quantity::{Alpha, AlphaError, LoadRatio, LoadRatioError};
+use squeezefilm::analysis::quantity::Quantity::{Alpha, LoadRatio};
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
@@ -43,6 +44,8 @@ const DRAWN_PLATES: [(&str, f64, f64, f64, f64); 5] = [
 ];
 /// An error of α that no one will mind.
 const NEGLIGIBLE: f64 = 1e-6;
+/// A result below which errors relative to it say nothing.
+const LEAST_OTHER: f64 = 1e-4;
 /// Decades of the wide sample over those of the mild one.
 const WIDER: f64 = 3.0;
 
@@ -63,6 +66,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         Some(other) => return Err(format!("{other}: expected mild, wide or plates").into()),
     };
     let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
+    let named = |key: &String| Quantity::all().find(|one| one.name() == key).ok_or_else(|| format!("{key}: no result"));
+    let quantity = arguments.get(2).map(named).transpose()?;
 
     let mut random = Random(12345);
     let judged = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine];
@@ -72,7 +77,7 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         let (preset, changes) = drawn(&mut random);
         let words: Vec<String> = changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
         let words = format!("{preset} {}", words.join(" "));
-        let solve = |fidelity| found(preset, &changes, fidelity);
+        let solve = |fidelity| found(preset, &changes, fidelity, quantity);
         let reference = match solve(Fidelity::Reference)? {
             Ok(reference) => reference,
             Err(error) => {
@@ -80,10 +85,15 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
                 continue;
             }
         };
+        if quantity.is_some() && !(reference.value.abs() > LEAST_OTHER && reference.error.is_finite()) {
+            continue;
+        }
+        let unit = if quantity.is_some() { reference.value.abs() } else { 1.0 };
         for (tally, fidelity) in tallies.iter_mut().zip(judged) {
             match solve(fidelity)? {
+                Ok(found) if found.value.is_nan() => {}
                 Ok(found) => {
-                    let covered = tally.add(&found, &reference);
+                    let covered = tally.add(&found.over(unit), &reference.over(unit));
                     let all_converged = [&found, &reference].iter().all(|one| one.status == Status::Converged);
                     if !covered || !all_converged {
                         let mark = if all_converged { "" } else { ", not converged" };
@@ -154,17 +164,24 @@ fn values<'a>(
     })
 }
 
-/// What a solve says of α, or of the mean load ratio of a plate.
+/// What a solve says of α, of the mean load ratio of a plate, or of what is asked for.
 struct Found {
     value: f64,
     error: f64,
     status: Status,
 }
 
+impl Found {
+    fn over(&self, unit: f64) -> Self {
+        Self { value: self.value / unit, error: self.error / unit, status: self.status }
+    }
+}
+
 fn found(
     preset: &str,
     changes: &[(&str, String)],
     fidelity: Fidelity,
+    quantity: Option<Quantity>,
 ) -> Result<Result<Found, SolveError>, Box<dyn Error>> {
     let mut scene = presets::find(preset)?;
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str())))?;
@@ -172,8 +189,9 @@ fn found(
     let settings = Settings { fidelity, ..Settings::default() };
     Ok(solve(&problem, &settings, &mut (), &Cancel::new()).map(|solution| {
         let numbers = Numbers::of(&problem, &solution);
-        let of = |motor, plate| numbers.get(motor).or_else(|| numbers.get(plate)).unwrap_or(f64::NAN);
-        let (value, error) = (of(Alpha, LoadRatio), of(AlphaError, LoadRatioError));
+        let asked = quantity.unwrap_or(if numbers.get(Alpha).is_some() { Alpha } else { LoadRatio });
+        let value = numbers.get(asked).unwrap_or(f64::NAN);
+        let error = asked.error().and_then(|error| numbers.get(error)).unwrap_or(f64::INFINITY);
         Found { value, error, status: solution.status }
     }))
 }

@@ -6,6 +6,7 @@
 
 use crate::platform::{HAS_FILES, hand_out};
 use same_file::Handle;
+use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -39,14 +40,31 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
         let handed = write(&mut content).and_then(|()| hand_out(path, vec![(path.to_owned(), content)]));
         return handed.map_err(failed);
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().ok_or_else(|| failed(ErrorKind::InvalidFilename.into()))?;
-    if !folder.is_dir() {
-        return Err(failed(io::Error::new(ErrorKind::NotFound, format!("there is no folder {}", folder.display()))));
-    }
+    let (folder, name) = place(path).map_err(failed)?;
     let mut staged = Staged::within(folder, false).map_err(failed)?;
     staged.add(name, write)?;
     staged.commit().map(|_| ())
+}
+
+/// The folder of a file, which has to exist, and the file's name in it.
+fn place(path: &Path) -> io::Result<(&Path, &OsStr)> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().ok_or(ErrorKind::InvalidFilename)?;
+    if folder.is_dir() {
+        Ok((folder, name))
+    } else {
+        Err(io::Error::new(ErrorKind::NotFound, format!("there is no folder {}", folder.display())))
+    }
+}
+
+/// Checks whether [`write_file`] can write a file, before any work is done for it.
+///
+/// # Errors
+/// [`WriteError`] if it cannot.
+pub fn check_file(path: &Path) -> Result<(), WriteError> {
+    let failed = |source| WriteError { path: path.to_owned(), source };
+    let (folder, _) = place(path).map_err(failed)?;
+    check_writable(folder).map_err(|WriteError { source, .. }| failed(source))
 }
 
 /// Checks whether files can be written into a folder, or the folder created, before any work is done for them.

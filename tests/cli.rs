@@ -954,6 +954,38 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
 }
 
 #[test]
+fn what_would_have_no_effect_or_be_lost_is_told_before_anything_is_solved() {
+    let load = |newtons: &str| ["--set".to_owned(), format!("motor.load_per_wave_n={newtons}")];
+    let twice: Vec<String> =
+        ["solve".to_owned(), "fundamental".to_owned()].into_iter().chain([load("1"), load("2")].concat()).collect();
+    let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
+    refused(&twice, 2, &["motor.load_per_wave_n is set twice"]);
+    let varied = ["sweep", "fundamental", "--vary", "motor.load_per_wave_n=1:2:3", "--set", "motor.load_per_wave_n=1"];
+    refused(&varied, 2, &["--set has no effect on a key that is varied"]);
+    let folder = tempfile::tempdir().unwrap();
+    let nowhere = folder.path().join("none/wave.gif");
+    refused(
+        &["animate", "fundamental", "--out", nowhere.to_str().unwrap()],
+        1,
+        &["wave.gif: cannot be written", "there is no folder"],
+    );
+}
+
+#[test]
+fn what_is_less_sure_than_it_seems_is_said() {
+    let few = run(&["sweep", "fundamental", "--vary", "motor.waves=5:7:9", "--fidelity", "draft"]);
+    assert!(err(&few).contains("motor.waves is a whole number: 3 different values, not 9"), "{}", err(&few));
+    let thin = run(&["solve", "fundamental", "--set", "film.min_spacing_nm=5", "--fidelity", "draft"]);
+    assert!(err(&thin).contains("is not resolved at this fidelity"), "{}", err(&thin));
+    let wide = ["sensitivity", "fundamental", "--fidelity", "draft", "--uncertainty", "film.min_spacing_nm=500%"];
+    assert!(out(&run(&wide)).contains("more uncertain than they are large, to first order"));
+    let wide = ["sensitivity", "fundamental", "--fidelity", "draft", "--uncertainty", "film.min_spacing_nm=50%"];
+    let drawn = run(&[&wide[..], &["--monte-carlo", "400"]].concat());
+    let words: String = out(&drawn).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("Film share of the load α: the mean of the random scenes is not the value"), "{words}");
+}
+
+#[test]
 fn a_small_mean_load_is_resolved_on_a_grid_that_is_given() {
     let grid = ["numerics.film_nodes_along=17", "numerics.film_nodes_across=9", "numerics.steps_per_cycle=108"];
     let given: Vec<&str> = grid.iter().flat_map(|key| ["--set", key]).collect();

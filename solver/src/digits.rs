@@ -128,6 +128,10 @@ pub fn with_error(value: f64, error: f64) -> String {
         return signed(format!("{value:.3e} ± {error:.1e}"));
     }
     let places = decimals(error, 2);
+    // Of whole numbers, too, none behind the error's second digit says anything.
+    let error = rounded(error, 2);
+    let unit = 10f64.powf(error.log10().floor() - 1.0).max(1.0);
+    let value = if unit > 1.0 { (value / unit).round() * unit } else { value };
     format!("{} ± {error:.places$}", signed(format!("{value:.places$}")))
 }
 
@@ -168,7 +172,9 @@ mod tests {
             (0.2458277, 1.8e-4, "0.24583 ± 0.00018"),
             (0.2458277, 9.96e-4, "0.2458 ± 0.0010"),
             (33.556824, 3.6e-3, "33.5568 ± 0.0036"),
-            (12345.6, 678.0, "12346 ± 678"),
+            (12345.6, 678.0, "12350 ± 680"),
+            (148_492.0, 1352.0, "148500 ± 1400"),
+            (9_960.0, 99.6, "9960 ± 100"),
             (0.0, 0.5, "0.00 ± 0.50"),
             (-1e-13, 1.2e-5, "(0.0 ± 1.2) × 10^-5"),
             (0.5, 0.0, "0.5000"),

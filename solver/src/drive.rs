@@ -13,10 +13,12 @@
 //!
 //! ∫ is over one wavelength and averaged over a cycle, and N = ∫ c = (1 − α) L. No sign is smoothed: c is linear in time between
 //! frames, so that the integrals up to the two instants at which a node's sign changes are closed forms; over x the nodes
-//! are summed with their lengths, of second order as everywhere.
+//! are summed with their lengths, of second order as everywhere. What c bends between frames is the largest part of the error, and the
+//! same integrals over every other frame show how large: s₀ and s₁ are extrapolated from both.
 //!
 //! N is the extrapolated contact load of the solve. The shapes s₀ and s₁ are those of the recorded contact, which is extrapolated
-//! too; they are judged by what the same contact gives on the recording's yardsticks ([`Recording::estimate`]).
+//! too; they are judged by what the coarser contact among the recording's yardsticks ([`Recording::estimate`]) gives in the same way, and
+//! by that of the finest grid as it was solved, over all frames.
 //!
 //! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
@@ -36,9 +38,17 @@ const NEAR: f64 = 0.02;
 /// Over such a difference of speed ratios the error of a curve changes by its own size.
 const VARIES: f64 = 0.05;
 
-/// Where in the wave the contact load is: its integrals up to any phase, on one grid.
+/// Where in the wave the contact load is, on one grid.
 #[derive(Clone, Debug, Default)]
 pub struct Drive {
+    frames: Frames,
+    /// Every other frame, if c is to be extrapolated from both.
+    coarse: Option<Frames>,
+}
+
+/// Integrals of the contact load up to any phase, over the frames of a cycle or some of them.
+#[derive(Clone, Debug, Default)]
+struct Frames {
     lines: Vec<Line>,
     /// Cycle mean of the contact load on one wavelength \[N\].
     load: f64,
@@ -83,10 +93,10 @@ struct Marks {
     efficiency: (f64, f64),
 }
 
-impl Drive {
-    /// Of the contact of one cycle.
-    pub fn new(cycle: &LineLoads) -> Self {
-        let (nodes, frames) = (cycle.x.len(), cycle.frames);
+impl Frames {
+    /// Of every frame of one cycle, or every other one, and so on.
+    fn new(cycle: &LineLoads, every: usize) -> Self {
+        let (nodes, frames) = (cycle.x.len(), cycle.frames / every);
         let copies = cycle.teeth as f64 / cycle.stored_teeth.max(1) as f64;
         let turns: Vec<(f64, f64)> = (0..=frames).map(|m| (TAU * m as f64 / frames as f64).sin_cos()).collect();
         let mut lines = Vec::new();
@@ -94,7 +104,7 @@ impl Drive {
         for tooth in 0..cycle.stored_teeth {
             for (i, (x, length)) in cycle.x.iter().zip(&cycle.node_length).enumerate() {
                 for (frame, load) in load.iter_mut().enumerate() {
-                    *load = cycle.contact[(tooth * frames + frame) * nodes + i] * length * copies;
+                    *load = cycle.contact[(tooth * cycle.frames + frame * every) * nodes + i] * length * copies;
                 }
                 if load.iter().any(|load| *load > 0.0) {
                     lines.push(Line::new((tooth as f64 * cycle.pitch + x) / cycle.length, &load, &turns));
@@ -106,32 +116,53 @@ impl Drive {
         Self { lines, load, forward }
     }
 
-    /// Cycle mean of the contact load on one wavelength \[N\].
-    pub fn load(&self) -> f64 {
-        self.load
-    }
-
-    /// (s₀, s₁) at the speed ratio `v` = V_R/V₀: force on the rotor and power from the stator, as shares of μ_d N and
-    /// μ_d N V₀. Both are 0 without contact.
-    pub fn at(&self, v: f64) -> (f64, f64) {
-        if self.load <= 0.0 {
-            return (0.0, 0.0);
-        }
-        // The rotor is dragged along while |φ| < half.
-        let cos = v.clamp(-1.0, 1.0);
-        let (half, sin) = (cos.acos() / TAU, (1.0 - cos * cos).sqrt());
+    /// (s₀, s₁), where the rotor is dragged along while |φ| < `half`, of this sine and cosine; `None` without contact.
+    fn at(&self, half: f64, (sin, cos): (f64, f64)) -> Option<(f64, f64)> {
         let (mut sum, mut forward) = (0.0, 0.0);
         for line in &self.lines {
             let (to, from) = (line.until(half, (sin, cos)), line.until(-half, (-sin, cos)));
             sum += to.0 - from.0;
             forward += to.1 - from.1;
         }
-        ((2.0 * sum - self.load) / self.load, (2.0 * forward - self.forward) / self.load)
+        let share = |dragged: f64, all: f64| (2.0 * dragged - all) / self.load;
+        (self.load > 0.0).then(|| (share(sum, self.load), share(forward, self.forward)))
+    }
+}
+
+impl Drive {
+    /// Of the contact of one cycle.
+    pub fn new(cycle: &LineLoads) -> Self {
+        let coarse = cycle.frames.is_multiple_of(2).then(|| Frames::new(cycle, 2));
+        Self { coarse, ..Self::as_solved(cycle) }
+    }
+
+    /// The same without what is extrapolated from every other frame.
+    fn as_solved(cycle: &LineLoads) -> Self {
+        Self { frames: Frames::new(cycle, 1), coarse: None }
+    }
+
+    /// Cycle mean of the contact load on one wavelength \[N\].
+    pub fn load(&self) -> f64 {
+        self.frames.load
+    }
+
+    /// (s₀, s₁) at the speed ratio `v` = V_R/V₀: force on the rotor and power from the stator, as shares of μ_d N and
+    /// μ_d N V₀. Both are 0 without contact.
+    pub fn at(&self, v: f64) -> (f64, f64) {
+        let cos = v.clamp(-1.0, 1.0);
+        let (half, sin) = (cos.acos() / TAU, (1.0 - cos * cos).sqrt());
+        let at = |frames: &Frames| frames.at(half, (sin, cos));
+        let Some((s0, s1)) = at(&self.frames) else { return (0.0, 0.0) };
+        let Some((coarse_0, coarse_1)) = self.coarse.as_ref().and_then(at) else { return (s0, s1) };
+        // Of second order: a third of the difference is missing still. No more than all pulls one way, and friction heats.
+        let missing = |fine: f64, coarse: f64| fine + (fine - coarse) / 3.0;
+        let force = missing(s0, coarse_0).clamp(-1.0, 1.0);
+        (force, missing(s1, coarse_1).max(v * force))
     }
 
     /// Speed ratio at which the force vanishes, which falls from +1 to −1; `None` without contact.
     pub fn no_load(&self) -> Option<f64> {
-        if self.load <= 0.0 {
+        if self.load() <= 0.0 {
             return None;
         }
         // Regula falsi; the end that stays twice counts half (Illinois).
@@ -255,10 +286,8 @@ impl Step {
 pub struct Scaled<'a> {
     motor: &'a Motor,
     drive: Lossy,
-    /// What it is judged by.
+    /// What it is judged by ([`judged`]).
     others: Vec<Lossy>,
-    /// A number of the contact with its error, from the same of the others.
-    judge: fn(f64, &[f64]) -> Estimate,
     /// N \[N\].
     load: Estimate,
 }
@@ -277,32 +306,24 @@ impl<'a> Scaled<'a> {
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
         let load = Estimate { value: (1.0 - result.alpha.value).max(0.0), ..result.alpha } * motor.load;
         let spent = motor.friction_torque(load.value) * motor.stator_speed() / motor.contact_radius;
-        let lossy = |loads: &LineLoads| {
-            (Drive::new(loads), if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 })
+        let lossy = |drive: Drive, loads| (drive, if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 });
+        let extrapolated = |loads| lossy(Drive::new(loads), loads);
+        let others = match &recording.yardsticks[..] {
+            [before, finest] => vec![extrapolated(before), lossy(Drive::as_solved(finest), finest)],
+            _ => Vec::new(),
         };
-        Self {
-            motor,
-            drive: lossy(&recording.lines),
-            others: recording.yardsticks.iter().map(lossy).collect(),
-            judge: judged,
-            load,
-        }
+        Self { motor, drive: extrapolated(&recording.lines), others, load }
     }
 
-    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest, whose error is the
-    /// difference to the next coarser one, three times what an error of second order would be.
+    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest.
     pub fn without_film(motor: &'a Motor, dry: &[LineLoads]) -> Self {
-        let mut grids = dry.iter().rev().take(2).map(|loads| (Drive::new(loads), 0.0));
-        Self {
-            motor,
-            drive: grids.next().unwrap_or_default(),
-            others: grids.collect(),
-            judge: |found, others| Estimate {
-                value: found,
-                error: others.first().map_or(f64::INFINITY, |coarse| (found - coarse).abs()),
-            },
-            load: Estimate { value: motor.load, error: 0.0 },
-        }
+        let lossless = |drive: Drive| (drive, 0.0);
+        let others = match dry {
+            [.., before, finest] => vec![lossless(Drive::new(before)), lossless(Drive::as_solved(finest))],
+            _ => Vec::new(),
+        };
+        let drive = lossless(dry.last().map(Drive::new).unwrap_or_default());
+        Self { motor, drive, others, load: Estimate { value: motor.load, error: 0.0 } }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
@@ -323,7 +344,7 @@ impl<'a> Scaled<'a> {
     /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
         let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error };
-        let of_unit = if self.drive.0.load > 0.0 { share.value.abs() } else { most };
+        let of_unit = if self.drive.0.load() > 0.0 { share.value.abs() } else { most };
         Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }
     }
 
@@ -338,7 +359,7 @@ impl<'a> Scaled<'a> {
     fn shares(&self, near: &[Place; 3], share: Share<'_>) -> [Estimate; 3] {
         near.each_ref().map(|(v, all)| {
             let shares: Vec<f64> = all.iter().map(|(at, loss)| share(*v, *at, *loss)).collect();
-            (self.judge)(shares[0], &shares[1..])
+            judged(shares[0], &shares[1..])
         })
     }
 
@@ -376,14 +397,14 @@ impl<'a> Scaled<'a> {
         let (unit, v0) = (self.torque(), exactly(speed));
         let per_radius = speed / self.motor.contact_radius;
         let power = unit * per_radius;
-        let driven = unit.value > 0.0 && self.drive.0.load > 0.0 && speed > 0.0;
+        let driven = unit.value > 0.0 && self.drive.0.load() > 0.0 && speed > 0.0;
         let marks = driven.then(|| {
             let marks = |(drive, loss): &Lossy| drive.marks(*loss);
             (marks(&self.drive), self.others.iter().map(marks).collect::<Vec<_>>())
         });
         let judged = |mark: fn(&Marks) -> f64| {
             let (found, others) = marks.as_ref()?;
-            Some((self.judge)(mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
+            Some(judged(mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
         };
         let marked = |unit: Estimate, mark: fn(&Marks) -> f64| Some(self.scaled(unit, judged(mark)?, 1.0));
         // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
@@ -418,15 +439,21 @@ fn greatest_error(shares: &[Estimate]) -> f64 {
     shares.iter().map(|share| share.error).fold(0.0, f64::max)
 }
 
-/// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
-pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
-    (result.teeth_in_contact.value >= motor.teeth as f64).then(|| {
+/// The warnings of a motor whose teeth touch all round the wave, so that it gives less than the bound, and of one whose torque is not known.
+pub fn warnings(motor: &Motor, result: &MotorResult, found: &Performance) -> Vec<String> {
+    let (stall, all_touch) = (found.stall_torque, result.teeth_in_contact.value >= motor.teeth as f64);
+    let unresolved = !result.levitated && stall.error >= stall.value.abs() && stall.error.is_finite();
+    let unresolved = unresolved.then(|| {
+        format!("the stall torque, {stall} N·m, is not resolved at this fidelity: its error is as large as itself")
+    });
+    let braking = all_touch.then(|| {
         format!(
             "every tooth of each wave touches the rotor at all times, so parts of the contact always brake: held at rest the motor \
              gives {} N·m, not the maximum operating torque μ_d (1 − α) waves L r = {} N·m, which is a bound",
-            found.stall_torque, found.max_torque,
+            stall, found.max_torque,
         )
-    })
+    });
+    unresolved.into_iter().chain(braking).collect()
 }
 
 /// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.

@@ -3,7 +3,7 @@
 pub mod near;
 
 use crate::control::{Cancel, Observer};
-use crate::drive::{Scaled, braking};
+use crate::drive::{self, Scaled};
 use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
@@ -295,7 +295,7 @@ fn perform(problem: &Problem, solution: &mut Solution) {
         && solution.recording.frames > 0
     {
         let found = Scaled::with_film(motor, result, &solution.recording).performance(&[]);
-        solution.warnings.extend(braking(motor, result, &found));
+        solution.warnings.extend(drive::warnings(motor, result, &found));
         solution.performance = Some(found);
     }
 }

@@ -595,6 +595,11 @@ pub struct Spread {
 }
 
 impl Spread {
+    /// Whether the mean is not `value`, by more than chance and than a tenth of the spread.
+    pub fn is_off(&self, value: f64) -> bool {
+        (self.mean - value).abs() > (3.0 * self.mean_error()).max(0.1 * self.deviation)
+    }
+
     /// The standard deviation that the mean has because there are so many draws and no more.
     pub fn mean_error(&self) -> f64 {
         self.deviation / (self.count as f64).sqrt()

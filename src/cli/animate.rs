@@ -5,6 +5,7 @@ use super::options::{SceneOptions, SolveOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
+use crate::atomic::{check_file, check_writable};
 use crate::export::animation::{Format, Options};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::problem::Problem;
@@ -60,8 +61,12 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
-    // A wrong extension is told before the work, not after it.
+    // A wrong extension or folder is told before the work, not after it.
     let format = Format::of(&arguments.out)?;
+    match format {
+        Format::Folder => check_writable(&arguments.out)?,
+        Format::Gif | Format::Apng | Format::Mp4 => check_file(&arguments.out)?,
+    }
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::try_from(&scene)?;
     let (settings, cancel) = arguments.solve.begin()?;

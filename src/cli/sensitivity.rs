@@ -6,7 +6,7 @@ use super::options::{CommonOptions, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{duration, percent, significant};
+use crate::digits::{capitalised, duration, percent, significant};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::Found;
@@ -139,8 +139,12 @@ fn warning(carlo: &MonteCarlo) -> Option<String> {
     });
     let redrawn = (carlo.redrawn > 0).then(|| {
         format!(
-            "{} random scenes were outside of what is allowed and were drawn again, which makes the spread smaller",
-            carlo.redrawn
+            "{} outside of what is allowed and drawn again, which makes the spread smaller",
+            if carlo.redrawn == 1 {
+                "1 random scene was".to_owned()
+            } else {
+                format!("{} random scenes were", carlo.redrawn)
+            }
         )
     });
     let all: Vec<String> = failed.into_iter().chain(redrawn).collect();
@@ -228,6 +232,7 @@ fn uncertain(found: &Found<'_>) -> String {
         head.extend(["Monte Carlo", "5 % … 95 %"]);
     }
     columns.row(head);
+    let (mut beyond, mut bent) = (Vec::new(), Vec::new());
     for (i, output) in sensitivity.outputs.iter().enumerate() {
         let value = sensitivity.values[i];
         if !value.value.is_finite() {
@@ -245,8 +250,14 @@ fn uncertain(found: &Found<'_>) -> String {
             if value.error.is_finite() { format!("± {}", significant(value.error, 2)) } else { String::new() },
             most.map_or_else(String::new, |(key, share)| format!("{key}, {}", percent(share))),
         ];
+        if propagated.deviation.value > value.value.abs() {
+            beyond.push(output.words());
+        }
         if let Some(carlo) = found.carlo {
             let spread = carlo.spread(i);
+            if spread.as_ref().is_some_and(|spread| spread.is_off(value.value)) {
+                bent.push(output.words());
+            }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
                 format!("{} ± {}", digits(spread.mean), significant(spread.deviation, 2))
             }));
@@ -260,5 +271,20 @@ fn uncertain(found: &Found<'_>) -> String {
     if let Some(carlo) = found.carlo {
         text.push_str(&format!("\n{} random scenes, seed {}.\n", carlo.draws.len(), carlo.seed));
     }
+    let mut remark = |of: &[&str], what: &str| {
+        if !of.is_empty() {
+            text.push_str(&paragraph(&format!("{}: {what}", capitalised(&of.join(", "))), "\n", ""));
+        }
+    };
+    if found.carlo.is_none() {
+        remark(
+            &beyond,
+            "more uncertain than they are large, to first order; --monte-carlo 500 says what so great a change does.",
+        );
+    }
+    remark(
+        &bent,
+        "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters. The range says more than a standard deviation.",
+    );
     text
 }

@@ -215,8 +215,11 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
 /// What is known exactly beside what was computed.
 fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [&str; 2]) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
+        // To as many digits as the computed number has beside it.
+        let digits = (known / solved.error).abs().log10().ceil() + 1.0;
+        let known = significant(known, if digits.is_finite() { digits.max(4.0) as usize } else { 4 });
         let solved = format!("{solved} {unit}");
-        columns.row([name, solved.trim_end(), &format!("exact {} {when}", shown(known))]);
+        columns.row([name, solved.trim_end(), &format!("exact {known} {when}")]);
     };
     if let Some((solved, absolute)) = exact.solved.zip(exact.stiffness_and_damping()) {
         let (linear, unit, small) = (exact.linear, exact.unit, "for a small amplitude");

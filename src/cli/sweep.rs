@@ -9,7 +9,7 @@ use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Part, Row, Sweep, Vary};
+use crate::analysis::sweep::{Axis, Part, Row, Sweep, Values, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{duration, significant};
 use crate::export::compare::{LIMITS, TIME_UP};
@@ -89,6 +89,20 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
+    }
+    for axis in sweep.axes() {
+        let key = axis.parameter.key;
+        if arguments.common.scene.changes.iter().any(|(changed, _)| changed == key) {
+            return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
+        }
+    }
+    for (vary, axis) in arguments.vary.iter().zip(sweep.axes()) {
+        if let Values::Range { count, .. } = vary.values
+            && axis.values.len() < count
+        {
+            let key = axis.parameter.key;
+            terminal::note(&format!("{key} is a whole number: {} different values, not {count}", axis.values.len()));
+        }
     }
     let points = sweep.points_of(part).len();
     let command = &of_the_whole(command);

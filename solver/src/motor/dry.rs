@@ -1,18 +1,18 @@
 //! The same motor without its film: contact alone, in a vacuum.
 //!
 //! Without gas nothing remembers, so every instant is one contact problem (`contact`, with no gas at any node) and there
-//! is no periodic state to look for. Grids and rotor are those of the plan, so that what the film changes is not what
-//! another grid changes.
+//! is no periodic state to look for. Nodes and rotor are those of the plan, so that what the film changes is not what
+//! another grid changes; of instants there are twice as many, since they cost little.
 
 use super::MotorError;
 use super::ending::Stop;
 use super::level::Level;
 use crate::control::Cancel;
-use crate::plan::Plan;
+use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
 use crate::recording::LineLoads;
 
-/// The contact of one cycle on each of the plan's grids, coarse to fine, one tooth stored; `None` if cancelled.
+/// The contact of one cycle on each of the plan's grids at twice its steps, coarse to fine, one tooth stored; `None` if cancelled.
 ///
 /// # Errors
 /// [`MotorError::Contact`] if a contact problem has no solution to working precision.
@@ -21,7 +21,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
     let plan = Plan { every_tooth: false, trapped: false, shear: false, flow: Flow::Along, ..plan.clone() };
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {
-        let mut level = Level::new(motor, &plan, grid);
+        let mut level = Level::new(motor, &plan, &Grid { steps: 2 * grid.steps, ..*grid });
         match level.dry_cycle(cancel) {
             Ok(()) => {}
             Err(Stop::Cancelled) => return Ok(None),
