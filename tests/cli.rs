@@ -982,7 +982,12 @@ fn what_is_less_sure_than_it_seems_is_said() {
     let wide = ["sensitivity", "fundamental", "--fidelity", "draft", "--uncertainty", "film.min_spacing_nm=50%"];
     let drawn = run(&[&wide[..], &["--monte-carlo", "400"]].concat());
     let words: String = out(&drawn).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("Film share of the load α: the mean of the random scenes is not the value"), "{words}");
+    assert!(
+        words.contains(
+            "Film share of the load α, stall torque, no-load speed: the mean of the random scenes is not the value"
+        ),
+        "{words}"
+    );
 }
 
 #[test]
