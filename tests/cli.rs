@@ -955,11 +955,6 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
 
 #[test]
 fn what_would_have_no_effect_or_be_lost_is_told_before_anything_is_solved() {
-    let load = |newtons: &str| ["--set".to_owned(), format!("motor.load_per_wave_n={newtons}")];
-    let twice: Vec<String> =
-        ["solve".to_owned(), "fundamental".to_owned()].into_iter().chain([load("1"), load("2")].concat()).collect();
-    let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
-    refused(&twice, 2, &["motor.load_per_wave_n is set twice"]);
     let varied = ["sweep", "fundamental", "--vary", "motor.load_per_wave_n=1:2:3", "--set", "motor.load_per_wave_n=1"];
     refused(&varied, 2, &["--set has no effect on a key that is varied"]);
     let folder = tempfile::tempdir().unwrap();

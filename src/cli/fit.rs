@@ -21,11 +21,16 @@ use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
-  squeezefilm fit fundamental --data table1 --vary film.min_spacing_nm=100:400 --vary stator.normal_amplitude_um=0.8:2
-  squeezefilm fit my.toml --data torque.csv --vary motor.dry_friction=0.1:1 --vary stator.tangential_amplitude_um=0.2:3
-  squeezefilm fit my.toml --data loads.csv --error 2% --vary film.min_spacing_nm=20:1000 --starts 50 --out fitted
-  squeezefilm fit fundamental --maximise stall_torque_nm --vary motor.load_per_wave_n=0.5:10 --vary stator.tooth_width_mm=0.6:2.8
-  squeezefilm fit fundamental --minimise alpha --vary stator.frequency_khz=20:80 --subject-to 'stall_torque_nm>0.2'";
+  squeezefilm fit fundamental --data table1 --vary film.min_spacing_nm=100:400 \\
+      --vary stator.normal_amplitude_um=0.8:2
+  squeezefilm fit my.toml --data torque.csv --vary motor.dry_friction=0.1:1 \\
+      --vary stator.tangential_amplitude_um=0.2:3
+  squeezefilm fit my.toml --data loads.csv --error 2% --vary film.min_spacing_nm=20:1000 \\
+      --starts 50 --out fitted
+  squeezefilm fit fundamental --maximise stall_torque_nm --vary motor.load_per_wave_n=0.5:10 \\
+      --vary stator.tooth_width_mm=0.6:2.8
+  squeezefilm fit fundamental --minimise alpha --vary stator.frequency_khz=20:80 \\
+      --subject-to 'stall_torque_nm>0.2'";
 
 const DATA: &str = "\
 A table of measurements is a CSV file. Its first line names the columns:

@@ -20,8 +20,10 @@ const EXAMPLES: &str = "\
 Examples:
   squeezefilm sensitivity fundamental
   squeezefilm sensitivity fundamental --keys film.min_spacing_nm,motor.load_per_wave_n --json
-  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=20% --uncertainty film.viscosity_upa_s=0.2
-  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=±30 --monte-carlo 500 --out results";
+  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=20% \\
+      --uncertainty film.viscosity_upa_s=0.2
+  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=±30 --monte-carlo 500 \\
+      --out results";
 
 const FILES: &str = "\
 Files of --out:

@@ -27,11 +27,15 @@ use std::time::{Duration, Instant};
 const EXAMPLES: &str = "\
 Examples:
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
-  squeezefilm sweep fundamental --vary film.min_spacing_nm=20:500:30:log --fidelity fine --out results
-  squeezefilm sweep fundamental --vary motor.load_per_wave_n=0.5:5:12 --vary film.min_spacing_nm=50:400:12:log --out map
-  squeezefilm sweep fundamental --vary film.slip=first-order,fukui-kaneko,none --vary film.min_spacing_nm=50,100,200
+  squeezefilm sweep fundamental --vary film.min_spacing_nm=20:500:30:log --fidelity fine \\
+      --out results
+  squeezefilm sweep fundamental --vary motor.load_per_wave_n=0.5:5:12 \\
+      --vary film.min_spacing_nm=50:400:12:log --out map
+  squeezefilm sweep fundamental --vary film.slip=first-order,fukui-kaneko,none \\
+      --vary film.min_spacing_nm=50,100,200
   squeezefilm sweep plate-crossover --vary plate.frequency_khz=0.1:1000:40:log --json
-  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:1000:log --part 3/64 --out results";
+  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:1000:log --part 3/64 \\
+      --out results";
 
 const FILES: &str = "\
 Files of --out:

@@ -96,9 +96,6 @@ impl Scene {
             let Some(parameter) = Parameter::find(key).filter(|parameter| changed.get(parameter.key).is_some()) else {
                 continue;
             };
-            if given.contains(&parameter) {
-                faults.push(What::Rule { key: parameter.key, message: format!("{} is set twice", parameter.key) });
-            }
             if let Some(other) = parameter.alternatives().find(|other| given.contains(other)) {
                 faults.push(What::BothGiven { key: parameter.key, other: other.key });
             }

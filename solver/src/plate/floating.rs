@@ -55,7 +55,7 @@ pub enum FloatError {
         rounded(amplitude * 1e6), rounded(min_spacing * 1e9), percent(*share),
         match needed {
             Some(needed) => format!("at least {} µm of amplitude is needed", rounded(needed * 1e6)),
-            None => format!("no amplitude up to {} µm is enough", rounded(LARGEST_AMPLITUDE * 1e6)),
+            None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", rounded(LARGEST_AMPLITUDE * 1e6)),
         })]
     Rests {
         /// Amplitude \[m\].

@@ -340,6 +340,11 @@ pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> 
     marks(Steps::apart([from, to], least))
 }
 
+/// Marks at whole numbers, at most about `most`.
+pub(in crate::gui::ui) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
+    apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
+}
+
 /// Round marks, about `about`, and two at least.
 fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
     marks(Steps::several([input.bounds.0, input.bounds.1], about))

@@ -3,6 +3,7 @@
 use super::highlight;
 use super::hint::Hint;
 use super::theme::{self, Palette, palette};
+use crate::digits::capitalised;
 use crate::gui::command::Command;
 use crate::gui::derived::format::rough;
 use crate::gui::state::window::State;
@@ -55,6 +56,16 @@ impl<'a> DrawContext<'a> {
     /// Text over as many lines as it takes.
     pub fn say(&self, ui: &mut Ui, text: impl Into<String>, colour: Color32) {
         ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
+    }
+
+    /// The warnings of a computation, a paragraph each.
+    pub fn warn(&self, ui: &mut Ui, warnings: &[String]) {
+        for warning in warnings {
+            // One that begins with a key keeps it as it is written.
+            let begins_with_key = warning.split(' ').next().is_some_and(|word| word.contains('.'));
+            let text = if begins_with_key { warning.clone() } else { capitalised(warning) };
+            self.say(ui, text, self.colours.alarm);
+        }
     }
 
     /// Secondary text over as many lines as it takes.

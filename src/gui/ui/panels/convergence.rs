@@ -2,7 +2,7 @@
 
 use crate::control::Progress;
 use crate::gui::derived::format::power_of_ten;
-use crate::gui::ui::chart::{apart, bare, line, powers};
+use crate::gui::ui::chart::{bare, line, powers, whole};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui;
 use egui_plot::{HLine, LineStyle, PlotPoints, Points};
@@ -22,7 +22,7 @@ pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
         .y_grid_spacer(|input| powers(&input, TICKS, false))
         .y_axis_formatter(|mark, _| power_of_ten(mark.value))
         .x_grid_spacer(|input| {
-            let mut ticks = apart(&input, ((input.bounds.1 - input.bounds.0) / TICKS).max(1.0));
+            let mut ticks = whole(&input, TICKS);
             ticks.retain(|tick| tick.value >= 1.0);
             ticks
         })

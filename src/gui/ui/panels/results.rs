@@ -39,9 +39,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
             _ => {}
         }
-        for warning in &run.solution.warnings {
-            cx.say(ui, warning, cx.colours.alarm);
-        }
+        cx.warn(ui, &run.solution.warnings);
         limits(ui, &run.validity, cx);
         section(ui, "Regime");
         regime_numbers(ui, run, cx);

@@ -8,7 +8,7 @@ use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::state::fit::{FitState, Found, Sought, chooses, quantities};
 use crate::gui::state::sweep::AxisForm;
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title};
+use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title, whole};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, field, list};
 use crate::gui::ui::hint::Hint;
@@ -19,6 +19,7 @@ use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::{button, glossary};
 use crate::problem::Problem;
 use eframe::egui::{Grid, RichText, TextStyle, Ui};
+use egui_plot::Plot;
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
 const SHARE: f32 = 0.3;
@@ -200,9 +201,7 @@ fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
 
 /// What was found.
 fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
-    for warning in &found.warnings {
-        cx.say(ui, warning, cx.colours.alarm);
-    }
+    cx.warn(ui, &found.warnings);
     Grid::new("values").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
         for one in &found.unknowns {
             value(ui, one, cx);
@@ -236,9 +235,7 @@ fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
 
 /// The optimum that was found.
 fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
-    for warning in &found.warnings {
-        cx.say(ui, warning, cx.colours.alarm);
-    }
+    cx.warn(ui, &found.warnings);
     let Ok(problem) = Problem::try_from(&found.scene) else { return };
     let strong = ui.visuals().strong_text_color();
     let words = |quantity: Quantity| quantity.label(&problem);
@@ -346,7 +343,9 @@ fn charts(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &Dr
     title(ui, "Residuals, in standard errors", "Residual");
     let bounds = [[0.5, found.rows.len() as f64 + 0.5], [-widest, widest]];
     let (name, below, words) = ("Residuals", "measurement", (Some("Residual"), "Residual"));
-    Chart { name, height: 0.7 * height, bounds, below, words }.show(ui, move |plot| {
+    let chart = Chart { name, height: 0.7 * height, bounds, below, words };
+    let counted = |plot: Plot<'static>| plot.x_grid_spacer(|input| whole(&input, 10.0));
+    chart.show_with(ui, counted, move |plot| {
         for at in [-1.0, 0.0, 1.0] {
             plot.hline(level(at, quiet, 1.0));
         }

@@ -55,9 +55,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             let text = format!("Computed for “{}” before the scene changed; compute again", found.scene().name);
             cx.say(ui, text, cx.colours.alarm);
         }
-        for warning in found.warnings() {
-            cx.say(ui, warning.as_str(), cx.colours.alarm);
-        }
+        cx.warn(ui, found.warnings());
         let output = state.output.min(found.outputs.len() - 1);
         choose(ui, found, output, cx);
         let shown = Shown { state, found, output, uncertainties, cx };

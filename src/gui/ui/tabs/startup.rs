@@ -94,7 +94,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
         ui.label(RichText::new(format!("computed at {}", startup.fidelity)).color(cx.colours.quiet));
     });
     if let Some(Ok(ended)) = &startup.ended {
-        ended.warnings.iter().for_each(|warning| cx.say(ui, warning.clone(), cx.colours.alarm));
+        cx.warn(ui, &ended.warnings);
     }
     if startup.stale(cx.state.document.scene()) {
         let text = format!("Of “{}” before the scene changed; start again", startup.name());

@@ -143,7 +143,9 @@ fn ends(axis: &Axis) -> [f64; 2] {
 /// Round numbers with their places, about as many as there is room for.
 fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<GridMark> {
     if axis.scale != Scale::Log {
-        return chart::marks(Steps::new(range, most));
+        let counted = matches!(axis.parameter.kind, ParameterKind::Whole { .. });
+        let least = (range[1] - range[0]) / most.max(1) as f64;
+        return chart::marks(Steps::apart(range, if counted { least.max(1.0) } else { least }));
     }
     let mut found = decades(range, most as f64, true);
     if !(2..=most.max(2)).contains(&found.len()) {
