@@ -432,6 +432,18 @@ fn motors_that_were_hard_to_reach_converge() {
     }
 }
 
+/// Rounds of all instants at once come to no end, but cycle after cycle, marched, the state repeats.
+#[test]
+fn a_motor_that_repeats_only_when_it_is_marched_converges() {
+    #[rustfmt::skip]
+    let values =
+        [12.8533, 27.0, 0.01, -6841.52, 87.3719, 0.201_634, 6.0, 3389.53, 0.192_838, 0.189_756, 0.1, 0.001_802_23, 9.9452e-9, 20.6243, 890.57, 18.4231, 228_940.0];
+    let pairs: Vec<_> = HARD.into_iter().zip(values).chain([("stator.tangential_amplitude_um", 0.0)]).collect();
+    let mut scene = scene_with("fundamental", &pairs);
+    scene.set("film.slip", "none").unwrap();
+    assert_eq!(survives(&scene, Fidelity::Draft), Ok(true));
+}
+
 /// Marched cycle after cycle, it comes to no end; on grids that the scene prescribes it once counted as converged after seven.
 #[test]
 fn on_prescribed_grids_too_a_march_has_to_repeat() {

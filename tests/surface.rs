@@ -6,6 +6,7 @@
 mod scenes;
 
 use proptest::prelude::*;
+use squeezefilm::analysis::surface::SurfaceCurves;
 use squeezefilm::contact::{Contact, Instant, Modes, Shape};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -14,7 +15,7 @@ use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::FilmState;
 use squeezefilm::motor;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance};
+use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario};
 use squeezefilm::rotor::ring::Band;
 use squeezefilm::rotor::{Compliances, Wave};
 use squeezefilm::scene::{Scene, presets};
@@ -278,6 +279,26 @@ fn both_presets_are_solved_and_film_and_contact_carry_the_load() {
         }
         assert!(recording.contact.iter().all(|c| *c >= 0.0) && recording.touching_from > 0.0);
     }
+}
+
+#[test]
+fn the_curves_of_the_faces_reach_as_far_as_they_say() {
+    let problem = scenes::problem("asperities", &[("surface.flow_factors", "patir-cheng")]);
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    let curves = SurfaceCurves::of(motor);
+    let law = motor.surface.asperities.unwrap();
+    let rms = law.summits().rms;
+    // Contact from touching means on to where the mean gap is four times the height of the asperities, flow to eight times.
+    let [first, last] = [curves.contact[0], curves.contact[curves.contact.len() - 1]];
+    assert_eq!([first[0], first[1]], [law.mean_gap(0.0).0, law.pressure(0.0).0]);
+    assert!((last[0] / rms - 4.0).abs() < 0.01 && last[1] < 1e-3 * first[1], "{last:?} {rms}");
+    assert!(curves.contact.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]));
+    let flow = &curves.flow;
+    let reach = motor.surface.flow.unwrap().rms;
+    assert!((flow[flow.len() - 1][0] / reach - 8.0).abs() < 1e-12 && flow[0][0] < reach, "{:?}", flow[flow.len() - 1]);
+    let even = curves.even.unwrap();
+    let tops = motor.teeth as f64 * motor.tooth_width * motor.contact_width;
+    assert!((even[1] * tops / motor.load - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -466,4 +466,40 @@ mod tests {
         assert_eq!(said(1e-9, 4.0), "slowed down 4.0e9 times");
         assert_eq!(said(0.0, 4.0), "");
     }
+
+    #[test]
+    fn a_gif_shows_every_frame_as_it_was_drawn() {
+        // A block that moves over stripes: most of each frame is left as the one before has it.
+        let (width, height) = (7_usize, 5);
+        let frame = |at: usize| -> Vec<u8> {
+            let pixels = (0..width * height).map(|i| (i % width, i / width));
+            let colour =
+                |(x, y)| if (at..at + 2).contains(&x) && y == at { [200, 30, 10] } else { [0, 60 * y as u8, 90] };
+            pixels.flat_map(colour).collect()
+        };
+        let frames: Vec<Vec<u8>> = (0..4).map(frame).collect();
+        let movie = Movie { width: width as u32, height: height as u32, seconds: 1.0, source: String::new(), frames };
+        let mut bytes = Vec::new();
+        movie.gif(&mut bytes, &Cancel::new()).unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(&bytes[..]).unwrap();
+        let mut shown = vec![0; 3 * width * height];
+        for drawn in &movie.frames {
+            let read = decoder.read_next_frame().unwrap().unwrap();
+            for (i, rgba) in read.buffer.chunks_exact(4).enumerate().filter(|(_, rgba)| rgba[3] > 0) {
+                let (x, y) = (i % usize::from(read.width), i / usize::from(read.width));
+                let at = 3 * ((usize::from(read.top) + y) * width + usize::from(read.left) + x);
+                shown[at..at + 3].copy_from_slice(&rgba[..3]);
+            }
+            // As near as the palette comes.
+            assert!(shown.iter().zip(drawn).all(|(a, b)| a.abs_diff(*b) <= 8), "{shown:?} {drawn:?}");
+        }
+        assert!(decoder.read_next_frame().unwrap().is_none());
+    }
+
+    #[test]
+    fn a_cycle_is_on_screen_as_long_as_was_asked() {
+        assert_eq!([2.5, 0.0, 1e9, f64::NAN].map(on_screen), [2.5, 0.02, 600.0, 4.0]);
+    }
 }
