@@ -442,6 +442,9 @@ fn a_motor_that_repeats_only_when_it_is_marched_converges() {
     let mut scene = scene_with("fundamental", &pairs);
     scene.set("film.slip", "none").unwrap();
     assert_eq!(survives(&scene, Fidelity::Draft), Ok(true));
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let found = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
+    assert_eq!(found.status, Status::Converged);
 }
 
 /// Marched cycle after cycle, it comes to no end; on grids that the scene prescribes it once counted as converged after seven.

@@ -78,20 +78,6 @@ fn a_start_up_ends_at_the_periodic_state() {
 }
 
 #[test]
-fn a_plate_begins_at_its_mean_gap_whether_or_not_that_is_a_step() {
-    // A quarter of a cycle is 11.5 steps, and 40.
-    let [odd, even] = ["46", "160"].map(|steps| {
-        let set = [("numerics.steps_per_cycle", steps)];
-        let problem = problem("plate-crossover", &set);
-        let settings = Settings { cycles: 1, ..Settings::default() };
-        let (cycles, _) = run(&problem, &settings);
-        main_number(&problem, &cycles[0].outcome)
-    });
-    println!("{odd:?} {even:?}");
-    assert!((odd.0 - even.0).abs() < 4e-5, "{odd:?} {even:?}");
-}
-
-#[test]
 fn cycles_follow_each_other_without_a_gap() {
     let problem = problem("fundamental", &[]);
     let (cycles, _) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 3, ..Settings::default() });
