@@ -11,7 +11,7 @@
 use super::level::Level;
 use super::{Periodic, Search, finish, stated, turned};
 use crate::control::{Cancel, Observer};
-use crate::digits;
+use crate::digits::{brief, percent};
 use crate::estimate::Estimate;
 use crate::film::cycle::Interrupted;
 use crate::ladder::{Found, climb};
@@ -52,10 +52,10 @@ pub enum FloatError {
     Memory(#[from] Excess),
     /// It rests on its roughness.
     #[error("plate.amplitude_um = {}: the plate does not float, because as low as film.min_spacing_nm = {} allows, the film carries {} of the load; {}",
-        rounded(amplitude * 1e6), rounded(min_spacing * 1e9), percent(*share),
+        brief(amplitude * 1e6), brief(min_spacing * 1e9), percent(share.max(0.0)),
         match needed {
-            Some(needed) => format!("at least {} µm of amplitude is needed", rounded(needed * 1e6)),
-            None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", rounded(LARGEST_AMPLITUDE * 1e6)),
+            Some(needed) => format!("at least {} µm of amplitude is needed", brief(needed * 1e6)),
+            None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", brief(LARGEST_AMPLITUDE * 1e6)),
         })]
     Rests {
         /// Amplitude \[m\].
@@ -68,16 +68,8 @@ pub enum FloatError {
         needed: Option<f64>,
     },
     /// It is so light that it floats higher than any film.
-    #[error("the plate is so light that it floats higher than {} µm, where there is no film to speak of: a greater load or a smaller plate.amplitude_um is needed", rounded(HIGHEST * 1e6))]
+    #[error("the plate is so light that it floats higher than {} µm, where there is no film to speak of: a greater load or a smaller plate.amplitude_um is needed", brief(HIGHEST * 1e6))]
     High,
-}
-
-fn rounded(value: f64) -> f64 {
-    digits::rounded(value, 3)
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", rounded(100.0 * share.max(0.0)))
 }
 
 /// A plate that floats: its periodic state at the gap that was found, which the result tells, and the plan by which that was solved.

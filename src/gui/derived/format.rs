@@ -100,13 +100,6 @@ pub fn trimmed(number: &str) -> &str {
     }
 }
 
-/// A share in per cent, without the sign: two digits, written out however small.
-pub fn per_cent(share: f64) -> String {
-    let value = 100.0 * share;
-    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{value:.decimals$}")
-}
-
 /// A time in the unit that suits it.
 pub fn time(seconds: f64) -> String {
     match seconds {

@@ -2,10 +2,10 @@
 //! invariant.
 
 use crate::analysis::exact::{Harmonic, units};
-use crate::digits::significant;
+use crate::digits::{percent, significant};
 use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
-use crate::gui::derived::format::{per_cent, power_of_ten, uncertain};
+use crate::gui::derived::format::{power_of_ten, uncertain};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, powers, title, upright};
 use crate::gui::ui::context::DrawContext;
@@ -204,7 +204,7 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
     let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
         .map(|value| significant(value, DIGITS));
-    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), |off| format!("{} %", per_cent(off)));
+    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     // What it is called, computed, exact, and when that holds.
     let rows = [
         ["Spring S", &spring, &significant(found.linear.spring, DIGITS), "for ε → 0"],

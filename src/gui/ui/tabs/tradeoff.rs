@@ -3,9 +3,9 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
-use crate::digits::short;
+use crate::digits::{self, short};
 use crate::gui::command::Command;
-use crate::gui::derived::format::{per_cent, trimmed};
+use crate::gui::derived::format::trimmed;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
 use crate::gui::ui::chart::{axes, bare, key, line, place as chart_place, powers};
@@ -369,7 +369,7 @@ fn duration(seconds: f64) -> String {
 
 /// A share in per cent, two digits, written out however small.
 fn percent(share: f64) -> String {
-    format!("{}{NO_BREAK}%", trimmed(&per_cent(share)))
+    format!("{}{NO_BREAK}%", trimmed(digits::percent(share).trim_end_matches(" %")))
 }
 
 #[cfg(test)]
