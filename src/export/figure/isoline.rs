@@ -121,6 +121,15 @@ mod tests {
     }
 
     #[test]
+    fn a_point_is_as_far_off_a_segment_as_off_its_nearest_point() {
+        let (a, b) = ([1.0, 2.0], [4.0, 6.0]);
+        for (p, distance) in [([2.5, 4.0], 0.0), ([-1.5, 7.0], 5.0), ([-2.0, -2.0], 5.0), ([7.0, 10.0], 5.0)] {
+            assert!((off_segment(p, a, b) - distance).abs() < 1e-12, "{p:?}");
+        }
+        assert_eq!(off_segment([4.0, 6.0], a, a), 5.0);
+    }
+
+    #[test]
     fn a_value_stands_in_a_gap_of_its_own_width() {
         let mut svg = Svg::default();
         draw(&mut svg, &[level(10.0), level(40.0)]);

@@ -218,6 +218,13 @@ mod tests {
     }
 
     #[test]
+    fn columns_and_gutters_fill_the_page_between_its_margins() {
+        let columns = COLUMNS as f64;
+        let across = columns * Setter::width() + (columns - 1.0) * GUTTER;
+        assert!((across - (PAGE[0] - 2.0 * MARGIN)).abs() < 1e-9, "{across}");
+    }
+
+    #[test]
     fn a_question_keeps_its_choices_and_a_sketch_its_axes() {
         let choices = ["one", "two", "three"].map(|choice| Piece::Choice(choice.to_owned(), false));
         let axes = [Piece::Axes(["along".to_owned(), "up".to_owned()])];
