@@ -225,6 +225,20 @@ mod tests {
     }
 
     #[test]
+    fn the_axes_of_a_sketch_have_their_names_at_their_ends() {
+        let size = SIZES[0];
+        let page = &set(&[Piece::Axes(["along".to_owned(), "up".to_owned()])], size)[0];
+        let place = |word: &str| {
+            let text = page[..page.find(&format!(">{word}")).unwrap()].rsplit("<text ").next().unwrap();
+            [" y=\"", "x=\""]
+                .map(|of| text.split(of).nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap())
+        };
+        let ([along, right], [up, left]) = (place("along"), place("up"));
+        assert!((along - up - (AXES + 0.4) * size).abs() < 0.1, "{along} {up}");
+        assert!((right - left) / Setter::width() > 0.85 && right < MARGIN + Setter::width(), "{left} {right}");
+    }
+
+    #[test]
     fn a_question_keeps_its_choices_and_a_sketch_its_axes() {
         let choices = ["one", "two", "three"].map(|choice| Piece::Choice(choice.to_owned(), false));
         let axes = [Piece::Axes(["along".to_owned(), "up".to_owned()])];
