@@ -503,7 +503,7 @@ fn levitation_missing_convergence_and_warnings_are_said_plainly() {
     harness.get_by_label("Levitated");
     harness.get_by_label("Not converged");
     harness.get_by_label_contains("still changed by 2.0e-3, allowed 1e-6");
-    harness.get_by_label("the film is thinner than a mean free path");
+    harness.get_by_label("The film is thinner than a mean free path");
 }
 
 #[test]
