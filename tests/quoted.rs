@@ -6,6 +6,9 @@
 //! `cargo run --release --example NAME …` is called in this process. Quotations that take longer, ```` ```console slow ```` and
 //! `<!-- slow output of: … -->`, are left to `cargo test --test quoted -- --ignored`. Times depend on the machine and are not compared.
 //!
+//! tests/results.md quotes what is computed in many cases, digit by digit, so that no change moves a number unnoticed. [`NUMBERS`] makes
+//! its lines.
+//!
 //! So are the figures of the gallery ([`PICTURES`]) what the program draws, to a hundredth of a point.
 //!
 //! `docs/renew` writes what is printed and drawn today into the documents.
@@ -106,6 +109,24 @@ fn program() -> PathBuf {
     std::env::var_os("SQUEEZEFILM").map_or_else(|| env!("CARGO_BIN_EXE_squeezefilm").into(), PathBuf::from)
 }
 
+/// For the shell: `numbers ARGUMENTS` are the numbers that `squeezefilm ARGUMENTS` prints as JSON, with their keys; `sums FILE` are, of each
+/// column of a CSV file, the sum and the sum weighted by the number of the line. Words count for nothing, and times are left out.
+const NUMBERS: &str = r#"
+filled() { paste -sd ' ' - | fold -sw 150; }
+numbers() {
+    squeezefilm "$@" --json 2>/dev/null |
+        sed -nE 's/^ *"([a-z_0-9]*)": (-?[0-9][^,]*|true|false),?$/\1 \2/p' |
+        awk '$1 != "wall_s" && $1 != "schema" { print $1, $2 ~ /[0-9]/ ? sprintf("%.8g", $2) : $2 }' | filled
+}
+sums() {
+    awk -F, '
+        NR == 1 { for (i = 1; i <= NF; i++) name[i] = $i; next }
+        { for (i = 1; i <= NF; i++) { sum[i] += $i; weighted[i] += NR * $i } }
+        END { for (i = 1; i in name; i++) printf "%s %.8g %.8g\n", name[i], sum[i], weighted[i] }
+    ' "$1" | filled
+}
+"#;
+
 /// What a command prints.
 fn output(command: &str) -> String {
     if let Some(example) = command.strip_prefix(EXAMPLE) {
@@ -119,7 +140,7 @@ fn output(command: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let program = fs::canonicalize(program()).unwrap();
     let shell = Command::new("sh")
-        .args(["-c", &format!("squeezefilm() {{ \"$SQUEEZEFILM\" \"$@\"; }}\nexec 2>&1\n{command}")])
+        .args(["-c", &format!("squeezefilm() {{ \"$SQUEEZEFILM\" \"$@\"; }}\n{NUMBERS}exec 2>&1\n{command}")])
         .env("SQUEEZEFILM", program)
         .current_dir(&folder)
         .stdin(Stdio::null())
@@ -148,7 +169,7 @@ fn check(slow: bool) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let docs = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
     let mut documents: Vec<PathBuf> = docs.filter(|path| path.extension().is_some_and(|end| end == "md")).collect();
-    documents.push(root.join("README.md"));
+    documents.extend(["README.md", "tests/results.md"].map(|path| root.join(path)));
     documents.sort();
     let update = std::env::var_os("UPDATE_QUOTED").is_some();
     let (mut count, mut stale) = (0, String::new());
