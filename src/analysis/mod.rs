@@ -5,6 +5,7 @@
 
 pub mod attempt;
 pub mod compare;
+pub mod data_sheet;
 pub mod decision;
 pub mod exact;
 pub mod fit;

@@ -3,6 +3,8 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::terminal;
+use crate::analysis::data_sheet::agreeing;
+use crate::control::Cancel;
 use crate::input::ReadError;
 use crate::scene::new_motor::{Answers, NewMotor, QUESTIONS, Question};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
@@ -15,10 +17,10 @@ Examples:
   squeezefilm new my.toml --diameter-mm 60 --frequency-khz 40 --load-n 150 --stall-torque-nm 1
   squeezefilm new --diameter-mm 60 --frequency-khz 40 --load-n 150 | squeezefilm solve -";
 
-/// Makes a preset of your motor from what its data sheet has
+/// Makes a preset of your motor from its data sheet
 ///
-/// What is needed and not given by an option is asked for, and everything else with it; an empty answer leaves it to what is
-/// assumed. What was assumed, and why, is told, and is at the head of the file.
+/// If a required value is missing, the program asks for everything that no option gives; an empty answer accepts the assumed value. The
+/// assumptions and the reasons for them are listed, and written at the head of the file.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -92,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if QUESTIONS.iter().any(|question| question.otherwise.is_none() && !answers.contains_key(question.name)) {
         ask(&mut answers)?;
     }
-    let motor = NewMotor::of(&answers).map_err(CliError::Answers)?;
+    let motor = agreeing(&answers, &Cancel::new()).map_err(CliError::Answers)?;
     told(&motor);
     match &arguments.file {
         Some(file) => {

@@ -14,6 +14,7 @@ use crate::job::export::Picture;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
+use crate::scene::new_motor::Answers;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -66,6 +67,8 @@ pub enum Command {
     NewMotor,
     /// Answers one of the questions about it, by its name.
     AnswerNewMotor(&'static str, String),
+    /// Makes the motor that the answers describe.
+    MakeNewMotor(Answers),
     /// Asks for a file to open.
     OpenDialog,
     /// Saves to the scene's file, or asks for one.

@@ -9,7 +9,7 @@ use super::quantity_text;
 use super::value::{Value, show_number, show_text};
 use super::values::Scene;
 use crate::atomic::{WriteError, write_file};
-use crate::digits::{as_given, brief};
+use crate::digits::{as_given, brief, rounded};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -42,6 +42,8 @@ pub enum Accepts {
     Text,
 }
 
+/// Digits of what follows from torque and speed.
+const DIGITS: usize = 4;
 const GASES: &[&str] = &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"];
 
 const fn question(
@@ -158,12 +160,31 @@ pub struct NewMotor {
     pub assumed: Vec<Assumption>,
 }
 
+/// What friction and tangential amplitude are, of the least that torque and speed of the data sheet allow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors {
+    /// Of the coefficient of friction.
+    pub friction: f64,
+    /// Of the tangential amplitude.
+    pub amplitude: f64,
+}
+
+impl Factors {
+    /// The least: the air takes no torque, and the rotor moves as fast as the crests of the wave.
+    pub const LEAST: Self = Self { friction: 1.0, amplitude: 1.0 };
+}
+
 /// The answers so far, by the name of the question; a missing or blank one counts as not answered.
 pub type Answers = BTreeMap<&'static str, String>;
 
 /// The answer to the question `name`, without the spaces around it.
 fn answer<'a>(answers: &'a Answers, name: &str) -> Option<&'a str> {
     answers.get(name).map(|answer| answer.trim()).filter(|answer| !answer.is_empty())
+}
+
+/// The answer to the question `name`, for a number, in the unit of the question.
+pub fn asked(answers: &Answers, name: &str) -> Option<f64> {
+    Question::find(name)?.number(answer(answers, name)?)
 }
 
 /// The scene while it is being put together.
@@ -176,7 +197,7 @@ struct Draft<'a> {
 
 impl Draft<'_> {
     fn number(&self, name: &str) -> Option<f64> {
-        Question::find(name)?.number(answer(self.answers, name)?)
+        asked(self.answers, name)
     }
 
     fn give(&mut self, key: &'static str, value: f64) {
@@ -219,6 +240,14 @@ impl NewMotor {
     /// # Errors
     /// What is missing or wrong with the answers, a line each.
     pub fn of(answers: &Answers) -> Result<Self, String> {
+        Self::with(answers, Factors::LEAST)
+    }
+
+    /// The motor that these answers describe, with more friction and amplitude than the least.
+    ///
+    /// # Errors
+    /// As [`NewMotor::of`].
+    pub fn with(answers: &Answers, factors: Factors) -> Result<Self, String> {
         let fault = |question: &Question| match answer(answers, question.name) {
             Some(answer) => question.check(answer).err(),
             None if question.otherwise.is_some() => None,
@@ -250,21 +279,30 @@ impl NewMotor {
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
         draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch");
-        let friction = draft.number("stall-torque-nm").map(|torque| torque / (load * radius * 1e-3));
+        let friction = draft
+            .number("stall-torque-nm")
+            .map(|torque| rounded(factors.friction * torque / (load * radius * 1e-3), DIGITS));
         match draft.possible("stall-torque-nm", "motor.dry_friction", friction)? {
             Some(friction) => {
-                let why = "stall torque over load and radius, as if no air took any: the least that it can be, so the solved torque is smaller; squeezefilm fit \
-                           finds what agrees";
+                let why = match factors {
+                    Factors::LEAST => {
+                        "stall torque over load and radius: the least that it can be, because the air takes some"
+                    }
+                    _ => "the solved motor has the stall torque of the data sheet",
+                };
                 draft.assume("motor.dry_friction", friction, why);
             }
             None => draft.assume("motor.dry_friction", 0.3, "a filled polymer on metal"),
         }
-        let amplitude = draft.number("no-load-speed-rpm").map(|speed| speed / 60.0 * radius / frequency);
+        let amplitude = draft
+            .number("no-load-speed-rpm")
+            .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
         let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
         let (tangential, why) = match amplitude {
-            Some(amplitude) => {
+            Some(amplitude) if factors == Factors::LEAST => {
                 (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
             }
+            Some(amplitude) => (amplitude, "the solved motor has the speed without load of the data sheet"),
             None => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
@@ -285,11 +323,11 @@ impl NewMotor {
         draft.take("film.min_spacing_nm", "min-spacing-nm", 200.0, why);
         match answer(answers, "gas") {
             Some(gas) => draft.pairs.push(("film.gas", gas.to_owned())),
-            None => draft.assume_text("film.gas", "air".to_owned(), "a motor that is not told otherwise"),
+            None => draft.assume_text("film.gas", "air".to_owned(), "unless stated otherwise"),
         }
-        draft.take("film.temperature_c", "temperature-c", 20.0, "a room");
+        draft.take("film.temperature_c", "temperature-c", 20.0, "room temperature");
         draft.take("film.altitude_m", "altitude-m", 0.0, "sea level");
-        let why = "the law that holds at every spacing; the paper's, first-order, ends where a film is ten mean free paths thick";
+        let why = "the law that holds at every spacing; the paper's, first-order, is inaccurate in films thinner than ten mean free paths";
         draft.assume_text("film.slip", "fukui-kaneko".to_owned(), why);
         draft.pairs.push(("name", answer(answers, "name").unwrap_or("My motor").to_owned()));
         let keys: Vec<_> = draft.assumed.iter().map(|assumption| assumption.key).collect();

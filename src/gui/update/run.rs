@@ -1,11 +1,13 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
 use super::updater::{LECTURE_ZOOM, Updater};
+use crate::analysis::data_sheet::agreeing;
 use crate::analysis::tradeoff::Target;
 use crate::citation;
+use crate::control::Cancel;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::{Answer, PICTURE, Purpose};
-use crate::gui::state::document::Document;
+use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
@@ -28,6 +30,10 @@ impl Updater {
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),
             Command::NewMotor => state.modal = Some(Modal::NewMotor(Answers::new())),
+            Command::MakeNewMotor(answers) => match agreeing(&answers, &Cancel::new()) {
+                Ok(motor) => self.proceed(Next::New(Box::new(motor.scene))),
+                Err(wrong) => state.fail(wrong),
+            },
             Command::AnswerNewMotor(question, answer) => {
                 if let Some(Modal::NewMotor(answers)) = &mut state.modal {
                     answers.insert(question, answer);
@@ -201,7 +207,7 @@ impl Updater {
                     Purpose::Open => failed.unwrap_or_default(),
                     Purpose::Save(_) => failed.unwrap_or_else(|| self.state.suggested_name()),
                     Purpose::Picture(_) => PICTURE.to_owned(),
-                    Purpose::Export(export) => export.file_name().to_owned(),
+                    Purpose::Export(export) => failed.unwrap_or_else(|| export.file_name().to_owned()),
                     Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                 };
                 self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));

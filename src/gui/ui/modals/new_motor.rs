@@ -3,7 +3,6 @@
 use super::frame::{Answer, heading};
 use crate::gui::command::Command;
 use crate::gui::derived::words::label;
-use crate::gui::state::document::Next;
 use crate::gui::ui::context::DrawContext;
 use crate::scene::Parameter;
 use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
@@ -28,7 +27,10 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
     });
     ui.add_space(8.0);
     let motor = NewMotor::of(answers);
-    egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).show(ui, |ui| match &motor {
+    // As high whatever it says: the questions above do not move while they are answered.
+    let said =
+        egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).auto_shrink([true, false]);
+    said.show(ui, |ui| match &motor {
         Ok(motor) => {
             for assumption in &motor.assumed {
                 let words = Parameter::find(assumption.key).map_or(assumption.key, label);
@@ -46,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         let make = ui.add_enabled(motor.is_ok(), egui::Button::new("Make this motor")).clicked();
         let cancelled = ui.button("Cancel").clicked();
         match motor {
-            Ok(motor) if make => Some(vec![Command::Proceed(Next::New(Box::new(motor.scene)))]),
+            Ok(_) if make => Some(vec![Command::MakeNewMotor(answers.clone())]),
             _ => cancelled.then(Vec::new),
         }
     })

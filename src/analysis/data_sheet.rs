@@ -1,0 +1,73 @@
+//! A motor from its data sheet whose solution has the torque and the speed that the data sheet states.
+
+use super::quantity::{Numbers, Quantity};
+use crate::control::Cancel;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::scene::new_motor::{Answers, Factors, NewMotor, asked};
+use crate::solution::Status;
+use crate::solve::{Record, Settings, solve};
+
+/// Solves in which friction and amplitude are found. The torque is proportional to friction, the speed nearly to the amplitude.
+const SOLVES: usize = 6;
+/// How close torque and speed have to come, relative.
+const CLOSE: f64 = 2e-3;
+
+/// The motor of `answers`, with the friction and the amplitude at which it has, once solved, the stall torque and the speed without load of the
+/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`].
+///
+/// # Errors
+/// As [`NewMotor::of`].
+pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
+    let least = NewMotor::of(answers)?;
+    let (mut motor, mut factors) = (least.clone(), Factors::LEAST);
+    for _ in 0..SOLVES {
+        let Some(solved) = solved(&motor.scene, cancel) else { break };
+        let missed = |quantity, name| {
+            let asked = asked(answers, name)?;
+            Some(asked / solved.get(quantity).filter(|found| *found > 0.0)?)
+        };
+        let torque = missed(Quantity::StallTorque, "stall-torque-nm");
+        let speed = missed(Quantity::NoLoadSpeed, "no-load-speed-rpm");
+        if [torque, speed].into_iter().flatten().all(|ratio| (ratio - 1.0).abs() < CLOSE) {
+            return Ok(motor);
+        }
+        factors.friction *= torque.unwrap_or(1.0);
+        factors.amplitude *= speed.unwrap_or(1.0);
+        let Ok(next) = NewMotor::with(answers, factors) else { break };
+        motor = next;
+    }
+    Ok(least)
+}
+
+fn solved(scene: &Scene, cancel: &Cancel) -> Option<Numbers> {
+    let problem = Problem::try_from(scene).ok()?;
+    let settings = Settings { record: Record::Numbers, ..Settings::default() };
+    let solution = solve(&problem, &settings, &mut (), cancel).ok()?;
+    (solution.status == Status::Converged).then(|| Numbers::of(&problem, &solution))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motor_has_the_torque_and_the_speed_of_its_data_sheet() {
+        let sheet = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "160")];
+        let asked = [("stall-torque-nm", "1"), ("no-load-speed-rpm", "150")];
+        let answers: Answers = sheet.iter().chain(&asked).map(|(name, value)| (*name, (*value).to_owned())).collect();
+        let of = |motor: &NewMotor| {
+            let numbers = solved(&motor.scene, &Cancel::new()).unwrap();
+            [Quantity::StallTorque, Quantity::NoLoadSpeed].map(|quantity| numbers.get(quantity).unwrap())
+        };
+        let [torque, speed] = of(&NewMotor::of(&answers).unwrap());
+        assert!(torque < 0.7 && speed < 147.0, "{torque} {speed}");
+        let motor = agreeing(&answers, &Cancel::new()).unwrap();
+        let [torque, speed] = of(&motor);
+        assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
+        // One that would need more friction than there is keeps the least.
+        let strong: Answers = [("stall-torque-nm", "8.5")].map(|(name, value)| (name, value.to_owned())).into();
+        let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();
+        assert_eq!(agreeing(&strong, &Cancel::new()), NewMotor::of(&strong));
+    }
+}
