@@ -76,7 +76,7 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let first = share(&starting(window.state()).points[0].outcome).0;
     until(&mut window, "it repeats", |app| starting(app).ended.is_some());
     assert_eq!(starting(window.state()).ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
-    window.get_by_label_contains("repeats to");
+    window.get_by_label_contains("repeats within");
     agrees(window.state());
     // Every tooth, and from rest: the first cycle carries less than the last.
     let app = window.state();
@@ -134,7 +134,7 @@ fn a_plate_starts_from_rest_too() {
     until(&mut window, "it repeats", |app| {
         app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
     });
-    window.get_by_label_contains("repeats to");
+    window.get_by_label_contains("repeats within");
     window.get_by_label_contains("load ratio");
     // (That of a plate at standard is half of what a finer grid shows.)
     agrees(window.state());
@@ -323,7 +323,7 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
     window.run_steps(2);
     assert!(window.known().dropped.as_ref().unwrap().running());
-    window.get_by_label_contains("; the periodic solve has 4.96");
+    window.get_by_label_contains("does not shake, has 4.96");
     window.get_by_role_and_label(Role::Image, "Height of the plate over time");
     window.click_on("Cancel");
     until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.running()));

@@ -5,7 +5,7 @@
 //! extrapolated from both, of second order, and their difference is its stated error.
 
 use crate::control::Cancel;
-use crate::estimate::{Estimate, extrapolate};
+use crate::estimate::{Estimate, extrapolate, left};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
@@ -20,8 +20,13 @@ use serde::{Deserialize, Serialize};
 
 /// Height from which it is dropped, as a multiple of the gap at which it floats or rests.
 const FROM: f64 = 2.0;
+/// Cycles in which a plate should have settled.
+pub const CYCLES: usize = 5000;
 /// Cycles over which the height may not change any more.
 const SETTLED: usize = 32;
+/// Where these changes shrink by less than this factor, the height may be so many times the last one from where it settles.
+const SLOWEST: f64 = 0.95;
+const CREEP: f64 = 20.0;
 
 /// The plate at the end of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,7 +37,7 @@ pub struct Cycle {
     pub time: f64,
     /// Height: the gap without the vibration \[m\].
     pub height: Estimate,
-    /// Speed, upwards \[m/s\].
+    /// Mean speed over the cycle, upwards \[m/s\].
     pub speed: f64,
     /// Whether it rested on its roughness in this cycle.
     pub rests: bool,
@@ -49,8 +54,8 @@ pub struct Fall {
     pub floats: Result<Estimate, String>,
 }
 
-/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles`, until its height changes by less than `tolerance`
-/// of itself within 32 of them. `None` if the scene has no plate under a load.
+/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles`, until its height is within
+/// `tolerance` of where it settles, as its changes over 32 cycles tell. `None` if the scene has no plate under a load.
 ///
 /// # Errors
 /// [`SolveError`] if a step has no solution to working precision, or it would need more memory than is allowed.
@@ -102,13 +107,18 @@ pub fn fall(
         let [usual, finer] = &ways;
         let height = extrapolate(&[usual.height(), finer.height()]);
         let rests = finer.free().rests > rested;
-        each(Cycle { number, time: finer.reading().time, height, speed: finer.free().speed, rests });
+        let speed = (height.value - heights[number - 1]) / period;
+        each(Cycle { number, time: finer.reading().time, height, speed, rests });
         heights.push(height.value);
-        if let Some(before) = heights.len().checked_sub(SETTLED + 1) {
-            let last = &heights[before..];
-            let change = last.iter().map(|z| (z / height.value - 1.0).abs()).fold(0.0, f64::max);
-            status = Status::NotConverged { residual: change, tolerance };
-            if change < tolerance {
+        if let Some(first) = heights.len().checked_sub(2 * SETTLED + 1) {
+            let change = |heights: &[f64]| {
+                let last = heights[SETTLED];
+                heights.iter().map(|z| (z / last - 1.0).abs()).fold(0.0, f64::max)
+            };
+            let (before, after) = (change(&heights[first..=first + SETTLED]), change(&heights[first + SETTLED..]));
+            let residual = after.max(left(before, after, SLOWEST, CREEP));
+            status = Status::NotConverged { residual, tolerance };
+            if residual < tolerance {
                 status = Status::Converged;
             }
         }

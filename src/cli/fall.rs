@@ -8,7 +8,7 @@ use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::control::Cancel;
-use crate::digits::{duration, significant, with_error};
+use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
 use crate::export::fall::{Object, Row, figure, floats, write_csv};
 use crate::export::json;
@@ -53,7 +53,7 @@ pub(super) fn run(
     let Some(ended) = ended? else { return Ok(None) };
     let (floats, object) = (floats(&ended), Object::new(scene, fidelity, &ended, &rows, wall_s));
     object.warnings.iter().for_each(|warning| terminal::warning(warning));
-    let human = text(scene, &rows, &ended, floats);
+    let human = text(scene, &rows, &ended, tolerance, floats);
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
@@ -69,11 +69,14 @@ pub(super) fn run(
     Ok(Some(Exit::of(&ended.status)))
 }
 
-fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> String {
+fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Option<Estimate>) -> String {
     let rests = rows.last().is_some_and(|row| row.rests);
     let how = match ended.status {
         Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
-        Status::Converged => format!("it floats at rest after {} cycles", ended.cycles),
+        Status::Converged => {
+            let near = percent(tolerance);
+            format!("it floats, within {near} of the height at which it settles, after {} cycles", ended.cycles)
+        }
         Status::NotConverged { .. } | Status::NotResolved { .. } => {
             format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles)
         }
@@ -82,7 +85,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
     let mut text = paragraph(&format!("{}, dropped on its vibration: {how}", show_text(&scene.name)), "", "");
     text.push('\n');
     let mut columns = Columns::new();
-    columns.row(["cycle", "t, µs", "height, µm", "speed, mm/s"]);
+    columns.row(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
     let every = rows.len().div_ceil(SHOWN).max(1);
     for row in rows {
         if row.cycle % every != 0 && row.cycle + 1 != rows.len() {
@@ -98,9 +101,8 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
     text.push_str(&columns.text("  ", &[0, 1, 2, 3]));
     if let Some(gap) = floats {
         let told = format!(
-            "The periodic solve, whose plate stands still over the vibration, floats at a mean gap of {} µm; the ± above is that of \
-             the steps in time.",
-            gap
+            "The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm; the ± above is that of the time \
+             steps alone."
         );
         text.push_str(&paragraph(&told, "\n", ""));
     }

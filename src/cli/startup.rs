@@ -13,6 +13,7 @@ use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::json;
 use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
+use crate::fall::CYCLES;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::{Accuracy, Status, StoppedBy};
@@ -25,7 +26,7 @@ Examples:
   squeezefilm startup fundamental
   squeezefilm startup frequency-100khz --fidelity fine --out results
   squeezefilm startup plate-trapped --cycles 500 --json
-  squeezefilm startup floating-disc --cycles 1000";
+  squeezefilm startup floating-disc";
 
 const FILES: &str = "\
 Files of --out:
@@ -36,12 +37,12 @@ Files of --out:
 
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
-/// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure; a plate rests at its mean gap, and
-/// its cycles are counted from the widest gap that follows. Every tooth is marched. The
-/// periodic solve, which takes a short cut, is made for comparison: both agree to their stated errors and to what the last cycle will still change (--tolerance). Cycles are marched again
-/// on finer grids until the headline of every one is as exact as was asked, as a share of the greatest of them.
+/// At t = 0 the wave is frozen at full amplitude, with the rotor pressed on it and the gas at ambient pressure; then it starts to travel.
+/// A plate rests at its mean gap, and its cycles are counted from the widest gap that follows. Every tooth is solved. The result is compared
+/// with the periodic solve, which does not march: both agree within their stated errors and the change still to come (--tolerance). Grids
+/// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
-/// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes. It moves a
+/// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes. It shakes a
 /// little with the vibration, which the plate of the periodic solve does not.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
@@ -50,11 +51,12 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET")]
     preset: String,
 
-    /// Cycles at most; if the cycle does not repeat by then, exit status 3
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u32>(1..=100_000))]
-    cycles: u32,
+    /// Cycles at most; if the cycle does not repeat by then, exit status 3 [default: 300; of a plate that is dropped, 5000]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=100_000))]
+    cycles: Option<u32>,
 
-    /// The cycle counts as repeating when ln(p h), and α or the mean load as a share of itself, will change by less than this
+    /// The cycle counts as repeating when ln(p h), and α or the mean load as a share of itself, will change by less than this; a dropped
+    /// plate as floating when its height will change by less than this share of itself
     #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = tolerance)]
     tolerance: f64,
 
@@ -77,23 +79,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
+    let cycles = |otherwise| arguments.cycles.map_or(otherwise, |cycles| cycles as usize);
     let dropped = Dropped {
         scene: &scene,
         problem: &problem,
         common: &arguments.common,
         fidelity: chosen.fidelity,
-        cycles: arguments.cycles as usize,
+        cycles: cycles(CYCLES),
         tolerance: arguments.tolerance,
     };
     if let Some(exit) = fall::run(&dropped, folder, &cancel, command)? {
         return Ok(exit);
     }
-    let settings = startup::Settings {
-        fidelity: chosen.fidelity,
-        cycles: arguments.cycles as usize,
-        tolerance: arguments.tolerance,
-        ..startup::Settings::default()
-    };
+    let usual = startup::Settings::default();
+    let (cycles, tolerance) = (cycles(usual.cycles), arguments.tolerance);
+    let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
     let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
     let (ended, wall_s) = Bar::share().timed(|bar| {

@@ -3,14 +3,11 @@
 use super::task::{Started, Task, TaskOf, Wake};
 use super::work::{Posed, Work};
 use crate::control::Cancel;
-use crate::fall::{Cycle, Fall, fall};
+use crate::fall::{CYCLES, Cycle, Fall, fall};
 use crate::fidelity::Fidelity;
 use crate::solution::Status;
 use crate::startup::Settings;
 use serde::{Deserialize, Serialize};
-
-/// Most cycles that are computed.
-const MOST_CYCLES: usize = 5000;
 
 /// A drop, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
@@ -30,8 +27,7 @@ impl Work for Dropping {
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
         let mut each = |cycle| tell(cycle);
-        let found =
-            fall(&self.posed.problem, self.fidelity, MOST_CYCLES, Settings::default().tolerance, &mut each, cancel);
+        let found = fall(&self.posed.problem, self.fidelity, CYCLES, Settings::default().tolerance, &mut each, cancel);
         found.map_err(|error| error.to_string())?.ok_or_else(|| "there is no plate under a load".to_owned())
     }
 

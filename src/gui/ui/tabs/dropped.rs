@@ -97,8 +97,9 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
         let (time, height) = (significant(1e3 * cycle.time, 3), cycle.height);
         format!("{time} ms: height {} µm", height * 1e6)
     });
-    let aim =
-        periodic(dropped, cx).map_or_else(String::new, |gap| format!("; the periodic solve has {} µm", gap * 1e6));
+    let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
+        format!("; the periodic solve, in which it does not shake, has {} µm (green)", gap * 1e6)
+    });
     match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),
         None => (format!("{at}{aim}"), usual),
