@@ -279,11 +279,15 @@ fn stated_errors_hold_against_the_reference() {
 
 #[test]
 fn another_rotor_speed_changes_the_torque_by_less_than_is_said() {
-    let still = solved("fundamental", &[("numerics.wedge", "on")], Fidelity::Fine);
-    let top = still.merit.rpm(still.motor.stator_speed()).to_string();
-    let turning = solved("fundamental", &[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", &top)], Fidelity::Fine);
-    let change = (turning.result.max_torque.value / still.result.max_torque.value - 1.0).abs();
-    assert!(change <= still.merit.speed_effect, "{change} {}", still.merit.speed_effect);
+    // Of the second motor the bound is 3.7 %, so that it is solved at the other speed, too.
+    for wider in [&[][..], &[("rotor.contact_width_mm", "0.5"), ("stator.tangential_amplitude_um", "2")]] {
+        let still = solved("fundamental", &[&[("numerics.wedge", "on")], wider].concat(), Fidelity::Fine);
+        let top = still.merit.rpm(still.motor.stator_speed()).to_string();
+        let turning = [&[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", top.as_str())], wider].concat();
+        let turning = solved("fundamental", &turning, Fidelity::Fine);
+        let change = (turning.result.max_torque.value / still.result.max_torque.value - 1.0).abs();
+        assert!((change..0.01).contains(&still.merit.speed_effect), "{wider:?} {change} {}", still.merit.speed_effect);
+    }
 }
 
 #[test]

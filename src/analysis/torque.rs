@@ -1,7 +1,8 @@
 //! What a designer wants of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and
 //! without it.
 //!
-//! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`TorqueCurves::speed_effect`]).
+//! The pressures are those of the scene's rotor speed; what another speed changes is bounded, or solved where the bound is large
+//! ([`TorqueCurves::speed_effect`]).
 
 use crate::control::Cancel;
 use crate::drive::{Scaled, film_power, lines, ring};
@@ -9,11 +10,14 @@ use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
 use crate::motor::{MotorError, without_film};
 use crate::plan::{Plan, wedge_bound};
-use crate::problem::{Motor, Numerics, Problem, Scenario, rpm};
+use crate::problem::{Motor, Numerics, Problem, Scenario, Wedge, rpm};
 use crate::recording::{LineLoads, Recording};
-use crate::solution::{MotorResult, Outcome, Performance, Solution};
+use crate::solution::{MotorResult, Outcome, Performance, Solution, Status};
+use crate::solve::{Record, Settings, solve};
 use std::f64::consts::TAU;
 
+/// An effect of the speed on the torque that is not worth a solve.
+const SMALL_EFFECT: f64 = 0.01;
 /// Speeds of a curve, equally spaced from rest to the stator's greatest speed; the distinguished ones come in addition.
 const SPEEDS: usize = 121;
 
@@ -55,7 +59,8 @@ impl TorqueCurves {
     ) -> Result<Option<Self>, MotorError> {
         let plan = Plan::motor(motor, fidelity, numerics)?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
-        Ok(Some(Self::from_contacts(motor, result, recording, &dry)))
+        let speed_effect = speed_effect(motor, numerics, result.alpha.value, cancel);
+        Ok(Some(Self { speed_effect, ..Self::from_contacts(motor, result, recording, &dry) }))
     }
 
     /// Of a solve at `fidelity`; `None` of a plate, and if cancelled.
@@ -76,8 +81,8 @@ impl TorqueCurves {
         }
     }
 
-    /// From the contact with the film, in `recording`, and without it, coarse to fine.
-    pub fn from_contacts(motor: &Motor, result: &MotorResult, recording: &Recording, dry: &[LineLoads]) -> Self {
+    /// From the contact with the film, in `recording`, and without it, coarse to fine; all but what the speed changes.
+    fn from_contacts(motor: &Motor, result: &MotorResult, recording: &Recording, dry: &[LineLoads]) -> Self {
         let with_film = Scaled::with_film(motor, result, recording);
         let without_film = Scaled::without_film(motor, dry);
         let share = (1.0 - result.alpha.value).max(0.0);
@@ -91,7 +96,6 @@ impl TorqueCurves {
         };
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
-        let away = (v0 - motor.rotor_speed).abs().max(motor.rotor_speed.abs());
         Self {
             with_film: with_film.performance(&speeds),
             without_film: without_film.performance(&speeds),
@@ -100,7 +104,7 @@ impl TorqueCurves {
             dry_equivalent: Estimate { value: share, ..result.alpha } * motor.dry_friction,
             film_power: film_power(motor, recording),
             viscous_drag: viscous_drag(motor, recording),
-            speed_effect: if share > 0.0 { wedge_bound(motor, away) * result.alpha.value.abs() / share } else { 0.0 },
+            speed_effect: 0.0,
         }
     }
 
@@ -108,6 +112,36 @@ impl TorqueCurves {
     pub fn rpm(&self, speed: f64) -> f64 {
         rpm(speed, self.radius)
     }
+}
+
+/// [`TorqueCurves::speed_effect`]: a bound from the problem alone where that is small, and otherwise what a solve at the speed farthest from
+/// the scene's finds, with its error.
+fn speed_effect(motor: &Motor, numerics: &Numerics, alpha: f64, cancel: &Cancel) -> f64 {
+    let share = 1.0 - alpha;
+    if share <= 0.0 {
+        return 0.0;
+    }
+    let v0 = motor.stator_speed();
+    let farthest = if motor.rotor_speed > 0.5 * v0 { 0.0 } else { v0 };
+    let bound = wedge_bound(motor, (farthest - motor.rotor_speed).abs());
+    if bound * alpha.abs() < SMALL_EFFECT * share {
+        return bound * alpha.abs() / share;
+    }
+    let solved = |rotor_speed| {
+        let scenario = Scenario::Motor(Motor { rotor_speed, ..motor.clone() });
+        let numerics = Numerics { wedge: Wedge::On, ..*numerics };
+        let problem = Problem { name: String::new(), scenario, numerics };
+        let settings = Settings { record: Record::Numbers, ..Settings::default() };
+        match solve(&problem, &settings, &mut (), cancel).ok()? {
+            Solution { status: Status::Converged, outcome: Outcome::Motor(result), .. } => Some(result.alpha),
+            _ => None,
+        }
+    };
+    let change = match [motor.rotor_speed, farthest].map(solved) {
+        [Some(here), Some(there)] => (there.value - here.value).abs() + here.error.max(there.error),
+        _ => f64::INFINITY,
+    };
+    change.min(bound * alpha.abs()) / share
 }
 
 /// Torque of the shear in the film, μU/h on the teeth, of the whole ring \[N m\]: the greatest from rest to the stator's
