@@ -104,6 +104,13 @@ pub struct Progress {
     pub film_load: f64,
 }
 
+impl Progress {
+    /// The rounds of each grid, in the order in which the grids were solved.
+    pub fn grids(history: &[Self]) -> impl Iterator<Item = &[Self]> {
+        history.chunk_by(|round, next| next.level == round.level && next.iteration > round.iteration)
+    }
+}
+
 /// Listens to a solve. The unit type listens to nothing.
 pub trait Observer {
     /// Called after each round.

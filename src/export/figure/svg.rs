@@ -2,7 +2,7 @@
 
 use super::colour::Colour;
 use super::style::{Dash, Marker, Shape};
-use super::text::{SMALL, Script, pieces, plain};
+use super::text::{SMALL, Script, pieces, plain, width};
 use std::fmt::Write as _;
 
 /// A rectangle \[pt\].
@@ -242,6 +242,9 @@ impl Svg {
         if style.anchor != "start" {
             let _ = write!(self.body, r#" text-anchor="{}""#, style.anchor);
         }
+        // Where another font stands in for the first one, it is fitted into the place that was laid out.
+        let place = coordinate(width(text, style.size));
+        let _ = write!(self.body, r#" textLength="{place}" lengthAdjust="spacingAndGlyphs""#);
         if style.colour != Colour::BLACK {
             let _ = write!(self.body, r#" fill="{}""#, style.colour.hex());
         }

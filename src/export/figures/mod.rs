@@ -74,7 +74,7 @@ pub fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Fi
 
 /// The change in every round of every grid, and what it had to fall below.
 pub fn convergence(history: &[Progress]) -> Figure {
-    let grids = history.iter().map(|round| round.level).max().map_or(0, |level| level + 1);
+    let grids = Progress::grids(history).count();
     let y = Axis::new("relative change in a round", "").log();
     let mut panel = Panel::new("", Axis::new("round", "").whole(), y);
     let mut tolerances: Vec<f64> = Vec::new();
@@ -86,20 +86,19 @@ pub fn convergence(history: &[Progress]) -> Figure {
     let all = history.iter().map(|round| round.residual).chain(tolerances.iter().copied());
     panel.y.range = Range::Including(tolerances.clone());
     for tolerance in &tolerances {
-        let words = if *tolerance == tolerances[0] { "to fall below" } else { "" };
+        let words = if *tolerance == tolerances[0] { "allowed" } else { "" };
         let mut mark = Mark::horizontal(*tolerance, words);
         mark.style.dash = Dash::Dashed;
         panel = panel.layer(mark);
     }
-    for grid in 0..grids {
-        let rounds = history.iter().filter(|round| round.level == grid).enumerate();
-        let points = rounds.map(|(i, round)| [i as f64 + 1.0, round.residual]);
+    for (grid, rounds) in Progress::grids(history).enumerate() {
+        let points = rounds.iter().enumerate().map(|(i, round)| [i as f64 + 1.0, round.residual]);
         panel = panel.layer(Line::new(format!("grid {} of {grids}", grid + 1), points, Style::nth(grid)));
     }
     let mut figure = Figure::new("convergence").panel(panel);
     let last = all.fold(f64::INFINITY, f64::min);
     figure.caption = format!(
-        "Relative change in every round of the outer iteration on each of {grids} nested grids; the least was {last:.1e}."
+        "Relative change in every round of the outer iteration on each of {grids} grids; the least was {last:.1e}."
     );
     figure
 }

@@ -14,7 +14,7 @@ const TICKS: f64 = 5.0;
 
 /// Shows the rounds of `history`: one line for each grid, and dashed what each had to fall below.
 pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
-    let grids = history.iter().map(|progress| progress.level).max().map_or(0, |level| level + 1);
+    let grids = Progress::grids(history).count();
     let height = HEIGHT * ui.text_style_height(&egui::TextStyle::Body);
     let plot = bare("convergence", height)
         .x_axis_label("round")
@@ -50,8 +50,7 @@ pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
                     .allow_hover(false),
             );
         }
-        for grid in 0..grids {
-            let points = rounds(history, grid);
+        for (grid, points) in lines(history).into_iter().enumerate() {
             let share = (grid + 1) as f32 / grids as f32;
             let colour = cx.colours.film.gamma_multiply(0.35 + 0.65 * share);
             let name = format!("grid {} of {grids}", grid + 1);
@@ -61,13 +60,12 @@ pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
     });
 }
 
-/// The rounds of one grid: number among all rounds, from 1, and log₁₀ of the residual. A residual of 0 has no place.
-fn rounds(history: &[Progress], grid: usize) -> Vec<[f64; 2]> {
-    let numbered = history.iter().enumerate().filter(|(_, progress)| progress.level == grid);
-    numbered
-        .filter(|(_, progress)| progress.residual.is_finite() && progress.residual > 0.0)
-        .map(|(round, progress)| [(round + 1) as f64, progress.residual.log10()])
-        .collect()
+/// The rounds of each grid: number among all rounds, from 1, and log₁₀ of the residual. A residual of 0 has no place.
+fn lines(history: &[Progress]) -> Vec<Vec<[f64; 2]>> {
+    let mut numbers = 1..;
+    let mut place = |round: &Progress| Some([numbers.next()? as f64, round.residual.log10()]);
+    let placed = Progress::grids(history).map(|rounds| rounds.iter().filter_map(&mut place).collect::<Vec<_>>());
+    placed.map(|points| points.into_iter().filter(|[_, y]| y.is_finite()).collect()).collect()
 }
 
 #[cfg(test)]
@@ -75,11 +73,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_residual_of_zero_is_left_out() {
-        let round =
-            |level, residual| Progress { level, levels: 2, iteration: 1, residual, tolerance: 1e-6, film_load: 0.0 };
-        let history = [round(0, 1e-2), round(0, 0.0), round(1, 1e-4)];
-        assert_eq!(rounds(&history, 0), [[1.0, -2.0]]);
-        assert_eq!(rounds(&history, 1), [[3.0, -4.0]]);
+    fn every_grid_has_a_line_and_a_residual_of_zero_is_left_out() {
+        let round = |level, iteration, residual| Progress {
+            level,
+            levels: 2,
+            iteration,
+            residual,
+            tolerance: 1e-6,
+            film_load: 0.0,
+        };
+        let history = [round(0, 1, 1e-2), round(0, 2, 0.0), round(1, 1, 1e-4), round(1, 1, 1e-5)];
+        assert_eq!(lines(&history), [[[1.0, -2.0]], [[3.0, -4.0]], [[4.0, -5.0]]]);
     }
 }
