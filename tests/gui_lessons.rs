@@ -191,7 +191,7 @@ fn predict(window: &mut Window, step: &Step) {
             // A calculation that is wrong is not told: it has a second try.
             calculate(window, 7.0 * value);
             window.click_on(button);
-            assert!(!work(window).committed && work(window).wrong == 1 && window.shows("Once more"), "{}", step.title);
+            assert!(!work(window).committed && work(window).wrong == 1 && window.shows("Not quite"), "{}", step.title);
             assert!(!window.shows(&why), "{}: told after the first try", step.title);
             // The same number again is no second try.
             window.press(Key::Enter);

@@ -121,7 +121,7 @@ fn ratios_of_lessons_are_those_of_the_program() {
     let sticks = [SMALL, "film.slip=none"];
     let closer = [SMALL, "film.slip=none", "plate.mean_gap_um=0.5"];
     about(2, "without slip it would even be 9", ratio("plate-viscous", &sticks, &closer, "load_ratio_max"), 9.0, 0.03);
-    says(4, "About a third of what is missing leaks at the edges");
+    says(4, "The smaller part of what is missing leaks at the edges");
     let [sticks, slips] = [&["film.slip=none"][..], &[]].map(|set| number("plate-trapped", set, "mean_load_ratio"));
     assert!((0.25..0.42).contains(&((0.354 - sticks) / (0.354 - slips))), "{sticks} {slips}");
     about(7, "only a tenth more", ratio("fundamental", &[], &["stator.frequency_khz=100"], "alpha"), 1.11, 0.01);
@@ -217,7 +217,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
             Outcome::Plate(_) => unreachable!("it is a motor"),
         })
         .collect();
-    states(7, "In the first cycle it carries only 0.15", motor[0], 0.15, 0.02);
+    states(7, "In the first cycle the air carries only 0.15", motor[0], 0.15, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[1], 0.215, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[2], 0.24, 0.02);
     assert!((motor[4] / motor.last().unwrap() - 1.0).abs() < 0.005 && (5.0 / 30e3 - 1e-3 / 6.0f64).abs() < 1e-9);
@@ -263,7 +263,7 @@ fn what_lesson_9_says_of_a_plate_that_floats_is_right() {
     says(9, "$p_a A$ is 20.4 N and $F$ is 0.98 N");
     let (force, weight) = (101_325.0 * std::f64::consts::PI * 0.008f64.powi(2), 0.1 * 9.80665);
     assert!((force - 20.4).abs() < 0.05 && (weight - 0.98f64).abs() < 0.005);
-    states(9, "The root is 5.1, and 8 µm over 5.1 is 1.57 µm", (1.25 * force / weight).sqrt(), 5.1, 0.005);
+    states(9, "The square root is 5.1, and 8 µm over 5.1 is 1.57 µm", (1.25 * force / weight).sqrt(), 5.1, 0.005);
     says(9, "Neither the frequency nor the viscosity is in the formula.");
     assert!((disc(&["plate.frequency_khz=10"], "mean_gap_um") / disc(&[], "mean_gap_um") - 1.0).abs() < 0.02);
     says(9, "About 3 kg");
@@ -356,7 +356,7 @@ fn what_lessons_compute_by_hand_is_right() {
         / (1e-6 * of("plate.mean_gap_um")).powi(3);
     assert!((force / (1e3 * of("film.ambient_pressure_kpa")) / 0.0025 - 1.0).abs() < 0.02, "{force}");
     // Lesson 5: hits on walls, v/2h a second, and on molecules, v/λ.
-    says(5, "every seventh hit of a molecule is on a wall");
+    says(5, "every seventh collision of a molecule is with a wall");
     let walls: f64 = 64.0 / (2.0 * 200.0);
     assert!(((1.0 + walls) / walls / 7.0 - 1.0).abs() < 0.05);
     // Lesson 5: the slip factor.

@@ -29,7 +29,7 @@ numbers! {
     Spring "exact.spring" "spring S" "" Plate "Exact";
     Damping "exact.damping" "damping D" "" Plate "Exact";
     Stiffness "exact.stiffness_n_per_m" "stiffness of the film" "N/m" Plate "Exact";
-    DampingForce "exact.damping_n_s_per_m" "damping of the film" "N·s/m" Plate "Exact";
+    DampingForce "exact.damping_n_s_per_m" "damping coefficient of the film" "N·s/m" Plate "Exact";
 }
 
 impl Live {

@@ -18,7 +18,7 @@ use crate::startup::{self, startup};
 use std::collections::BTreeMap;
 
 /// The fidelity of the runs that are checked, the same as in the window.
-const FIDELITY: Fidelity = Fidelity::Standard;
+const FIDELITY: Fidelity = Fidelity::Fine;
 /// Duration of a push by hand, in leak times of the film.
 const PUSH: f64 = 0.1;
 /// How long the plate is then held where it is, in leak times.

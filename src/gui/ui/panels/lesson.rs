@@ -7,6 +7,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::rich::Look;
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::{button, keys};
+use crate::lessons::text::readings;
 use crate::lessons::work::{Score, Stage, StepWork, answer_words};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
@@ -192,7 +193,10 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
         if let (Some(question), true) =
             (step.question.as_ref().or(step.observe.as_ref()), work.stage(step) == Stage::Told)
         {
-            lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
+            // What quotes a number quotes that of the run on screen, which is another one by now.
+            if readings(&question.ask).next().is_none() {
+                lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
+            }
             ui.add(egui::Label::new(RichText::new(answer_words(question)).size(look.size)).wrap());
         }
     }

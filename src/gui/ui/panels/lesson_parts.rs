@@ -127,7 +127,7 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
             _ => {}
         }
         if work.wrong > 0 && !work.committed {
-            cx.say(ui, "Not yet. Once more:", cx.colours.contact);
+            cx.say(ui, "Not quite. Try once more:", cx.colours.contact);
             let quiet = Look::usual(ui);
             if question.hint.is_empty() {
                 ui.label("Check the units and the powers of ten.");
