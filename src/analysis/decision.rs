@@ -1,6 +1,6 @@
 //! What a plan decided, in words: what is solved of each part of the model, and why; and how exactly it is solved.
 
-use crate::digits::{percent, short};
+use crate::digits::{percent, short, significant};
 use crate::plan::{Choice, Decision, Weighed};
 use crate::problem::{Flow, Teeth, Time, Wedge, Width};
 use crate::solution::Model;
@@ -33,7 +33,7 @@ pub fn sentences(model: &Model) -> Vec<String> {
 /// The part of the model that was decided about: "wedge term".
 pub fn term(decision: &Decision) -> &'static str {
     match decision.chosen {
-        Choice::Time(_) => "leaking",
+        Choice::Time(_) => "leakage",
         Choice::Flow(_) => "flow",
         Choice::Wedge(_) | Choice::NoShear => "wedge term",
         Choice::Teeth(..) => "teeth",
@@ -44,7 +44,7 @@ pub fn term(decision: &Decision) -> &'static str {
         Choice::PlateGrid { across: None, .. } => "strip",
         Choice::Steps(..) => "time",
         Choice::Rotor { .. } => "rotor",
-        Choice::NoLeaks => "leaking",
+        Choice::NoLeaks => "leakage",
     }
 }
 
@@ -53,7 +53,7 @@ pub fn words(decision: &Decision) -> String {
     let weighed = decision.weighed.map_or_else(String::new, |weighed| reason(decision.chosen, &weighed));
     match decision.chosen {
         Choice::Time(Time::Trapped) => format!("none, the gas is trapped (σ → ∞){weighed}"),
-        Choice::Time(_) => format!("marched in time{weighed}"),
+        Choice::Time(_) => format!("solved in time{weighed}"),
         Choice::Flow(Flow::Along) => format!("along the tooth only, none at its sides{weighed}"),
         Choice::Flow(Flow::Across) => format!("across the width only, none at the tooth's ends{weighed}"),
         Choice::Flow(_) => format!("in the plane of the film{weighed}"),
@@ -70,12 +70,11 @@ pub fn words(decision: &Decision) -> String {
             "half of it solved; the gap does not depend on y, so the other half is its mirror (exact)".to_owned()
         }
         Choice::MotorGrid { grid, layer, edge_fraction, middle, spectral } => format!(
-            "{} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; across half the \
-             width {}; {} steps a cycle; two coarser grids for the error estimate, and finer ones while it is more than was \
-             asked for",
+            "{} intervals along a tooth, the first {} times the boundary layer of {} µm{}; across half the \
+             width {}; {} steps a cycle; two coarser grids for the error estimate, and finer ones until it is small enough",
             grid.along,
             short(edge_fraction, 2),
-            layer * 1e6,
+            significant(layer * 1e6, 3),
             if middle { ", all of them densest where the crown is highest" } else { "" },
             if spectral {
                 format!("a polynomial with {} nodes or more", grid.across)
@@ -102,38 +101,39 @@ pub fn words(decision: &Decision) -> String {
                 if ring { "a ring of finite elements" } else { "a table of its deflection, turned into harmonics" };
             let (known, effect) = (percent(error), percent(decision.effect));
             format!(
-                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect} of itself"
+                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect}"
             )
         }
         Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),
         Choice::NoLeaks => format!(
-            "none, the gas is trapped (σ → ∞): leaking would change the load by less than {} of itself",
+            "none, the gas is trapped (σ → ∞): leakage would change the load by less than {}",
             percent(decision.effect)
         ),
     }
 }
 
-/// `: Λ/σ = 1.7e-4, leaving it out changes α by less than 0.16 % of itself, and fine aims at 0.020 %`
+/// `: Λ/σ = 1.7e-4; leaving it out changes α by less than 0.16 % (asked for: 0.020 %)`
 fn reason(chosen: Choice, weighed: &Weighed) -> String {
     let layer = |of: &str| format!("the boundary layer is {} of the {of}", percent(weighed.number));
-    let measure = match weighed.reduced {
-        Choice::Wedge(_) => format!("Λ/σ = {:.1e}", weighed.number),
-        Choice::Flow(Flow::Along) => layer("contact width"),
-        Choice::Flow(_) => layer("tooth width"),
-        _ => layer("shorter side"),
+    let (measure, reduced) = match weighed.reduced {
+        Choice::Wedge(_) => (format!("Λ/σ = {:.1e}", weighed.number), "leaving it out"),
+        Choice::Flow(Flow::Along) => (layer("contact width"), "ignoring the sides"),
+        Choice::Flow(_) => (layer("tooth width"), "ignoring the tooth's ends"),
+        _ => (layer("shorter side"), "treating the gas as trapped"),
     };
     let asked = if weighed.asked { "as asked; " } else { "" };
-    let may = if chosen == weighed.reduced { "changes α by less than" } else { "would change α by up to" };
     let (effect, aim) = (percent(weighed.effect), percent(weighed.target_error));
+    let change = match weighed.effect {
+        _ if chosen == weighed.reduced => format!("changes α by less than {effect}"),
+        effect if effect >= 1.0 => "could change α completely".to_owned(),
+        _ => format!("could change α by up to {effect}"),
+    };
     let coarse = if weighed.unresolved > 0.0 {
-        format!("; this grid is too coarse for it, solving it errs by up to {}", percent(weighed.unresolved))
+        format!("; this grid is too coarse for it: solving it errs by up to {}", percent(weighed.unresolved))
     } else {
         String::new()
     };
-    format!(
-        ": {asked}{measure}, leaving it out {may} {effect} of itself, and {} aims at {aim}{coarse}",
-        weighed.fidelity
-    )
+    format!(": {asked}{measure}; {reduced} {change} (asked for: {aim}){coarse}")
 }
 
 #[cfg(test)]
@@ -152,7 +152,7 @@ mod tests {
         let wedge = |numerics: Numerics| words(of(numerics).iter().find(|d| term(d) == "wedge term").unwrap());
         let asked = |wedge| Numerics { wedge, ..Numerics::default() };
         let [on, off] = [Wedge::On, Wedge::Off].map(|chosen| wedge(asked(chosen)));
-        assert!(on.starts_with("solved: as asked; Λ/σ = ") && on.contains("would change α by up to"), "{on}");
+        assert!(on.starts_with("solved: as asked; Λ/σ = ") && on.contains("could change α by up to"), "{on}");
         assert!(off.starts_with("left out: as asked; ") && off.contains("changes α by less than"), "{off}");
         assert!(!wedge(Numerics::default()).contains("as asked"));
         let still = Motor { shear: false, ..motor.clone() };

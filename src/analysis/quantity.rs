@@ -125,8 +125,8 @@ numbers! {
     Tolerance "tolerance" "allowed change of the last round" "" Any;
     FilmSteps "film_steps" "film steps" "" Any;
     Cycles "cycles" "cycles marched" "" Any;
-    Rounds "coupling_iterations" "rounds of film and contact" "" Any;
-    ContactSolves "contact_solves" "contact problems solved" "" Any;
+    Rounds "coupling_iterations" "rounds of film and contact" "" Motor;
+    ContactSolves "contact_solves" "contact problems solved" "" Motor;
 }
 use Quantity::*;
 

@@ -1,23 +1,32 @@
 //! What the dimensionless numbers of a scene say about its film, and whether the film matters, in words.
 
 use super::validity::mach;
-use crate::digits::rounded;
+use crate::digits::{percent, rounded};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::solution::{Outcome, PlateResult};
+use std::f64::consts::SQRT_2;
 
 /// A share of the load, or of p_a × area, below which a film hardly matters.
 const HARDLY: f64 = 1e-3;
 /// No film has an effect as small as this.
 const NOTHING: f64 = 1e-6;
 
-/// What the squeeze number σ says: what the film is.
-pub fn squeeze(numbers: &Dimensionless) -> &'static str {
-    match numbers.squeeze_number {
-        sigma if sigma < 1.0 => "≪ 1: viscous; the gas flows out and back in, and damps",
-        sigma if sigma < 100.0 => "in between: part of the gas escapes in each cycle; it damps and is a spring",
-        _ => "≫ 1: trapped; the gas has no time to leave, and is a spring",
+/// What the film is: from how much of its shorter side gas leaks in a cycle.
+pub fn squeeze(problem: &Problem) -> String {
+    let shorter = match &problem.scenario {
+        Scenario::Motor(motor) => motor.tooth_width.min(motor.contact_width),
+        Scenario::Plate(plate) => plate.squeezed_length().min(plate.width.unwrap_or(f64::INFINITY)),
+    };
+    let share = Dimensionless::of(problem).boundary_layer / shorter;
+    let outer = percent(share);
+    match share {
+        _ if share > SQRT_2 => "in a cycle gas flows out and back in everywhere: the film is a damper".to_owned(),
+        _ if share > SQRT_2 / 10.0 => {
+            format!("in a cycle gas leaks from the outer {outer} of the film: it is both spring and damper")
+        }
+        _ => format!("in a cycle gas leaks only from the outer {outer} of the film: it is a spring"),
     }
 }
 
@@ -44,7 +53,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
             };
             format!("here it sucks: its mean pressure is below ambient{fast}, and it pulls with {percent} of {of}")
         }
-        _ if share.abs() <= error => "here it carries nothing that can be told from zero".to_owned(),
+        _ if share.abs() <= error => "here its load cannot be distinguished from zero".to_owned(),
         _ if share < HARDLY => format!("here it hardly matters: it carries {percent} of {of}{rest}"),
         _ => format!("here it carries {percent} of {of}{rest}"),
     }
@@ -65,14 +74,19 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
     }
 }
 
-/// What the Knudsen number says.
-pub fn knudsen(numbers: &Dimensionless) -> &'static str {
-    match numbers.knudsen_number {
-        kn if kn < 0.01 => "≪ 1: a continuum, slip at the walls hardly matters",
-        kn if kn < 0.1 => "< 0.1: slip at the walls counts a little",
-        kn if kn < 1.0 => "slip at the walls counts; the slip laws begin to differ",
-        _ => "rarefied: the slip laws differ, fukui-kaneko is made for this",
-    }
+/// What the Knudsen number says, and of which film it is.
+pub fn knudsen(problem: &Problem) -> String {
+    let at = match problem.scenario {
+        Scenario::Motor(_) => "at the minimum spacing",
+        Scenario::Plate(_) => "at the mean gap",
+    };
+    let says = match Dimensionless::of(problem).knudsen_number {
+        kn if kn < 0.01 => "slip at the walls hardly matters",
+        kn if kn < 0.1 => "slip at the walls matters a little",
+        kn if kn < 1.0 => "slip at the walls matters, and so does the choice of slip law",
+        _ => "the gas is rarefied; of the slip laws, fukui-kaneko is made for this",
+    };
+    format!("{at}: {says}")
 }
 
 #[cfg(test)]
@@ -93,8 +107,8 @@ mod tests {
         for (alpha, error, said) in [
             (0.246, 1e-3, "here it carries 25 % of the load: contact carries the rest"),
             (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load: contact carries the rest"),
-            (4e-7, 1e-6, "here it carries nothing that can be told from zero"),
-            (-0.002, 0.0021, "here it carries nothing that can be told from zero"),
+            (4e-7, 1e-6, "here its load cannot be distinguished from zero"),
+            (-0.002, 0.0021, "here its load cannot be distinguished from zero"),
             (-0.02, 0.002, "here it sucks: its mean pressure is below ambient, and it pulls with 2 % of the load"),
             (f64::NAN, 0.0, "what it carries here is not known"),
         ] {
@@ -103,6 +117,29 @@ mod tests {
         let fast = [("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", "10000")];
         assert!(words(-0.02, 0.002, &fast).contains("beyond the speed of sound"));
         assert!(!words(0.02, 0.002, &fast).contains("sucks"));
+    }
+
+    #[test]
+    fn words_follow_what_leaks() {
+        let said = |scene: &Scene, key, value| {
+            let mut scene = scene.clone();
+            scene.set(key, value).unwrap();
+            squeeze(&Problem::try_from(&scene).unwrap())
+        };
+        let (motor, strip) = (Scene::motor(), Scene::plate());
+        for (scene, khz, outer, is) in [
+            // 24.04 µm of a contact width of 0.3 mm; it grows with 1/√f.
+            (&motor, "30", "only from the outer 8.0 %", "a spring"),
+            (&motor, "3", "from the outer 25 %", "both spring and damper"),
+            (&motor, "0.05", "out and back in everywhere", "a damper"),
+            (&strip, "30", "only from the outer 8.3 %", "a spring"),
+        ] {
+            let key = if std::ptr::eq(scene, &motor) { "stator.frequency_khz" } else { "plate.frequency_khz" };
+            let words = said(scene, key, khz);
+            assert!(words.contains(outer) && words.ends_with(is), "{khz} kHz: {words}");
+        }
+        // A narrow rectangle leaks along its length.
+        assert!(said(&strip, "plate.width_mm", "0.1").contains("both spring and damper"));
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     text.push('\n');
     let mut columns = Columns::new();
     gas_row(&mut columns, problem);
-    number_rows(&mut columns, &Dimensionless::of(problem), &regime::weight(problem, outcome));
+    number_rows(&mut columns, problem, outcome);
     text.push_str(&columns.text("  ", &[]));
     text.push_str(&limits(&summary.validity));
     let model = &summary.model;
@@ -65,7 +65,11 @@ fn status(summary: &Summary) -> String {
     }
     match (summary.numbers.get(Quantity::Residual), summary.numbers.get(Quantity::Tolerance)) {
         (Some(residual), Some(tolerance)) => {
-            format!("NOT CONVERGED (the last round still changed by {residual:.1e}, allowed {tolerance:.0e})")
+            format!(
+                "NOT CONVERGED: the last round still changed the result by {}, {} is allowed",
+                percent(residual),
+                percent(tolerance)
+            )
         }
         _ if summary.converged => "converged to the periodic steady state".to_owned(),
         _ => summary.status.to_uppercase(),
@@ -102,7 +106,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     columns.row([
         "maximum operating torque",
         &format!("{} N·m", found(summary, Quantity::MaxTorque)),
-        &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m if there were no air", shown(dry)),
+        &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m without film", shown(dry)),
     ]);
     columns.row([
         "teeth in contact",
@@ -141,12 +145,12 @@ fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
     columns.row([
         "power lost in the film",
         &in_unit(Some(torque.film_power), 1.0, "W"),
-        "squeezed by the stator, mean over the cycle",
+        "work of the stator on the film, mean over the cycle",
     ]);
     columns.row([
-        "friction of a dry model",
+        "equivalent dry friction",
         in_unit(Some(torque.dry_equivalent), 1.0, "").trim_end(),
-        &format!("has the same maximum operating torque as {} with the film", as_given(motor.dry_friction)),
+        &format!("gives without film the same maximum operating torque as {} with it", as_given(motor.dry_friction)),
     ]);
 }
 
@@ -164,7 +168,7 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     let range = Estimate::range([Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| found(summary, end)));
     columns.row(["", &range, "least and greatest in the cycle"]);
     if let Some(exact) = &summary.exact {
-        exact_rows(columns, exact, units(plate));
+        exact_rows(columns, exact, plate);
     }
     let gap = plate.mean_gap * 1e9;
     let mean =
@@ -192,9 +196,9 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
         ),
     ]);
     columns.row([
-        "stiffness of floating",
+        "stiffness at this height",
         &format!("{} {stiffness}", found.stiffness),
-        "by which the mean load falls with the mean gap",
+        "fall of the mean load per unit of mean gap",
     ]);
     if let Some(frequency) = floating.natural_frequency() {
         let of = format!("of the mass whose weight is the load, {} g", shown(mass));
@@ -205,36 +209,36 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
         let how = if ratio < 1.0 {
             "it swings".to_owned()
         } else {
-            format!("it does not swing, but creeps back within about {}", duration(damping / found.stiffness.value))
+            format!("creeps back without overshoot, time constant {}", duration(damping / found.stiffness.value))
         };
-        let of = format!("of slow motion, by Reynolds; {} times critical: {how}", significant(ratio, 2));
-        columns.row(["damping of floating", &format!("{} {}", shown(damping), units(plate)[1]), &of]);
+        let of = format!("of an incompressible film; {} times critical: {how}", significant(ratio, 2));
+        columns.row(["damping of slow motion", &format!("{} {}", shown(damping), units(plate)[1]), &of]);
     }
 }
 
 /// What is known exactly beside what was computed.
-fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [&str; 2]) {
+fn exact_rows(columns: &mut Columns, exact: &Comparison, plate: &Plate) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
         // To as many digits as the computed number has beside it.
         let digits = (known / solved.error).abs().log10().ceil() + 1.0;
         let known = significant(known, if digits.is_finite() { digits.max(4.0) as usize } else { 4 });
         let solved = format!("{solved} {unit}");
-        columns.row([name, solved.trim_end(), &format!("exact {known} {when}")]);
+        columns.row([name, solved.trim_end(), &format!("limit {when}: {known}")]);
     };
     if let Some((solved, absolute)) = exact.solved.zip(exact.stiffness_and_damping()) {
-        let (linear, unit, small) = (exact.linear, exact.unit, "for a small amplitude");
-        let of = "for a small amplitude, of p_a × area × ε";
-        row("spring of the film", solved.spring, "", linear.spring, of);
-        row("damping of the film", solved.damping, "", linear.damping, small);
-        row("stiffness of the film", absolute.spring, stiffness, linear.spring * unit.spring, small);
-        row("damping", absolute.damping, damping, linear.damping * unit.damping, small);
+        let (linear, unit, [stiffness, damping]) = (exact.linear, exact.unit, units(plate));
+        let small = &format!("for small amplitudes (here ε = {})", short(plate.amplitude / plate.mean_gap, 3));
+        row("spring number S", solved.spring, "× p_a A ε", linear.spring, small);
+        row("damping number D", solved.damping, "× p_a A ε", linear.damping, small);
+        row("stiffness", absolute.spring, stiffness, linear.spring * unit.spring, small);
+        row("damping coefficient", absolute.damping, damping, linear.damping * unit.damping, small);
     }
     row("mean pressure ratio", exact.mean_pressure, "", exact.trapped_mean_pressure, "for σ → ∞");
     if let Some(deviation) = exact.invariant_deviation {
         columns.row([
             "invariant of the cycle",
             &percent(deviation),
-            "greatest deviation at any point, exactly 0 for every σ",
+            "largest deviation at any point; zero for the exact solution",
         ]);
     }
 }
@@ -282,11 +286,14 @@ fn gas_row(columns: &mut Columns, problem: &Problem) {
     }
 }
 
-fn number_rows(columns: &mut Columns, numbers: &Dimensionless, weight: &str) {
-    columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), regime::squeeze(numbers)]);
-    columns.row(["", "", weight]);
-    columns.row(["bearing number  Λ", &shown(numbers.bearing_number), regime::bearing(numbers)]);
-    columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), regime::knudsen(numbers)]);
+fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
+    let numbers = &Dimensionless::of(problem);
+    columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), &regime::squeeze(problem)]);
+    columns.row(["", "", &regime::weight(problem, outcome)]);
+    if let Scenario::Motor(_) = problem.scenario {
+        columns.row(["bearing number  Λ", &shown(numbers.bearing_number), regime::bearing(numbers)]);
+    }
+    columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), &regime::knudsen(problem)]);
 }
 
 /// Where the model is out of its depth; nothing if it is not.
@@ -314,11 +321,11 @@ fn cost(summary: &Summary) -> String {
     }
     if let (Some(asked), Some(stated)) = (summary.accuracy_asked, summary.accuracy_stated) {
         let why = match summary.stopped_by {
-            "budget" => ", the time allowed was up",
-            "limit" => ", no finer grid was tried",
+            "budget" => "; the time allowed was up",
+            "limit" => "; no finer grid was tried",
             _ => "",
         };
-        parts.push(format!("stated error {} of {} asked for{why}", percent(stated), percent(asked)));
+        parts.push(format!("stated error {} ({} asked for{why})", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
     paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(summary.stats.wall_s)), parts.join(", ")), "\n", "  ")
@@ -357,7 +364,10 @@ mod tests {
         let change = [Quantity::Residual, Quantity::Tolerance].map(|quantity| summary.numbers.get(quantity));
         assert_eq!(change, [Some(2e-3), Some(1e-6)]);
         let shown = text(&scene, &problem, &solution.outcome, &summary);
-        assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
+        assert!(
+            shown.starts_with("Plate, viscous: NOT CONVERGED: the last round still changed the result by 0.20 %"),
+            "{shown}"
+        );
         assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
     }
 }

@@ -18,7 +18,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 pub const SCHEMA: u32 = 1;
 
 /// Why a torque has no error.
-const NO_TORQUE_ERROR: &str = "no error of torque, power, speed and efficiency is known (null in the JSON): it is estimated from nested \
+const NO_TORQUE_ERROR: &str = "the errors of torque, power, speed and efficiency are unknown (null in the JSON): they are estimated from nested \
                                grids, and this was solved on one mesh; that of α is stated";
 
 /// The object. Numbers that a scene does not have, and numbers that are not finite, are null.

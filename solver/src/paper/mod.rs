@@ -44,6 +44,7 @@ pub use film::FactoredFilm;
 pub use mesh::Mesh;
 
 use crate::control::{Cancel, Observer, Progress};
+use crate::digits::percent;
 use crate::estimate::Estimate;
 use crate::problem::{Motor, Numerics, Slip};
 use crate::rotor::RotorError;
@@ -335,9 +336,10 @@ impl Trouble {
         }
         if self.unsettled > 0 {
             warnings.push(format!(
-                "In {} of {steps} steps contact and film did not settle: the last round still changed \
-                 pressure or spacing by up to {:.2e} of the greatest.",
-                self.unsettled, self.change
+                "In {} of {steps} steps contact and film did not agree: the last round still changed \
+                 pressure or gap by up to {} of the greatest.",
+                self.unsettled,
+                percent(self.change)
             ));
         }
         if self.contact > 0 {

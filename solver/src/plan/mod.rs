@@ -95,9 +95,7 @@ pub struct Weighed {
     pub effect: f64,
     /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
     pub unresolved: f64,
-    /// The fidelity, and the error of α that it aims at, relative.
-    pub fidelity: Fidelity,
-    /// See `fidelity`.
+    /// The error of α that is asked for, relative.
     pub target_error: f64,
 }
 

@@ -73,9 +73,9 @@ impl Plan {
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
-        let time = time(numerics, &numbers, motor, &rotor, fidelity, spec);
-        let flow = flow(numerics, &numbers, motor, fidelity, spec);
-        let wedge = wedge(numerics, &numbers, motor, along, fidelity, spec);
+        let time = time(numerics, &numbers, motor, &rotor, spec);
+        let flow = flow(numerics, &numbers, motor, spec);
+        let wedge = wedge(numerics, &numbers, motor, along, spec);
         let trapped = time.chosen == Choice::Time(Time::Trapped);
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;

@@ -2,7 +2,7 @@
 
 use super::{Choice, Decision, LEAK_EFFECT, SHARE, Weighed};
 use crate::dimensionless::Dimensionless;
-use crate::fidelity::{Fidelity, Spec};
+use crate::fidelity::Spec;
 use crate::problem::{Flow, Motor, Numerics, Time, Wedge};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
@@ -29,13 +29,13 @@ struct Reduction {
 }
 
 impl Reduction {
-    fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
+    fn decide(self, spec: &Spec) -> Decision {
         let Self { choices, asked, effect, unresolved, number } = self;
         let allowed = effect <= SHARE * spec.target_error || effect < unresolved;
         let left_out = asked.unwrap_or(allowed);
         let [_, reduced] = choices;
         let target_error = spec.target_error;
-        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, target_error };
+        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, target_error };
         Decision {
             chosen: choices[usize::from(left_out)],
             overruled: asked.is_some_and(|asked| asked != allowed),
@@ -50,7 +50,6 @@ pub(super) fn wedge(
     numbers: &Dimensionless,
     motor: &Motor,
     along: usize,
-    fidelity: Fidelity,
     spec: &Spec,
 ) -> Decision {
     if !motor.shear {
@@ -67,7 +66,7 @@ pub(super) fn wedge(
         unresolved: upwinding(numbers, motor, along),
         number: numbers.bearing_to_squeeze,
     }
-    .decide(fidelity, spec)
+    .decide(spec)
 }
 
 pub(super) fn time(
@@ -75,7 +74,6 @@ pub(super) fn time(
     numbers: &Dimensionless,
     motor: &Motor,
     rotor: &Compliances,
-    fidelity: Fidelity,
     spec: &Spec,
 ) -> Decision {
     let layer = numbers.boundary_layer;
@@ -97,16 +95,10 @@ pub(super) fn time(
         unresolved: 0.0,
         number: layer / motor.tooth_width.min(motor.contact_width),
     }
-    .decide(fidelity, spec)
+    .decide(spec)
 }
 
-pub(super) fn flow(
-    numerics: &Numerics,
-    numbers: &Dimensionless,
-    motor: &Motor,
-    fidelity: Fidelity,
-    spec: &Spec,
-) -> Decision {
+pub(super) fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, spec: &Spec) -> Decision {
     let layer = numbers.boundary_layer;
     // Beyond the layers, gas that stays for many cycles is that of the nearest edges: it changes, as far from the edges
     // left out as the film is narrow, if gaps differ from place to place. They do under a crowned tooth, and they do
@@ -134,7 +126,7 @@ pub(super) fn flow(
         unresolved: 0.0,
         number: layer / if along { motor.contact_width } else { motor.tooth_width },
     }
-    .decide(fidelity, spec)
+    .decide(spec)
 }
 
 /// Effect of the leaks at two edges a `length` \[m\] apart, relative to α; `layer` \[m\] is that of the closed film.

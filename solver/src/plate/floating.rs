@@ -11,7 +11,7 @@
 use super::level::Level;
 use super::{Periodic, Search, finish, stated, turned};
 use crate::control::{Cancel, Observer};
-use crate::digits::{brief, percent};
+use crate::digits::brief;
 use crate::estimate::Estimate;
 use crate::film::cycle::Interrupted;
 use crate::ladder::{Found, climb};
@@ -51,10 +51,10 @@ pub enum FloatError {
     #[error(transparent)]
     Memory(#[from] Excess),
     /// It rests on its roughness.
-    #[error("plate.amplitude_um = {}: the plate does not float, because as low as film.min_spacing_nm = {} allows, the film carries {} of the load; {}",
-        brief(amplitude * 1e6), brief(min_spacing * 1e9), percent(share.max(0.0)),
+    #[error("plate.amplitude_um = {}: the plate does not float: at the smallest gap that film.min_spacing_nm = {} allows, the film carries only {} % of the load; {}",
+        brief(amplitude * 1e6), brief(min_spacing * 1e9), brief(100.0 * share.clamp(0.0, 0.999)),
         match needed {
-            Some(needed) => format!("at least {} µm of amplitude is needed", brief(needed * 1e6)),
+            Some(needed) => format!("it floats with an amplitude of at least {} µm", brief(needed * 1e6)),
             None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", brief(LARGEST_AMPLITUDE * 1e6)),
         })]
     Rests {

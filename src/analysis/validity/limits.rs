@@ -146,7 +146,7 @@ impl Film<'_> {
             let exact = FukuiKaneko { mean_free_path: gas.mean_free_path.max(f64::MIN_POSITIVE) };
             let ratio = SlipLaw::of(gas).at(self.closed).0 / exact.at(self.closed).0;
             format!(
-                "At Kn = {}, in a film of {} nm, {law} lets {} % {} gas flow than the Boltzmann equation, which the law of Fukui and Kaneko (film.slip) follows.",
+                "At Kn = {}, in a film of {} nm, {law} predicts {} % {} flow than the Boltzmann equation, which the law of Fukui and Kaneko (film.slip) follows.",
                 brief(value),
                 brief(self.closed * 1e9),
                 (100.0 * (ratio - 1.0)).abs().round(),
