@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout)]
 
 use squeezefilm::control::Cancel;
+use squeezefilm::digits::signed;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
 use squeezefilm::plan::Plan;
@@ -110,20 +111,20 @@ fn mesh() -> Result<String, Box<dyn Error>> {
         let first = *first.get_or_insert(result.film_load.value);
         writeln!(
             text,
-            "| {along} × {across} | {contact} | {steps} | {:.4} | {:.5} | {:+.1} % |",
+            "| {along} × {across} | {contact} | {steps} | {:.4} | {:.5} | {} % |",
             result.film_load.value,
             result.alpha.value,
-            100.0 * (result.film_load.value / first - 1.0)
+            signed(format!("{:+.1}", 100.0 * (result.film_load.value / first - 1.0)))
         )?;
     }
     let own = run(&[], Method::Auto, Fidelity::Reference)?;
     let first = first.ok_or("no meshes")?;
     writeln!(
         text,
-        "| our method, reference | | | {:.4} | {:.5} | {:+.1} % |",
+        "| our method, reference | | | {:.4} | {:.5} | {} % |",
         own.film_load.value,
         own.alpha.value,
-        100.0 * (own.film_load.value / first - 1.0)
+        signed(format!("{:+.1}", 100.0 * (own.film_load.value / first - 1.0)))
     )?;
     Ok(text)
 }
@@ -141,7 +142,8 @@ fn slip_laws() -> Result<String, Box<dyn Error>> {
     ] {
         let result = run(&[(key, value)], Method::Auto, Fidelity::Reference)?;
         let alpha = result.alpha;
-        writeln!(text, "| {what} | {alpha} | {:+.2} % |", 100.0 * (result.alpha.value / base - 1.0))?;
+        let change = signed(format!("{:+.2}", 100.0 * (result.alpha.value / base - 1.0)));
+        writeln!(text, "| {what} | {alpha} | {change} % |")?;
     }
     Ok(text)
 }

@@ -193,7 +193,7 @@ fn cancelled() -> Exit {
 }
 
 /// `9.5 nm`.
-fn with_unit(number: String, parameter: &Parameter) -> String {
+pub(super) fn with_unit(number: String, parameter: &Parameter) -> String {
     format!("{number} {}", parameter.unit).trim_end().to_owned()
 }
 
@@ -236,7 +236,8 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         let mut columns = Columns::new();
         for (i, found) in fitted.unknowns.iter().enumerate() {
             let cells = fitted.correlation[i][..=i].iter();
-            let cells = cells.map(|value| if value.is_finite() { format!("{value:.2}") } else { "–".to_owned() });
+            let cells =
+                cells.map(|value| if value.is_finite() { signed(format!("{value:.2}")) } else { "–".to_owned() });
             columns.row(std::iter::once(found.unknown.parameter.key.to_owned()).chain(cells));
         }
         text.push_str(&columns.text("  ", &(1..=fitted.unknowns.len()).collect::<Vec<_>>()));

@@ -253,9 +253,7 @@ impl CommonOptions {
 /// Which formats figures are written in.
 #[derive(Clone, Debug, Args)]
 pub(super) struct FigureOptions {
-    /// Formats of the figures in --out: svg, png, pdf; none for no figures
-    ///
-    /// vtk: of a solve the film at every instant of the cycle for ParaView, film.vtk.series.
+    /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
     figures: Vec<FigureFormat>,
 }
@@ -334,12 +332,11 @@ fn fidelity() -> ValueParser {
 fn fidelity_help() -> String {
     let named = Fidelity::ALL.map(|level| format!("{} % ({level})", 100.0 * level.accuracy()));
     format!(
-        "How exact the result is to be: a name for an accuracy\n\n\
+        "Accuracy level\n\n\
          Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
          a limit of the work is reached; the result states the error that it has. Where the film carries less than a hundredth of the \
-         load, the accuracy is a share of that hundredth.\n\n\
-         Without this option, `--accuracy` or `--budget` it is {}; for `table1` and `reproduce`, fine; for the window, what was chosen there last, \
-         which these options count as.",
+         load, the error is compared with that hundredth instead.\n\n\
+         [default: {}; of table1 and reproduce fine; of the window the last choice made there, which this option replaces]",
         named.join(", "),
         Fidelity::default()
     )

@@ -5,6 +5,7 @@ use super::exit::{CliError, Exit};
 use super::options::SceneOptions;
 use super::{new, terminal};
 use crate::atomic::write_file;
+use crate::digits::capitalised;
 use crate::export::json;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
 use crate::scene::{Scene, SceneError};
@@ -101,7 +102,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     // One set of columns for all groups, so that they line up; the headings go in between.
     let mut columns = Columns::new();
     for (preset, scene) in &scenes {
-        columns.row([preset.name, about(scene)]);
+        columns.row([preset.name, &about(scene)]);
     }
     let (lines, mut last, mut text) = (columns.text("  ", &[]), "", String::new());
     for (line, (preset, _)) in lines.lines().zip(&scenes) {
@@ -118,7 +119,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
 }
 
 /// What a preset is, without what its group's heading says.
-fn about(scene: &Scene) -> &str {
+fn about(scene: &Scene) -> String {
     let rest = ["Maeno and Bogy 1992, Table I, ", "Maeno and Bogy 1992, Table I: ", "Beyond Table I: "];
-    rest.iter().find_map(|prefix| scene.about.strip_prefix(prefix)).unwrap_or(&scene.about)
+    capitalised(rest.iter().find_map(|prefix| scene.about.strip_prefix(prefix)).unwrap_or(&scene.about))
 }

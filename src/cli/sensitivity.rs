@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::fit::with_unit;
 use super::options::{CommonOptions, pair, whole};
 use super::progress::Bar;
 use super::terminal;
@@ -162,7 +163,7 @@ fn text(found: &Found<'_>) -> String {
     let (problem, outputs) = (sensitivity.problem(), sensitivity.outputs);
     let name = show_text(&sensitivity.scene().name);
     let mut text =
-        paragraph(&format!("{name}: per cent that each result changes with 1 % more of each parameter"), "", "");
+        paragraph(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"), "", "");
     text.push('\n');
     let mut columns = Columns::new();
     columns.row(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
@@ -221,17 +222,16 @@ fn uncertain(found: &Found<'_>) -> String {
     let sensitivity = found.sensitivity;
     let problem = sensitivity.problem();
     let given = found.uncertainties.iter().map(|(parameter, at, given)| {
-        format!("{} = {at} ± {} {}", parameter.key, significant(given.deviation(at), 3), parameter.unit)
-            .trim_end()
-            .to_owned()
+        let deviation = significant(given.deviation(at), 3);
+        format!("{} = {} ({})", parameter.key, with_unit(at.to_string(), parameter), with_unit(deviation, parameter))
     });
     let given: Vec<String> = given.collect();
-    let mut text = paragraph(&format!("Standard deviations, for {}:", given.join(", ")), "\n", "");
+    let mut text = paragraph(&format!("Uncertain parameters (standard deviation): {}", given.join(", ")), "\n", "");
     text.push('\n');
     let mut columns = Columns::new();
-    let mut head = vec!["", "value", "by the parameters", "numerical error", "most of it by"];
+    let mut head = vec!["", "value", "std. dev. from parameters", "numerical error", "largest contribution"];
     if found.carlo.is_some() {
-        head.extend(["Monte Carlo", "5 % … 95 %"]);
+        head.extend(["Monte Carlo (std. dev.)", "5 % … 95 %"]);
     }
     columns.row(head);
     let (mut beyond, mut bent) = (Vec::new(), Vec::new());
@@ -248,7 +248,7 @@ fn uncertain(found: &Found<'_>) -> String {
         let mut row = vec![
             output.label(problem),
             digits(value.value),
-            format!("± {}", significant(propagated.deviation.value, 2)),
+            significant(propagated.deviation.value, 2),
             if value.error.is_finite() { format!("± {}", significant(value.error, 2)) } else { String::new() },
             most.map_or_else(String::new, |(key, share)| format!("{key}, {}", percent(share))),
         ];
@@ -261,7 +261,7 @@ fn uncertain(found: &Found<'_>) -> String {
                 bent.push(output.words());
             }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
-                format!("{} ± {}", digits(spread.mean), significant(spread.deviation, 2))
+                format!("{} ({})", digits(spread.mean), significant(spread.deviation, 2))
             }));
             row.push(spread.map_or_else(String::new, |spread| {
                 format!("{} … {}", digits(spread.quantiles[0]), digits(spread.quantiles[2]))

@@ -25,7 +25,7 @@ Examples:
   squeezefilm stability --map spacing-frequency --cells 15 --method auto
   squeezefilm stability levitating --fidelity draft";
 
-/// Maps where a motor is solved to the edges of the ranges, by our method and by the paper's
+/// Maps, over the full ranges of the parameters, where each method (ours and the paper's) finds a solution
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
 /// a pressure or contact force below 0, loads that do not add up), failed or refused. Some minutes on two cores, nearly all

@@ -6,7 +6,7 @@ use super::options::{FigureOptions, OutputOptions, whole};
 use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
-use crate::digits::significant;
+use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
 use crate::export::json;
 use crate::export::surface::{Face, FlowFactors, Object, preset};
@@ -25,7 +25,7 @@ Examples:
 const FILES: &str = "\
 A file is a grid of heights, with lines \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before them and a line of numbers for \
 each y; or a profile, with a line \"x_um,z_nm\" and a pair on each line. Units are m, mm, um and nm. x is along the wave. \
-Instruments that write X3P or SUR export such tables too: no Rust library reads those formats.
+Instruments that write X3P or SUR export such tables too.
 
 Files of --out:
   surface.json      what --json prints
@@ -34,12 +34,12 @@ Files of --out:
 
 /// Statistics of measured faces, and the spacing, asperities and flow factors that follow
 ///
-/// The heights are levelled first. From two files, the rotor's face and the stator's, or from one that both are like, follow H_m as
+/// The heights are levelled first. From two files, the rotor's face and the stator's, or from one file that represents both, follow H_m as
 /// the paper takes it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Measured heights: of the rotor's face and of the stator's, or of one that both are like
+    /// Measured heights: of the rotor's face and of the stator's, or one file that represents both
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
     files: Vec<PathBuf>,
 
@@ -100,7 +100,7 @@ fn text(object: &Object) -> String {
     row("Sz", &|face| format!("{} nm", significant(face.sz_nm, 4)), "peak to valley");
     row(
         "Ssk, Sku",
-        &|face| format!("{:.2}, {:.2}", face.ssk, face.sku),
+        &|face| format!("{}, {}", signed(format!("{:.2}", face.ssk)), signed(format!("{:.2}", face.sku))),
         "skewness and kurtosis; 0 and 3 if normally distributed",
     );
     row(

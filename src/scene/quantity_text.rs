@@ -47,7 +47,7 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
             if others.is_empty() { String::new() } else { format!(", in {}", others.join(", ").replace('u', "µ")) };
         let accepts = parameter.accepts();
         format!(
-            "{} = {} is no number here: expected {accepts}{others}, or a calculation such as (1 + 2) × 3",
+            "{} = {} is not a number: expected {accepts}{others}, or a calculation such as (1 + 2) × 3",
             parameter.key,
             text.trim()
         )
