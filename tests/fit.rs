@@ -14,6 +14,7 @@ use squeezefilm::solution::Outcome;
 use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::fmt::Write as _;
 use std::process::{Command, Output, Stdio};
+use std::sync::Mutex;
 
 const STANDARD: Settings = Settings { fidelity: Fidelity::Standard, method: Method::Auto, record: Record::Numbers };
 const DRAFT: Settings = Settings { fidelity: Fidelity::Draft, ..STANDARD };
@@ -314,7 +315,10 @@ fn the_optimum_is_that_of_a_fine_sweep() {
     let motor = scene("fundamental", &[]);
     let goal = Goal::new(&motor, "stall_torque_nm", true, &[]).unwrap();
     let vary = bounds(&["motor.load_per_wave_n=1:60"]);
-    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let best_told = Mutex::new(f64::NAN);
+    let tell = |_, best| *best_told.lock().unwrap() = best;
+    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &tell)).unwrap().unwrap();
+    assert!((best_told.into_inner().unwrap() / found.value.value - 1.0).abs() < 0.01, "{found:?}");
     let sweep: Vary = "motor.load_per_wave_n=1:60:120:log".parse().unwrap();
     let rows = Sweep::new(&motor, &[sweep], &DRAFT).unwrap().run(&[], &Cancel::new(), &|_| ());
     let best = rows.iter().filter_map(|row| Some((row.numbers.get(Quantity::StallTorque)?, row.values[0])));

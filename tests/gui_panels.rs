@@ -471,7 +471,7 @@ fn the_results_show_alpha_and_what_goes_with_it() {
         "Contact load",
         "Stall torque",
         "Maximum operating torque",
-        "The same without air",
+        "Maximum without film",
         "Least film thickness",
     ] {
         harness.get_by_label(name);
@@ -515,7 +515,7 @@ fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
         assert_eq!(harness.query_by_label("0.320, limit 0.1").is_some(), seen, "{preset}");
         assert_eq!(
             harness
-                .query_by_label_contains("At Kn = 0.32, in a film of 200 nm, first-order slip lets 20 % less")
+                .query_by_label_contains("At Kn = 0.32, in a film of 200 nm, first-order slip predicts 20 % less")
                 .is_some(),
             seen
         );

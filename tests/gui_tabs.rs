@@ -363,7 +363,8 @@ fn what_is_exported_is_what_the_command_line_writes() {
     let missing = at("no/such/folder/cycle.gif");
     export(&mut window, "Animation…", &missing);
     window.get_by_label("This did not work");
-    window.get_by_label_contains("cannot be written");
+    window.get_by_label_contains("there is no folder");
+    assert_eq!(window.known().failed_path.as_ref().map(|(_, path)| path.into()), Some(missing.clone()));
     window.click_on("Close");
     export(&mut window, "Animation…", &at("cycle.avi"));
     window.get_by_label_contains("allowed .gif, .mp4, .png, .apng");
@@ -770,11 +771,11 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let given = [("film.min_spacing_nm", "20%".parse().unwrap())];
     let uncertainties = Uncertainties::new(&scene, &given).unwrap();
     let spread = found.propagated(1, &uncertainties).deviation.value;
-    window.get_by_label(&format!("± {} by the parameters", significant(spread, 2)));
+    window.get_by_label(&format!("standard deviation {} from the parameters", significant(spread, 2)));
     window.type_into("Uncertainty of Frequency", "much");
     let refused = window.known().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
     assert!(refused.contains("expected a standard deviation"), "{refused}");
-    window.get_by_label(&format!("± {} by the parameters", significant(spread, 2)));
+    window.get_by_label(&format!("standard deviation {} from the parameters", significant(spread, 2)));
 
     // Random scenes are those of the command, and go when the uncertainties are others.
     window.click_on("Draw and solve");

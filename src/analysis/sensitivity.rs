@@ -72,7 +72,7 @@ impl Output {
         match self {
             Self::Number(quantity) => quantity.words(),
             Self::Stiffness => "stiffness of the film",
-            Self::Damping => "damping of the film",
+            Self::Damping => "damping coefficient of the film",
         }
     }
 
@@ -266,19 +266,20 @@ impl Sensitivity {
         Propagated { deviation: Estimate { value: deviation, error }, parts, unknown }
     }
 
-    /// What to draw of an output, the greatest first: the elasticities of all keys that have a scale; or, of uncertain keys, what each
-    /// contributes to the uncertainty, in the unit of the output. And how many are left out because they are less than [`LEAST`] of the
+    /// What to draw of an output, the greatest first: the elasticities of all keys that have a scale; or, if there are uncertain keys, what
+    /// each contributes to the uncertainty, in the unit of the output. And how many are left out because they are less than [`LEAST`] of the
     /// greatest.
     pub fn tornado(
         &self,
         output: usize,
-        uncertainties: &Uncertainties,
+        uncertainties: Option<&Uncertainties>,
     ) -> (Vec<(&'static Parameter, Estimate)>, usize) {
-        let mut bars: Vec<_> = if uncertainties.is_empty() {
-            let columns = self.columns.iter().enumerate().filter(|(_, column)| column.scale().is_some());
-            columns.filter_map(|(i, column)| Some((column.parameter, self.elasticity(output, i)?))).collect()
-        } else {
-            self.propagated(output, uncertainties).parts
+        let mut bars: Vec<_> = match uncertainties.filter(|uncertain| !uncertain.is_empty()) {
+            None => {
+                let columns = self.columns.iter().enumerate().filter(|(_, column)| column.scale().is_some());
+                columns.filter_map(|(i, column)| Some((column.parameter, self.elasticity(output, i)?))).collect()
+            }
+            Some(uncertain) => self.propagated(output, uncertain).parts,
         };
         bars.sort_by(|(_, a), (_, b)| b.value.abs().total_cmp(&a.value.abs()));
         let least = LEAST * bars.first().map_or(0.0, |(_, bar)| bar.value.abs());

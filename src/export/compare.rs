@@ -293,7 +293,7 @@ pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
 pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     let first = row.cells.first().filter(|first| first.value.is_some() && cell.value.is_some());
     if let Some(first) = first.filter(|first| first.unit != cell.unit) {
-        return format!("none: {} is not {}", cell.unit, first.unit);
+        return format!("in {}, not {}", cell.unit, first.unit);
     }
     match (cell.difference_percent, cell.difference_error_percent) {
         (None, _) => String::new(),
@@ -345,7 +345,7 @@ pub fn report(
     let mut page = if others.is_empty() {
         Page::new("squeezefilm · report", &first.label, &lead)
     } else {
-        Page::new("squeezefilm · comparison", &format!("{} beside {}", first.label, others.join(", ")), &lead)
+        Page::new("squeezefilm · comparison", &[&[first.label.as_str()], &others[..]].concat().join(" · "), &lead)
     };
     for run in runs {
         if !run.converged() {

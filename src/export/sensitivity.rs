@@ -265,7 +265,7 @@ impl Found<'_> {
         };
         let mut figure = self.figure_of(format!("{what}, with the error of the derivative."), fidelity);
         for (output, of) in self.sensitivity.outputs.iter().enumerate() {
-            let (shown, smaller) = self.sensitivity.tornado(output, self.uncertainties);
+            let (shown, smaller) = self.sensitivity.tornado(output, Some(self.uncertainties));
             let unit = of.unit(self.sensitivity.problem());
             let axis = if certain {
                 Axis::new(format!("{}, % for 1 % more", of.words()), "")

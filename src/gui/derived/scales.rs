@@ -18,13 +18,13 @@ impl Curve {
         Self { values: values.into_iter().collect(), once: false }
     }
 
-    /// The value at a phase; any number of cycles away.
+    /// The value at a phase; any number of cycles away if the cycle repeats.
     pub fn at(&self, phase: f64) -> f64 {
         let count = self.values.len();
         if count == 0 {
             return 0.0;
         }
-        let place = phase.rem_euclid(1.0) * count as f64;
+        let place = if self.once { phase.clamp(0.0, 1.0) } else { phase.rem_euclid(1.0) } * count as f64;
         let left = (place as usize).min(count - 1);
         let weight = place - left as f64;
         let right = if self.once { (left + 1).min(count - 1) } else { (left + 1) % count };
@@ -245,7 +245,7 @@ mod tests {
         assert_eq!(both, both.and(Ranges::of(&small)));
         let once = Scales::new(&Recording { transient: true, ..small });
         let (curves, _) = once.tooth(0).unwrap();
-        assert_eq!([curves.film.at(5.0 / 6.0), curves.film.at(0.99)], [10.0, 10.0]);
+        assert_eq!([5.0 / 6.0, 0.99, 1.0].map(|phase| curves.film.at(phase)), [10.0; 3]);
     }
 
     #[test]

@@ -76,7 +76,7 @@ const LABELS: &[(&str, &str)] = &[
     ("numerics.teeth", "Teeth solved"),
     ("numerics.width", "Width solved"),
     ("numerics.flow", "Flow of the film"),
-    ("numerics.time", "Leaking in time"),
+    ("numerics.time", "Leakage in time"),
 ];
 
 /// Names of the columns of arrays of tables, by key; a name is one everywhere.

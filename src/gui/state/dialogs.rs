@@ -126,8 +126,8 @@ impl Export {
     /// `path` with the extension of a format that this is written in: without one it gets the usual one.
     ///
     /// # Errors
-    /// If its extension is that of something else, or if there is a file already under the completed name, which nobody has
-    /// agreed to replace.
+    /// If its folder is not there, its extension is that of something else, or there is a file already under the completed name, which
+    /// nobody has agreed to replace.
     pub fn complete(self, path: PathBuf) -> Result<PathBuf, String> {
         self.filter().map_or(Ok(path.clone()), |(kind, extensions)| complete(path, kind, extensions))
     }
@@ -135,6 +135,9 @@ impl Export {
 
 /// `path` with one of `extensions`, the first if it has none.
 fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        return Err(format!("{}: there is no folder {}", path.display(), folder.display()));
+    }
     let Some(extension) = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()) else {
         let mut named = path.into_os_string();
         named.push(format!(".{}", extensions[0]));

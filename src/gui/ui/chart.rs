@@ -114,7 +114,7 @@ fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
 }
 
 /// A plot with numbers at its axes, and no words at the pointer.
-fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+pub(in crate::gui::ui) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
     // The spacers leave room for every number: none is to fade because others are near.
     let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
     bare(name, height)

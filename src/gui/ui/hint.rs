@@ -34,7 +34,8 @@ pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
 /// As [`beside`], with whatever `add` shows.
 pub fn beside_with(panel: Rect, response: Response, add: impl FnOnce(&mut Ui)) -> Response {
     // egui keeps one open that a question has come over.
-    if !response.ctx.memory(|memory| memory.allows_interaction(response.layer_id)) {
+    // What is dragged shows in the views, which an explanation would cover.
+    if response.dragged() || !response.ctx.memory(|memory| memory.allows_interaction(response.layer_id)) {
         return response;
     }
     let mut tooltip = Tooltip::for_enabled(&response);

@@ -116,8 +116,8 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "Lessons",
         &[
             idle(key(NONE, Key::PageDown), "Next step", || Command::Lesson(LessonCommand::Next)),
-            idle(key(NONE, Key::PageUp), "Step before", || Command::Lesson(LessonCommand::Back)),
-            idle(key(NONE, Key::Enter), "Keep to an answer, go to the marked parameter, go on", || GO_ON),
+            idle(key(NONE, Key::PageUp), "Previous step", || Command::Lesson(LessonCommand::Back)),
+            idle(key(NONE, Key::Enter), "Confirm the answer, go to the marked parameter, or go on", || GO_ON),
             idle(key(NONE, Key::Num1), "First answer", || choose(0)),
             idle(key(NONE, Key::Num2), "Second answer", || choose(1)),
             idle(key(NONE, Key::Num3), "Third answer", || choose(2)),

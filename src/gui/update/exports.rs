@@ -4,7 +4,7 @@ use super::updater::Updater;
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
-use crate::gui::state::dialogs::Export;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff, Ran};
 use crate::job::task::Task;
@@ -25,7 +25,10 @@ impl Updater {
         }
         let path = match export.complete(path.to_owned()) {
             Ok(path) => path,
-            Err(reason) => return self.state.fail(reason),
+            Err(reason) => {
+                self.state.failed_path = Some((Purpose::Export(export), path.display().to_string()));
+                return self.state.fail(reason);
+            }
         };
         let Some(content) = self.content(export) else { return };
         let task = Task::of(Files { path, content }, self.wake(REDRAW));

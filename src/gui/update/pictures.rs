@@ -26,14 +26,21 @@ impl Updater {
             let rgb = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
             self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }), dialogs::PICTURE);
         }
-        let mut failed = None;
-        self.writing.retain(|task| {
-            let end = task.drain().end;
-            let running = end.is_none();
-            failed = end.and_then(|end| end.unwrap_or_else(|panic| Err(Some(panic))).err()).flatten().or(failed.take());
-            running
+        let mut ended = Vec::new();
+        self.writing.retain(|task| match task.drain().end {
+            Some(end) => {
+                ended.push(end.unwrap_or_else(|panic| Err(Some(panic))));
+                false
+            }
+            None => true,
         });
-        failed.into_iter().for_each(|error| self.state.fail(error));
+        for end in ended {
+            match end {
+                Ok(paths) => self.state.exports.written = Some(paths),
+                Err(Some(error)) => self.state.fail(error),
+                Err(None) => {}
+            }
+        }
     }
 
     /// Writes a picture to this file.

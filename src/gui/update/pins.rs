@@ -1,7 +1,6 @@
 //! What is asked of the pins, carried out.
 
 use super::updater::Updater;
-use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::command::PinCommand;
 use crate::gui::state::pins::to_compare;
@@ -14,8 +13,12 @@ impl Updater {
         match command {
             PinCommand::Shown => {
                 if let Some(run) = &self.state.run {
-                    let label = run.scene.title(self.state.document.saved());
-                    self.state.pins.add(ComparedRun { label, ..to_compare(run) });
+                    let mut run = to_compare(run);
+                    let mut named = run.scene.clone();
+                    named.retitle(self.state.document.saved());
+                    // It may be called by what tells it from the others, but not described as what it is no longer.
+                    (run.label, run.scene.about) = (named.name, named.about);
+                    self.state.pins.add(run);
                 }
             }
             PinCommand::Preset(name) => self.pin_preset(name),

@@ -14,7 +14,11 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     let response = egui::Modal::new(egui::Id::unique("shortcuts")).frame(frame(ctx)).show(ctx, |ui| {
         ui.heading("Keyboard shortcuts");
         ui.add_space(10.0);
-        let columns = GROUPS.split_at(GROUPS.len() / 2);
+        // Two columns, as even as can be.
+        let rows =
+            |groups: &[(&str, &[Shortcut])]| groups.iter().map(|(_, shortcuts)| shortcuts.len() + 2).sum::<usize>();
+        let sides = (0..GROUPS.len()).map(|at| GROUPS.split_at(at));
+        let columns = sides.min_by_key(|(left, right)| rows(left).max(rows(right))).unwrap_or_default();
         // Keys of one width, so that what they do begins at one place.
         let font = TextStyle::Monospace.resolve(ui.style());
         let width = |shortcut: &Shortcut| {
@@ -22,7 +26,9 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
             ui.painter().layout_no_wrap(text, font.clone(), egui::Color32::PLACEHOLDER).size().x
         };
         let widest = GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter()).map(width).fold(0.0, f32::max);
-        egui::ScrollArea::vertical().max_height(0.75 * ctx.content_rect().height()).show(ui, |ui| {
+        ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
+        let height = 0.75 * ctx.content_rect().height();
+        egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 for (i, groups) in [columns.0, columns.1].into_iter().enumerate() {
                     if i > 0 {

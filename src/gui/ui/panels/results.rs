@@ -85,7 +85,7 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &M
     section(ui, "Torque of the ring");
     shown.row(ui, cx, "Stall torque", StallTorque);
     shown.row(ui, cx, "Maximum operating torque", MaxTorque);
-    number(ui, cx, "The same without air", &significant(motor.friction_torque(motor.load), DIGITS), "N·m");
+    number(ui, cx, "Maximum without film", &significant(motor.friction_torque(motor.load), DIGITS), "N·m");
     shown.extremes(ui, cx, motor.gas.ambient_pressure);
 }
 
@@ -94,7 +94,7 @@ fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &P
         headline(ui, "", "Mean gap", &shown.text(MeanGap), "µm");
         cx.note(ui, "mean gap at which the film carries the load");
         ui.add_space(4.0);
-        number(ui, cx, "Stiffness of floating", &uncertain(floating.stiffness), units(plate)[0]);
+        number(ui, cx, "Stiffness at this height", &uncertain(floating.stiffness), units(plate)[0]);
         number(ui, cx, "Natural frequency", &uncertain(floating.natural_frequency), "Hz");
         if floating.natural_frequency.value > 0.0 {
             let ratio = floating.damping_ratio(slow_damping(plate));
@@ -163,13 +163,14 @@ fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let numbers = &Dimensionless::of(&run.problem);
     let weight = regime::weight(&run.problem, &run.solution.outcome);
     let rows = [
-        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(numbers), &weight]),
-        ("Bearing number Λ", numbers.bearing_number, vec![regime::bearing(numbers)]),
-        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(numbers)]),
+        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(&run.problem), weight]),
+        ("Bearing number Λ", numbers.bearing_number, vec![regime::bearing(numbers).to_owned()]),
+        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(&run.problem)]),
     ];
-    for (name, value, phrases) in rows {
+    // A plate does not slide.
+    for (name, value, phrases) in rows.into_iter().filter(|(_, value, _)| *value > 0.0) {
         number(ui, cx, name, &shown(value), "");
-        phrases.iter().for_each(|phrase| cx.note(ui, *phrase));
+        phrases.iter().for_each(|phrase| cx.note(ui, phrase));
         ui.add_space(2.0);
     }
 }
@@ -183,8 +184,12 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             number(ui, cx, "Error of the load", &rough(result.film_load.error), force_unit(&run.problem));
         }
     }
-    if run.solution.accuracy.stopped_by == StoppedBy::Budget {
-        cx.note(ui, "The time allowed was up before the error was as small as asked for");
+    match run.solution.accuracy.stopped_by {
+        StoppedBy::Budget => cx.note(ui, "The time allowed was up before the error was as small as asked for"),
+        StoppedBy::Limit if run.solution.accuracy.asked > 0.0 => {
+            cx.note(ui, "The error is larger than asked for: no finer grid was tried, or would help");
+        }
+        StoppedBy::Accuracy | StoppedBy::Limit => {}
     }
     if stats.coupling_iterations > 0 {
         number(ui, cx, "Rounds of film and contact", &stats.coupling_iterations.to_string(), "");
@@ -250,7 +255,9 @@ fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
 /// The number that matters, its error smaller; all of it smaller where it would not fit. The glossary explains it under `word`.
 pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str, unit: &str) {
     let body = TextStyle::Body.resolve(ui.style()).size;
-    let (number, error) = value.split_once(" ± ").map_or((value, None), |(number, error)| (number, Some(error)));
+    // A power of ten is that of both, and they are of one size.
+    let parts = value.split_once(" ± ").filter(|_| !value.starts_with('('));
+    let (number, error) = parts.map_or((value, None), |(number, error)| (number, Some(error)));
     let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
     let job = |scale: f32| {
         let mut job = egui::text::LayoutJob::default();
@@ -341,6 +348,8 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
     let (term, gap) = (name, 2.0 * ui.spacing().item_spacing.x);
     let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
     let name = egui::Label::new(RichText::new(name).color(cx.colours.quiet));
+    // Of two values each stays whole with its error and unit.
+    let value = if fits { value } else { value.replace(' ', "\u{a0}").replace("\u{a0}…\u{a0}", " … ") };
     let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
     let right = egui::Layout::right_to_left(egui::Align::Center);
     if fits {

@@ -207,15 +207,15 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     // What it is called, computed, exact, and when that holds.
     let rows = [
-        ["Spring S", &spring, &significant(found.linear.spring, DIGITS), "for ε → 0"],
-        ["Damping D", &damping, &significant(found.linear.damping, DIGITS), "for ε → 0"],
-        [&names[0], &stiffness, &linear[0], "for ε → 0"],
-        [&names[1], &loss, &linear[1], "for ε → 0"],
+        ["Spring S", &spring, &significant(found.linear.spring, DIGITS), "limit ε → 0"],
+        ["Damping D", &damping, &significant(found.linear.damping, DIGITS), "limit ε → 0"],
+        [&names[0], &stiffness, &linear[0], "limit ε → 0"],
+        [&names[1], &loss, &linear[1], "limit ε → 0"],
         [
             "Mean pressure",
             &uncertain(found.mean_pressure),
             &significant(found.trapped_mean_pressure, DIGITS),
-            "for σ → ∞",
+            "limit σ → ∞",
         ],
         ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];

@@ -159,7 +159,8 @@ fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>
         error => format!(", known to {}", percent(error)),
     };
     let whose = if present { "Present rotor" } else { "Before this edit" };
-    let mut text = format!("{whose}: {} µm/N under a unit force{known}", significant(deflection, 3));
+    let mut text =
+        format!("{whose}: {} µm/N under a unit force, local compliance included{known}", significant(deflection, 3));
     if let Some(resonances) = &found.resonances {
         let khz: Vec<_> = resonances.iter().map(|hertz| significant(1e-3 * hertz, 3)).collect();
         text += &format!("; lowest natural frequencies of harmonics 1 to {}: {} kHz", khz.len(), khz.join(", "));

@@ -127,7 +127,7 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
         }
         if !uncertainties.is_empty() {
             let spread = found.propagated(output, uncertainties);
-            let text = format!("± {} by the parameters", significant(spread.deviation.value, 2));
+            let text = format!("standard deviation {} from the parameters", significant(spread.deviation.value, 2));
             glossary::term(ui, RichText::new(text).color(cx.colours.accent), "Uncertainty of a parameter");
             if !spread.unknown.is_empty() {
                 cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
@@ -136,7 +136,7 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
         if let Some(spread) = state.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
             let text = format!(
-                "random scenes: {} ± {}, 90 % of them from {} to {}",
+                "random scenes: mean {}, standard deviation {}, 90 % of them from {} to {}",
                 significant(spread.mean, 4),
                 significant(spread.deviation, 2),
                 significant(low, 4),
@@ -148,16 +148,10 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
 }
 
 fn tornado(ui: &mut Ui, shown: Shown<'_>) {
-    let Shown { found, output, uncertainties, cx, .. } = shown;
-    let (bars, smaller) = found.tornado(output, uncertainties);
-    let unit = found.outputs[output].unit(found.problem());
+    let Shown { found, output, cx, .. } = shown;
+    let (bars, smaller) = found.tornado(output, None);
     ui.add_space(4.0);
-    if uncertainties.is_empty() {
-        title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
-    } else {
-        let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
-        title(ui, &format!("Part of each parameter in the uncertainty{unit}"), "Uncertainty of a parameter");
-    }
+    title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
     if bars.is_empty() {
         cx.note(ui, "It depends on none of them");
         return;
@@ -176,8 +170,7 @@ fn tornado(ui: &mut Ui, shown: Shown<'_>) {
     let quiet = cx.colours.quiet;
     let (up, down) = (cx.colours.film, cx.colours.contact);
     let drawn = bars.clone();
-    let word = if uncertainties.is_empty() { "Elasticity" } else { "Uncertainty of a parameter" };
-    let (bounds, words) = ([[low - room, high + room], [0.6 - count, 0.6]], (Some(word), word));
+    let (bounds, words) = ([[low - room, high + room], [0.6 - count, 0.6]], (Some("Elasticity"), "Elasticity"));
     Chart { name, height, bounds, below: "", words }.show_with(
         ui,
         |plot| {

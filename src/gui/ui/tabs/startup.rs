@@ -72,7 +72,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let rest = match cx.state.document.scene().kind() {
         scene::Kind::Motor => {
-            "the wave stands still, pressed against the rotor. Then it moves. Every tooth is followed, with nothing accelerated, until"
+            "the wave stands still, pressed against the rotor. Then it moves. Every tooth is followed until"
         }
         scene::Kind::Plate => "the plate rests at its mean gap. Then it moves, away from the wall at first, until",
     };
@@ -123,7 +123,7 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
         None => (format!("Cycle {cycles}: {open}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
         Some(Ok(ended)) => match ended.status {
-            Status::Converged => (format!("Cycle {cycles}: repeats to {:.1e}", ended.remaining), cx.colours.good),
+            Status::Converged => (format!("Cycle {cycles}: repeats within {:.1e}", ended.remaining), cx.colours.good),
             Status::Cancelled if cycles == 0 => ("Cancelled in the first cycle".to_owned(), cx.colours.quiet),
             Status::Cancelled => (format!("Cancelled after cycle {cycles}: {open}"), cx.colours.quiet),
             Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {

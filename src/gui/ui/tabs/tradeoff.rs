@@ -8,7 +8,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
-use crate::gui::ui::chart::{axes, bare, key, line, place as chart_place, powers};
+use crate::gui::ui::chart::{axes, key, line, numbered, place as chart_place, powers};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::scroll::scrolled;
@@ -16,7 +16,7 @@ use crate::gui::ui::table;
 use crate::gui::ui::{button, glossary};
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points, VLine};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points, VLine};
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
@@ -187,7 +187,9 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
     let whole = chart_place(ui, height);
     // For screen readers the table below says it all.
-    let plot = bare("trade-off plot", height)
+    let plot = numbered("trade-off plot", height, [AxisHints::new_x(), AxisHints::new_y()])
+        .show_x(true)
+        .show_y(true)
         .grid_color(grid)
         .x_axis_label("solve time")
         .y_axis_label(judged.as_str())
@@ -257,7 +259,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), &judged);
 }
 
-/// Names of the fidelities, below and left of their points, where a point of the front has no other; names that would lie on each other, one
+/// Names of the fidelities, below and left of their points, right of them at the edge, where a point of the front has no other; names that would lie on each other, one
 /// below the other.
 fn names(ui: &egui::Ui, tradeoff: &Tradeoff, transform: &PlotTransform, cx: &DrawContext<'_>) {
     let painter = ui.painter_at(*transform.frame());
@@ -268,8 +270,11 @@ fn names(ui: &egui::Ui, tradeoff: &Tradeoff, transform: &PlotTransform, cx: &Dra
     let mut taken: Vec<egui::Rect> = Vec::new();
     for (point, [time, error]) in places {
         let galley = painter.layout_no_wrap(point.run.candidate.name.clone(), font.clone(), colour);
-        let corner = transform.position_from_point(&PlotPoint::new(time, error)) + egui::vec2(-RADIUS, RADIUS);
-        let mut rect = Align2::RIGHT_TOP.anchor_size(corner, galley.size());
+        let at = transform.position_from_point(&PlotPoint::new(time, error));
+        let mut rect = Align2::RIGHT_TOP.anchor_size(at + egui::vec2(-RADIUS, RADIUS), galley.size());
+        if rect.left() < transform.frame().left() {
+            rect = Align2::LEFT_TOP.anchor_size(at + egui::Vec2::splat(RADIUS), galley.size());
+        }
         while let Some(other) = taken.iter().find(|other| other.intersects(rect)) {
             rect = rect.translate(egui::vec2(0.0, other.bottom() - rect.top() + 1.0));
         }

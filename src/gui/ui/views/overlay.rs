@@ -274,8 +274,10 @@ fn over_cycle(
     (unit, period): (f64, f64),
     cx: &DrawContext<'_>,
 ) {
-    let traces: Vec<_> =
-        curves.iter().map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour }).collect();
+    let traces: Vec<_> = curves
+        .iter()
+        .map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, behind: false })
+        .collect();
     let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
     let word = title.split(',').next().unwrap_or(title);
     let (traces, phase) = (&traces[..], cx.state.view.phase);

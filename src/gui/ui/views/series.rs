@@ -16,6 +16,8 @@ pub(super) struct Trace<'a> {
     /// Added to the values.
     pub(super) offset: f64,
     pub(super) colour: Color32,
+    /// Of the run that this one is compared with: dashed.
+    pub(super) behind: bool,
 }
 
 /// A small chart over the cycle.
@@ -62,7 +64,8 @@ impl Series<'_> {
                 let point =
                     |phase: f64| [phase * scale, (trace.offset + trace.curve.at(phase + trace.lag)) / self.unit];
                 let points: Vec<_> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
-                plot.line(line(&points, trace.colour, 1.6, LineStyle::Solid));
+                let style = if trace.behind { LineStyle::dashed_dense() } else { LineStyle::Solid };
+                plot.line(line(&points, trace.colour, 1.6, style));
                 plot.points(dots(vec![point(self.phase)], trace.colour, 3.5));
             }
         });

@@ -10,6 +10,7 @@ use crate::digits::{capitalised, short, significant};
 use crate::estimate::Estimate;
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
+use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::ui::cache::once;
@@ -89,7 +90,7 @@ impl Plotted<'_> {
         }
         let unit = self.quantity.unit(self.sweep.problem());
         let name = capitalised(self.quantity.words());
-        let value = row.numbers.text(self.quantity);
+        let value = raised(&row.numbers.text(self.quantity));
         lines.push(if value.is_empty() { format!("{name}: none") } else { format!("{name} {value} {unit}") });
         match &row.status {
             RunStatus::Converged if row.stopped_by == Some(StoppedBy::Budget) => {

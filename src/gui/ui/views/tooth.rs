@@ -54,8 +54,9 @@ pub(super) fn draw(
         lag,
         offset: -first.motor.spacing(),
         colour: quiet,
+        behind: true,
     });
-    let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text };
+    let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text, behind: false };
     let [low, high] = before.iter().chain([&present]).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], trace| {
         let [least, most] = trace.curve.range().map(|value| value + trace.offset);
         [low.min(least), high.max(most)]
@@ -73,13 +74,13 @@ pub(super) fn draw(
         phase: shown.phase(),
     };
     series.show(ui, style, (gap_chart, gutter), cx);
-    let trace = |curve, lag, colour| Trace { curve, lag, offset: 0.0, colour };
-    let before = first.map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, quiet)));
+    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
+    let before =
+        first.map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, quiet, true)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
-    let present = present.map(|(curve, colour)| trace(curve, lag, colour));
+    let present = present.map(|(curve, colour)| trace(curve, lag, colour, false));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
-    let mut legend = vec![("contact", style.palette.contact), ("film", style.palette.film)];
-    legend.extend(behind);
+    let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
         name: "Loads over the cycle",
