@@ -16,7 +16,7 @@ use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 use std::collections::BTreeMap;
 
-/// What a lesson says, of which run, which number, its value, and how exact it is meant, relative.
+/// What a lesson says, of which run, which number, its value, and how accurate it is meant, relative.
 type Claim = (usize, &'static str, &'static str, &'static [&'static str], &'static str, f64, f64);
 
 const SMALL: &str = "plate.amplitude_um=0.1";

@@ -56,7 +56,7 @@ pub trait Scene {
     /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
     fn most_work(&self) -> f64;
 
-    /// Whether the headline is as exact as was asked, or further grids would not make it so.
+    /// Whether the headline is as accurate as was asked, or further grids would not make it so.
     fn settled(&self, found: &Found<Self::Level>) -> bool;
 }
 
@@ -146,7 +146,7 @@ impl<L: State> Found<L> {
     }
 }
 
-/// What a solve by all of its grids gives, and what it would without the finest: the less these differ, the more exact are both.
+/// What a solve by all of its grids gives, and what it would without the finest: the less these differ, the more accurate are both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nested<T> {
     /// By all grids.

@@ -159,7 +159,7 @@ pub struct PlateResult {
     pub film_load_min: Estimate,
     /// Greatest gauge force in the cycle \[N; of a strip N/m\].
     pub film_load_max: Estimate,
-    /// Least film thickness \[m\]; of a plate that floats it is as exact as its mean gap, of others exact.
+    /// Least film thickness \[m\]; of a plate that floats it is as accurate as its mean gap, of others exact.
     pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: Estimate,

@@ -6,7 +6,7 @@
 //!
 //! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next. How exact a
 //! start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The way is marched to its end on the grids
-//! that the periodic state needed; then the cycles up to the last that is not yet as exact as was asked are marched again on grids of
+//! that the periodic state needed; then the cycles up to the last that is not yet as accurate as was asked are marched again on grids of
 //! half the spacing, and so on.
 
 use crate::control::Cancel;
@@ -149,7 +149,7 @@ pub fn startup(
     Ok(way.end(&plan, stopped, cancel))
 }
 
-/// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as exact as
+/// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as accurate as
 /// was asked; coarse ones if there is a budget.
 fn plan(problem: &Problem, settings: &Settings, steps: usize, cancel: &Cancel) -> Result<Plan, SolveError> {
     // A transient leaks: there is no limit to take.
@@ -289,7 +289,7 @@ impl<'a> Way<'a> {
         Ok(false)
     }
 
-    /// The last cycle that finer grids would make as exact as `allowed`, and are needed to.
+    /// The last cycle that finer grids would make as accurate as `allowed`, and are needed to.
     fn unresolved(&self, allowed: f64) -> Option<usize> {
         self.errors.iter().rposition(|(error, elsewhere)| *error > allowed && *elsewhere < allowed).map(|last| last + 1)
     }

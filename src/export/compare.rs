@@ -33,7 +33,7 @@ pub fn status(run: &ComparedRun) -> String {
     }
 }
 
-/// How a solve ended, if that is to be known at once: it did not converge, or had not the time to become as exact as was asked for.
+/// How a solve ended, if that is to be known at once: it did not converge, or had not the time to become as accurate as was asked for.
 pub fn mark(run: &ComparedRun) -> String {
     match &run.solved {
         Ok(solution) if solution.status == Status::Converged && solution.accuracy.stopped_by == StoppedBy::Budget => {

@@ -5,7 +5,7 @@
 //! of slope −1/2 near touching, where a peak as narrow as √(h − a) carries all, −2 of trapped gas far away (F ≈ 1.25 p_a A (a/h)²), and up
 //! to −6 of a viscous film. So ln F(x) is followed by the secant, within a bracket: below, the gap at which the plate rests on its
 //! roughness; above, that at which no film could carry as much, since P is nowhere more than the greatest gap leaves in the least. First
-//! on coarse grids, then on those that the accuracy asks for, each solve started from the last. The gap is as exact as the load is:
+//! on coarse grids, then on those that the accuracy asks for, each solve started from the last. The gap is as accurate as the load is:
 //! its error is that of the load over |dF/dh|.
 
 use super::level::Level;

@@ -164,7 +164,7 @@ impl Scene for Search<'_> {
         }
     }
 
-    /// Small, so that spring and damping are as exact as the mean.
+    /// Small, so that spring and damping are as accurate as the mean.
     fn width_aim(&self) -> f64 {
         0.02
     }

@@ -125,7 +125,7 @@ impl Pair {
     /// That of tooth 0 which shows `tooth`.
     fn lagged(recording: &Recording, tooth: usize, place: f64) -> Self {
         let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
-        // Whole frames apart, so that a tooth a whole number of frames ahead is as exact as tooth 0.
+        // Whole frames apart, so that a tooth a whole number of frames ahead is as accurate as tooth 0.
         let shift = tooth * frames;
         Self::at(recording, place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64)
     }

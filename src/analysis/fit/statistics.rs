@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-/// Singular values below this share of the largest are taken for nothing: differences of solves are no more exact.
+/// Singular values below this share of the largest are taken for nothing: differences of solves are no more accurate.
 const RANK: f64 = 1e-4;
 
 /// What the derivatives J of (computed/error) tell of the unknowns x.

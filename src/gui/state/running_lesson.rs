@@ -112,7 +112,7 @@ impl RunningLesson {
         let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
         let quoted = || readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?)));
         if work.stage(step) != Stage::Task {
-            // What the text quotes becomes as exact as what is on screen. (A plate in the hand has moved on.)
+            // What the text quotes becomes as accurate as what is on screen. (A plate in the hand has moved on.)
             let refines = |done: &Arc<SolvedScene>| done.scene == run.scene && done.fidelity < run.fidelity;
             if !task.check.live().any(Live::is_done_by_hand) && self.done.as_ref().is_some_and(refines) {
                 work.readings = quoted().collect();

@@ -290,7 +290,7 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
             Target::Accuracy(share) => {
                 ("Accuracy", 100.0 * share, " %", ACCURACY, "The cheapest with at most this error")
             }
-            Target::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
+            Target::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most accurate within this time"),
         };
         let label = glossary::term(ui, name, name);
         let speed = 0.01 * value;
