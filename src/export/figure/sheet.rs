@@ -21,10 +21,10 @@ const LINE: f64 = 1.32;
 const RULED: f64 = 1.9;
 const AXES: f64 = 6.5;
 const INDENT: f64 = 1.4;
-/// A heading keeps as much with it, and a paragraph as much of its own and for each choice that follows it.
-const HEADING_WITH: f64 = 10.0;
-const TEXT_WITH: f64 = 2.5;
-const CHOICE: f64 = 2.0;
+/// Above a heading, a paragraph and a choice.
+const ABOVE: [f64; 3] = [0.8, 0.25, 0.2];
+/// Size of a heading.
+const HEADING: f64 = 1.15;
 
 /// A part of a sheet, below what comes before it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,21 +70,17 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
 fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     let mut setter = Setter { pages: vec![Svg::default()], column: 0, y: MARGIN, size };
     for (i, piece) in sheet.iter().enumerate() {
+        let [heading, paragraph, choice] = ABOVE;
+        setter.keep(together(&sheet[i..], size));
         match piece {
             Piece::Title(text) => setter.words(text, 0.0, 1.6, Colour::FILM, 0.0),
-            Piece::Heading(text) => {
-                setter.keep(HEADING_WITH * size);
-                setter.words(text, 0.0, 1.15, Colour::BLACK, 0.8);
-            }
-            Piece::Text(text) => {
-                setter.keep(kept_with_text(&sheet[i + 1..]) * size);
-                setter.words(text, 0.0, 1.0, Colour::BLACK, 0.25);
-            }
-            Piece::Answer(text) => setter.words(text, 0.0, 1.0, Colour::FILM, 0.25),
+            Piece::Heading(text) => setter.words(text, 0.0, HEADING, Colour::BLACK, heading),
+            Piece::Text(text) => setter.words(text, 0.0, 1.0, Colour::BLACK, paragraph),
+            Piece::Answer(text) => setter.words(text, 0.0, 1.0, Colour::FILM, paragraph),
             Piece::Choice(text, ticked) => {
                 let indent = INDENT * size;
                 let colour = if *ticked { Colour::FILM } else { Colour::BLACK };
-                setter.words(text, indent, 1.0, colour, 0.2);
+                setter.words(text, indent, 1.0, colour, choice);
                 setter.tick(text, indent, *ticked);
             }
             Piece::Room(lines) => setter.ruled(*lines),
@@ -94,14 +90,28 @@ fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     setter.pages.into_iter().map(|page| page.body).collect()
 }
 
-/// The height of what a paragraph keeps with it of what comes `next`, its choices or axes, and of itself.
-fn kept_with_text(next: &[Piece]) -> f64 {
-    match next.first() {
-        Some(Piece::Axes(_)) => TEXT_WITH + AXES + 2.0,
-        Some(Piece::Choice(..)) => {
-            TEXT_WITH + CHOICE * next.iter().take_while(|piece| matches!(piece, Piece::Choice(..))).count() as f64
+/// The height \[pt\] of the first of these pieces and of what is not parted from it: a heading from what it is about, a paragraph from its choices, its
+/// axes or the room for what it asks.
+fn together(pieces: &[Piece], size: f64) -> f64 {
+    let [heading, paragraph, choice] = ABOVE;
+    let words = |text: &str, indent: f64, scale: f64, above: f64| {
+        let lines = wrapped(text, scale * size, Setter::width() - indent * size).len();
+        (above + lines as f64 * LINE * scale) * size
+    };
+    let Some((first, next)) = pieces.split_first() else { return 0.0 };
+    match (first, next.first()) {
+        (Piece::Heading(text), _) => words(text, 0.0, HEADING, heading) + together(next, size),
+        (Piece::Text(text), Some(Piece::Choice(..) | Piece::Axes(_) | Piece::Room(_))) => {
+            words(text, 0.0, 1.0, paragraph) + together(next, size)
         }
-        _ => 0.0,
+        (Piece::Text(text), _) => words(text, 0.0, 1.0, paragraph),
+        (Piece::Choice(text, _), after) => {
+            let rest = if let Some(Piece::Choice(..)) = after { together(next, size) } else { 0.0 };
+            words(text, INDENT, 1.0, choice) + rest
+        }
+        (Piece::Axes(_), _) => (AXES + 2.0) * size,
+        (Piece::Room(lines), _) => *lines as f64 * RULED * size,
+        (Piece::Title(_) | Piece::Answer(_), _) => 0.0,
     }
 }
 
@@ -239,14 +249,14 @@ mod tests {
     }
 
     #[test]
-    fn a_question_keeps_its_choices_and_a_sketch_its_axes() {
+    fn a_heading_keeps_its_question_a_question_its_choices_and_a_sketch_its_axes() {
         let choices = ["one", "two", "three"].map(|choice| Piece::Choice(choice.to_owned(), false));
         let axes = [Piece::Axes(["along".to_owned(), "up".to_owned()])];
         let mut moved = false;
         for before in 30..75 {
             for (with, last) in [(&choices[..], "three"), (&axes[..], "up")] {
                 let mut sheet = vec![Piece::Text("a line".to_owned()); before];
-                sheet.push(Piece::Text("ask".to_owned()));
+                sheet.extend([Piece::Heading("head".to_owned()), Piece::Text("ask".to_owned())]);
                 sheet.extend_from_slice(with);
                 let page = &set(&sheet, SIZES[0])[0];
                 let in_second = |word: &str| {
@@ -254,7 +264,8 @@ mod tests {
                     let x = page[..place].rsplit("<text x=\"").next().unwrap().split('"').next().unwrap();
                     x.parse::<f64>().unwrap() > 0.5 * PAGE[0]
                 };
-                assert_eq!(in_second("ask"), in_second(last), "{last} after {before} lines");
+                let parts = ["head", "ask", last].map(in_second);
+                assert!(parts == [true; 3] || parts == [false; 3], "{last} after {before} lines: {parts:?}");
                 moved |= in_second("ask");
             }
         }
