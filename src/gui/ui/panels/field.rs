@@ -12,7 +12,7 @@ use eframe::egui::{self, Id, Key};
 /// Significant digits of a number that is not being edited; with the cursor in the field it has all.
 const DIGITS: usize = 6;
 /// Bytes of a text beyond which it stays on one line, so that it does not fill the panel.
-const LONGEST_WRAPPED: usize = 300;
+const LONGEST_WRAPPED: usize = 400;
 
 /// Text that differs from the scene.
 #[derive(Clone, Debug)]
