@@ -20,20 +20,25 @@ const CLOSE: f64 = 2e-3;
 /// As [`NewMotor::of`].
 pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
     let least = NewMotor::of(answers)?;
+    let wanted = [(Quantity::StallTorque, "stall-torque-nm"), (Quantity::NoLoadSpeed, "no-load-speed-rpm")]
+        .map(|(quantity, name)| Some((quantity, asked(answers, name)?)));
+    if wanted == [None, None] {
+        return Ok(least);
+    }
     let (mut motor, mut factors) = (least.clone(), Factors::LEAST);
     for _ in 0..SOLVES {
         let Some(solved) = solved(&motor.scene, cancel) else { break };
-        let missed = |quantity, name| {
-            let asked = asked(answers, name)?;
+        // A rotor that floats has no torque, and more friction gives it none.
+        let missed = wanted.map(|wanted| {
+            let Some((quantity, asked)) = wanted else { return Some(1.0) };
             Some(asked / solved.get(quantity).filter(|found| *found > 0.0)?)
-        };
-        let torque = missed(Quantity::StallTorque, "stall-torque-nm");
-        let speed = missed(Quantity::NoLoadSpeed, "no-load-speed-rpm");
-        if [torque, speed].into_iter().flatten().all(|ratio| (ratio - 1.0).abs() < CLOSE) {
+        });
+        let [Some(torque), Some(speed)] = missed else { break };
+        if (torque - 1.0).abs().max((speed - 1.0).abs()) < CLOSE {
             return Ok(motor);
         }
-        factors.friction *= torque.unwrap_or(1.0);
-        factors.amplitude *= speed.unwrap_or(1.0);
+        factors.friction *= torque;
+        factors.amplitude *= speed;
         let Ok(next) = NewMotor::with(answers, factors) else { break };
         motor = next;
     }
@@ -65,6 +70,9 @@ mod tests {
         let motor = agreeing(&answers, &Cancel::new()).unwrap();
         let [torque, speed] = of(&motor);
         assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
+        // Pressed on so lightly that it floats, a motor has no torque.
+        let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n", "20".to_owned())]));
+        assert_eq!(agreeing(&light, &Cancel::new()), NewMotor::of(&light));
         // One that would need more friction than there is keeps the least.
         let strong: Answers = [("stall-torque-nm", "8.5")].map(|(name, value)| (name, value.to_owned())).into();
         let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();

@@ -12,7 +12,12 @@ use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
+use crate::platform::timed;
 use crate::scene::new_motor::Answers;
+use std::time::Duration;
+
+/// How long each of the few solves of a new motor may take: the window waits for them. Usual are some milliseconds.
+const NEW_MOTOR: Duration = Duration::from_millis(100);
 
 impl Updater {
     /// Changes the state as `command` says.
@@ -30,7 +35,7 @@ impl Updater {
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),
             Command::NewMotor => state.modal = Some(Modal::NewMotor(Answers::new())),
-            Command::MakeNewMotor(answers) => match agreeing(&answers, &Cancel::new()) {
+            Command::MakeNewMotor(answers) => match agreeing(&answers, &timed(&Cancel::new(), NEW_MOTOR)) {
                 Ok(motor) => self.proceed(Next::New(Box::new(motor.scene))),
                 Err(wrong) => state.fail(wrong),
             },

@@ -259,8 +259,8 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), &judged);
 }
 
-/// Names of the fidelities, below and left of their points, right of them at the edge, where a point of the front has no other; names that would lie on each other, one
-/// below the other.
+/// Names of the fidelities, below and left of their points, right of them at the edge, where a point of the front has no other; names that
+/// would lie on each other, one below the other.
 fn names(ui: &egui::Ui, tradeoff: &Tradeoff, transform: &PlotTransform, cx: &DrawContext<'_>) {
     let painter = ui.painter_at(*transform.frame());
     let (font, colour) = (TextStyle::Body.resolve(ui.style()), style(Family::Fidelity, cx).1);
