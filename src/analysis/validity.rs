@@ -56,6 +56,12 @@ pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
     names
 }
 
+/// What is said beside a headline: `outside the limits of the model: sound, thinness`; nothing if there are none.
+pub fn beside_headline(exceeded: &[Excess]) -> Option<String> {
+    let names: Vec<String> = names(exceeded).iter().map(|name| name.replace('-', " ")).collect();
+    (!names.is_empty()).then(|| format!("outside the limits of the model: {}", names.join(", ")))
+}
+
 fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
     let result = solution.and_then(|solution| match solution.outcome {
         Outcome::Motor(result) => Some(result),

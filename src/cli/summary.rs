@@ -6,7 +6,7 @@ use crate::analysis::exact::{Comparison, units};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
-use crate::analysis::validity::Excess;
+use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{as_given, duration, percent, short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -22,7 +22,8 @@ const DIGITS: usize = 4;
 
 /// The whole summary.
 pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary: &Summary) -> String {
-    let mut text = paragraph(&format!("{}: {}", name(scene), status(summary)), "", "");
+    let outside = beside_headline(&summary.validity).map_or_else(String::new, |words| format!("; {words}"));
+    let mut text = paragraph(&format!("{}: {}{outside}", name(scene), status(summary)), "", "");
     if !scene.about.is_empty() {
         text.push_str(&paragraph(&scene.about, "", ""));
     }

@@ -4,7 +4,7 @@ use super::{convergence, model};
 use crate::analysis::exact::{slow_damping, units};
 use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
-use crate::analysis::validity::Excess;
+use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{capitalised, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -32,6 +32,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         ui.spacing_mut().item_spacing.y = 4.0;
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);
+        cx.warn(ui, beside_headline(&run.validity).as_slice());
         let shown = Shown { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
         match (&run.problem.scenario, &run.solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, &shown, motor, result, cx),
