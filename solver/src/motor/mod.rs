@@ -412,7 +412,9 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let mut recording = level.recording(motor, plan, &coarser, plan.maps);
     let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
-    recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
+    let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
+    // A pressure changes by what is left out also where the mean load has no share of it.
+    recording.judge_series(of_gas, of_gas.max(plan.left_out));
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
     let alpha = result.alpha.value;
@@ -429,11 +431,12 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
 pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let frames = recording.frames as f64;
     let (loads, errors) = (&recording.film_load, &recording.film_load_error);
-    let load = |greater| recording.extreme(LineLoads::film_loads, loads, errors, greater);
+    let load = |greater| recording.extreme(LineLoads::film_loads, loads, errors, greater, f64::INFINITY);
     let (pressures, errors) = (&recording.max_pressure, &recording.max_pressure_error);
-    let max_pressure = recording.extreme(LineLoads::max_pressures, pressures, errors, f64::max);
+    let max_pressure = recording.extreme(LineLoads::max_pressures, pressures, errors, f64::max, f64::INFINITY);
     let (thicknesses, errors) = (&recording.min_film_thickness, &recording.min_film_thickness_error);
-    let min_film_thickness = recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min);
+    let min_film_thickness =
+        recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min, motor.min_spacing);
     let levitated = recording.teeth_in_contact.iter().all(|&teeth| teeth == 0);
     let teeth_in_contact = Estimate {
         value: recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames,

@@ -69,7 +69,8 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
     let estimate = stated(plate, plan, found);
     let elsewhere = (estimate.error - of_grids(found).error).max(0.0);
-    recording.judge_series(elsewhere / gas_force(plate, estimate.value));
+    let of_gas = elsewhere / gas_force(plate, estimate.value);
+    recording.judge_series(of_gas, of_gas);
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
     let [least, most, highest] = width_errors(plate, found);

@@ -10,7 +10,7 @@ impl PlateResult {
     pub fn of(recording: &Recording) -> Self {
         type Series = fn(&LineLoads) -> Vec<f64>;
         let extreme = |series: Series, found: &[f64], errors: &[f64], greater: fn(f64, f64) -> f64| {
-            let Estimate { value, error } = recording.extreme(series, found, errors, greater);
+            let Estimate { value, error } = recording.extreme(series, found, errors, greater, f64::INFINITY);
             Estimate { value, error: error + between_frames(found, greater) }
         };
         let (loads, errors) = (&recording.film_load, &recording.film_load_error);

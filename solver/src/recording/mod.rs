@@ -12,7 +12,7 @@ use std::ops::{Deref, DerefMut};
 
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
 /// nodes, and comes closer with the first order only.
-const PEAK: f64 = 6.0;
+const PEAK: f64 = 8.0;
 /// Least error of a series at any instant, over the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
@@ -141,9 +141,9 @@ impl Recording {
         }
     }
 
-    /// Errors of the series, frame by frame: that of the fields there, from what they are judged by, and `everywhere`, the relative error
-    /// of the gas's force that no grid shows.
-    pub fn judge_series(&mut self, everywhere: f64) {
+    /// Errors of the series, frame by frame: that of the fields there, from what they are judged by, and what no grid shows, the relative errors
+    /// `of_gas`, the gas's force, and `of_pressure`, the highest one.
+    pub fn judge_series(&mut self, of_gas: f64, of_pressure: f64) {
         let [before, finest] = &self.yardsticks[..] else { return };
         type Series = fn(&LineLoads) -> Vec<f64>;
         let errors = |found: &[f64], series: Series, factor: f64, everywhere: &dyn Fn(f64) -> f64| {
@@ -158,29 +158,31 @@ impl Recording {
         };
         let ambient: f64 = finest.ambient.iter().zip(&finest.node_length).map(|(force, length)| force * length).sum();
         let gas = ambient * self.teeth as f64;
-        self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| everywhere * (gas + load));
-        self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| everywhere * p);
+        self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| of_gas * (gas + load));
+        self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| of_pressure * p);
         let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, 1.0, &|_| 0.0);
         let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
     }
 
-    /// An extreme of a series, with by how much it differs on what this recording is judged by, or the error of the series there.
+    /// An extreme of a series, none of which is beyond `bound`. Its error is by how much it differs on what this recording is judged by, or by
+    /// how much any instant may be beyond it by the error of the series there.
     pub fn extreme(
         &self,
         series: impl Fn(&LineLoads) -> Vec<f64>,
         found: &[f64],
         errors: &[f64],
         greater: fn(f64, f64) -> f64,
+        bound: f64,
     ) -> Estimate {
         let extreme = |values: &[f64]| values.iter().copied().reduce(greater).unwrap_or(0.0);
         let value = extreme(found);
         let [before, finest] = &self.yardsticks[..] else { return Estimate { value, error: f64::INFINITY } };
-        let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
+        let beyond = found.iter().zip(errors).map(|(found, error)| error - (value - found).abs()).fold(0.0, f64::max);
         // Extremes between two frames: the change from twice the steps counts in full.
         let off = |grid| (value - extreme(&series(grid))).abs();
-        Estimate { value, error: off(before).max(there.unwrap_or(0.0)).max(off(finest)) }
+        Estimate { value, error: beyond.min((bound - value).abs()).max(off(before)).max(off(finest)) }
     }
 
     /// Mean over the cycle of the number of teeth whose film is at most `touching` thick \[m\], or would be if it were thinner by its
