@@ -1,7 +1,7 @@
 //! Derivatives of the results, and random scenes, in the background.
 
-use super::task::{Started, Task, Wake};
-use super::work::{Work, shared};
+use super::task::Task;
+use super::work::Work;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -21,8 +21,10 @@ fn one_more(count: &AtomicUsize, all: usize) -> f64 {
 /// A scene, as it is sent to the thread or worker that computes its derivatives.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Derivatives {
-    scene: Scene,
-    settings: Settings,
+    /// The scene.
+    pub scene: Scene,
+    /// How it is solved.
+    pub settings: Settings,
 }
 
 impl Work for Derivatives {
@@ -48,11 +50,14 @@ impl Work for Derivatives {
 /// Random scenes, as they are sent to the thread or worker that solves them.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Draws {
-    #[serde(with = "shared")]
-    sensitivity: Arc<Sensitivity>,
-    uncertainties: Uncertainties,
-    draws: usize,
-    seed: u64,
+    /// The scene, solved.
+    pub sensitivity: Arc<Sensitivity>,
+    /// How uncertain its keys are.
+    pub uncertainties: Uncertainties,
+    /// How many random scenes are solved.
+    pub draws: usize,
+    /// Where the random numbers begin.
+    pub seed: u64,
 }
 
 impl Work for Draws {
@@ -70,25 +75,4 @@ impl Work for Draws {
     fn ended() -> Self::Found {
         None
     }
-}
-
-/// Starts to compute the derivatives of the results of `scene` by every key that they depend on.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn sensitivity(scene: Scene, settings: Settings, wake: impl Wake) -> Started<Derivatives> {
-    Task::of(Derivatives { scene, settings }, wake)
-}
-
-/// Starts to solve `draws` random scenes.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn monte_carlo(
-    sensitivity: Arc<Sensitivity>,
-    uncertainties: Uncertainties,
-    (draws, seed): (usize, u64),
-    wake: impl Wake,
-) -> Started<Draws> {
-    Task::of(Draws { sensitivity, uncertainties, draws, seed }, wake)
 }

@@ -17,9 +17,6 @@ pub use super::work::{News, Wake};
 /// The task that does the work `W`.
 pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
 
-/// A task that was started, or why it cannot be done in the background.
-pub type Started<W> = std::io::Result<TaskOf<W>>;
-
 /// All messages of a task and its end, for tests.
 #[cfg(test)]
 pub(super) fn to_the_end<M: Send + 'static, R: Send + 'static>(task: &Task<M, R>) -> (Vec<M>, Result<R, String>) {
