@@ -72,26 +72,22 @@ impl Comparison {
             _ => String::new(),
         };
         let words = match self.operator {
-            Operator::Less => "below",
-            Operator::AtMost => "at most",
-            Operator::More => "above",
-            Operator::AtLeast => "at least",
+            Operator::Less => "below ",
+            Operator::AtMost => "at most ",
+            Operator::More => "above ",
+            Operator::AtLeast => "at least ",
             Operator::Equal => "",
-            Operator::About => "about",
+            Operator::About => "about ",
         };
-        let space = if words.is_empty() { "" } else { " " };
         let to = match self.operator {
             Operator::About if self.within != ABOUT => format!(" to {} %", short(100.0 * self.within, DIGITS)),
             _ => String::new(),
         };
         let apart = (DIGITS..MOST_DIGITS).find(|digits| short(left, *digits) != short(right, *digits));
         let [is, wanted] = [left, right].map(|value| short(value, apart.unwrap_or(MOST_DIGITS)));
-        (!self.holds(left, right))
-            .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}{to}"))
+        (!self.holds(left, right)).then(|| format!("{subject} is {is}{unit}, and should be {words}{wanted}{unit}{to}"))
     }
-}
 
-impl Comparison {
     fn holds(&self, left: f64, right: f64) -> bool {
         let off = (left - right).abs();
         match self.operator {

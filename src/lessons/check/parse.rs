@@ -2,7 +2,7 @@
 
 use super::comparison::{ABOUT, Comparison, Expression, Operator};
 use super::name::{Name, UnknownName, name};
-use crate::scene::{Parameter, ParameterKind, Scene};
+use crate::scene::{ParameterKind, Scene};
 
 /// Most levels of nested brackets.
 const DEEPEST: usize = 32;
@@ -192,40 +192,8 @@ impl Reader<'_> {
             self.at += 1;
             within = *share;
         }
-        let comparison = Comparison { left, operator: *operator, right, within, words: words.join(" ") };
-        self.types(&comparison)?;
-        Ok(comparison)
-    }
-
-    /// Checks the types: a key whose value is a word is compared by `=` with one of its words, everything else with numbers.
-    fn types(&self, comparison: &Comparison) -> Result<(), CheckError> {
-        let accepted = |parameter: &Parameter| parameter.accepts();
-        if let Expression::Name { name: Name::Key(parameter), start: false } = comparison.left {
-            let is_number = parameter.range().is_some();
-            match (&comparison.right, comparison.operator) {
-                (Expression::Text(value), Operator::Equal) => {
-                    let fits = match parameter.kind {
-                        ParameterKind::Choice { options, .. } => options.contains(&value.as_str()),
-                        ParameterKind::Flag { .. } => ["true", "false"].contains(&value.as_str()),
-                        _ => parameter.absent.is_some() && value == "none",
-                    };
-                    let no_choice = || CheckError::NoChoice {
-                        name: parameter.key,
-                        value: value.clone(),
-                        expected: accepted(parameter),
-                    };
-                    return if fits { Ok(()) } else { Err(no_choice()) };
-                }
-                _ if !is_number => {
-                    return Err(CheckError::NoNumber { name: parameter.key, expected: accepted(parameter) });
-                }
-                _ => {}
-            }
-        }
-        for side in [&comparison.left, &comparison.right] {
-            numeric(side)?;
-        }
-        Ok(())
+        types(&left, *operator, &right)?;
+        Ok(Comparison { left, operator: *operator, right, within, words: words.join(" ") })
     }
 
     fn sum(&mut self) -> Result<Expression, CheckError> {
@@ -258,9 +226,7 @@ impl Reader<'_> {
             Token::Text(text) => Expression::Text(text.clone()),
             Token::Name(text) if text == "true" || text == "false" => Expression::Text(text.clone()),
             Token::Name(text) if text == "abs" && self.takes(&Token::Sign('(')) => {
-                let inside = self.sum()?;
-                self.close()?;
-                Expression::Absolute(Box::new(inside))
+                Expression::Absolute(Box::new(self.bracketed()?))
             }
             Token::Name(text) => {
                 let (start, text) = text.strip_prefix("start.").map_or((false, text.as_str()), |rest| (true, rest));
@@ -271,11 +237,7 @@ impl Reader<'_> {
                 Expression::Name { name, start }
             }
             Token::Sign('-') => Expression::Negative(Box::new(self.factor()?)),
-            Token::Sign('(') => {
-                let inside = self.sum()?;
-                self.close()?;
-                inside
-            }
+            Token::Sign('(') => self.bracketed()?,
             Token::Sign(_) | Token::Operator(..) | Token::And => {
                 self.at -= 1;
                 return Err(self.unexpected(VALUE));
@@ -285,9 +247,27 @@ impl Reader<'_> {
         Ok(factor)
     }
 
-    fn close(&mut self) -> Result<(), CheckError> {
-        if self.takes(&Token::Sign(')')) { Ok(()) } else { Err(self.unexpected("expected )")) }
+    /// What is in a bracket that has been opened.
+    fn bracketed(&mut self) -> Result<Expression, CheckError> {
+        let inside = self.sum()?;
+        if self.takes(&Token::Sign(')')) { Ok(inside) } else { Err(self.unexpected("expected )")) }
     }
+}
+
+/// Checks the types of a comparison: a key whose value is a word is compared by `=` with one of its words, everything else with numbers.
+fn types(left: &Expression, operator: Operator, right: &Expression) -> Result<(), CheckError> {
+    if let Expression::Name { name: Name::Key(parameter), start: false } = left
+        && let (Operator::Equal, Expression::Text(value)) = (operator, right)
+    {
+        let fits = match parameter.kind {
+            ParameterKind::Choice { options, .. } => options.contains(&value.as_str()),
+            ParameterKind::Flag { .. } => ["true", "false"].contains(&value.as_str()),
+            _ => parameter.absent.is_some() && value == "none",
+        };
+        let (name, value, expected) = (parameter.key, value.clone(), parameter.accepts());
+        return if fits { Ok(()) } else { Err(CheckError::NoChoice { name, value, expected }) };
+    }
+    numeric(left).and_then(|()| numeric(right))
 }
 
 fn numeric(expression: &Expression) -> Result<(), CheckError> {
