@@ -9,7 +9,7 @@
 //! of a result f. Monte Carlo draws the keys and solves every draw by the same plan, so that the error of the grids is nearly the same in all of
 //! them and does not add to their spread. It is stated beside the uncertainty, never in it.
 
-use super::attempt::caught;
+use super::attempt::told;
 use super::exact::{Harmonic, solved, units};
 use super::quantity::{Numbers, Quantity, labelled};
 use super::variation::{Column, Jacobian, Slope, Variation, VariationError};
@@ -328,10 +328,7 @@ impl Sensitivity {
 }
 
 fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<f64>, String> {
-    let found = caught(|| centre.solve(problem, cancel))
-        .map_err(|panic| format!("the solver failed: {panic}"))?
-        .map_err(|error| error.to_string())?;
-    let found = found.ok_or("it has no periodic state on the grids of the scene")?;
+    let found = told(|| centre.solve(problem, cancel))?.ok_or("it has no periodic state on the grids of the scene")?;
     Ok(values(problem, &found.fine))
 }
 

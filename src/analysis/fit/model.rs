@@ -171,6 +171,11 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(rows)
     }
 
+    /// The same at one point, solved as asked: `[condition][asked]`.
+    pub(super) fn at_one(&self, x: &[f64], cancel: &Cancel) -> Option<Vec<Vec<Computed>>> {
+        self.at(&[x.to_vec()], &self.settings, cancel)?.pop()
+    }
+
     /// The same by drafts.
     pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
         self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
@@ -257,19 +262,17 @@ impl<'a> Model<'a> {
 /// What is asked of a solution.
 fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Computed> {
     let numbers = Numbers::of(problem, solution);
-    let motor = match (&problem.scenario, &solution.outcome) {
-        (Scenario::Motor(motor), Outcome::Motor(result)) => Some((motor, result)),
-        _ => None,
-    };
-    let speeds: Vec<f64> = match motor {
-        Some((motor, _)) => {
-            asked.iter().filter_map(|what| speed(*what).map(|speed| speed / rpm(1.0, motor.contact_radius))).collect()
+    let mut curve = Vec::new();
+    if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) {
+        let speed = |what: &Observable| match what {
+            Observable::Torque { speed_rpm } => Some(speed_rpm / rpm(1.0, motor.contact_radius)),
+            Observable::Number(_) => None,
+        };
+        let speeds: Vec<f64> = asked.iter().filter_map(speed).collect();
+        if !speeds.is_empty() {
+            curve = Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve;
         }
-        None => Vec::new(),
-    };
-    let curve = motor.filter(|_| !speeds.is_empty()).map_or_else(Vec::new, |(motor, result)| {
-        Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve
-    });
+    }
     let mut curve = curve.into_iter();
     let none = || "the scene has no such number".to_owned();
     asked
@@ -279,11 +282,4 @@ fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Com
             Observable::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
         })
         .collect()
-}
-
-fn speed(what: Observable) -> Option<f64> {
-    match what {
-        Observable::Torque { speed_rpm } => Some(speed_rpm),
-        Observable::Number(_) => None,
-    }
 }

@@ -166,7 +166,6 @@ struct Search<'a> {
     model: &'a Model<'a>,
     goal: &'a Goal,
     size: f64,
-    settings: Settings,
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
@@ -185,7 +184,7 @@ type Outcome = (f64, Vec<f64>);
 struct Stopped;
 
 impl Search<'_> {
-    fn at(&self, x: &[f64]) -> Result<Option<(f64, Vec<f64>)>, Stopped> {
+    fn at(&self, x: &[f64]) -> Result<Option<Outcome>, Stopped> {
         // The library may look beyond the bounds.
         let x: Vec<f64> = x.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
@@ -194,8 +193,8 @@ impl Search<'_> {
         {
             return Ok(found.clone());
         }
-        let solved = self.model.at(std::slice::from_ref(&x), &self.settings, self.cancel).ok_or(Stopped)?;
-        let found = self.goal.judge(&solved[0][0], self.size);
+        let solved = self.model.at_one(&x, self.cancel).ok_or(Stopped)?;
+        let found = self.goal.judge(&solved[0], self.size);
         let mut tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
         tried.0 += 1;
         if let Some((cost, beyond)) = &found
@@ -278,7 +277,6 @@ pub fn optimise(
             model: &model,
             goal,
             size,
-            settings: *settings,
             lower: vec![0.0; count],
             upper: vec![1.0; count],
             cancel,
@@ -296,8 +294,8 @@ pub fn optimise(
         };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
         // Of limits that are kept to a thousandth of their value.
-        let Some(solved) = model.at(std::slice::from_ref(&x), settings, cancel) else { return Ok(None) };
-        let Some((cost, beyond)) = goal.judge(&solved[0][0], size) else { continue };
+        let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
+        let Some((cost, beyond)) = goal.judge(&solved[0], size) else { continue };
         let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
         if reached.as_ref().is_none_or(|best| cost < best.0) {
             reached = Some((cost, x, ended.cost_evals() < MOST_POINTS));

@@ -114,15 +114,10 @@ impl Axis {
     /// [`SweepError`], which names the key, the value and what is allowed.
     pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
         let key = &vary.key;
-        let parameter = match Parameter::find(key) {
-            Some(parameter) => parameter,
+        let Some(parameter) = Parameter::find(key) else {
             // Setting it tells what is wrong with it.
-            None => {
-                return match scene.clone().set(key, "0") {
-                    Err(error) => Err(error.into()),
-                    Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
-                };
-            }
+            scene.clone().set(key, "0")?;
+            return Err(SweepError::Syntax { found: key.clone() });
         };
         let count = match &vary.values {
             Values::Range { count, .. } => *count,
