@@ -43,18 +43,14 @@ pub enum Output {
     Damping,
 }
 
-const OF_MOTOR: [Output; 3] =
-    [Output::Number(Quantity::Alpha), Output::Number(Quantity::StallTorque), Output::Number(Quantity::NoLoadSpeed)];
-const OF_PLATE: [Output; 3] = [Output::Number(Quantity::FilmLoad), Output::Stiffness, Output::Damping];
-const OF_FLOATING: [Output; 3] = [Output::Number(Quantity::MeanGap), Output::Stiffness, Output::Damping];
-
 impl Output {
     /// Those of a problem, the headline first.
     pub fn of(problem: &Problem) -> &'static [Self] {
+        use Quantity::{Alpha, FilmLoad, MeanGap, NoLoadSpeed, StallTorque};
         match &problem.scenario {
-            Scenario::Motor(_) => &OF_MOTOR,
-            Scenario::Plate(plate) if plate.load.is_some() => &OF_FLOATING,
-            Scenario::Plate(_) => &OF_PLATE,
+            Scenario::Motor(_) => &[Self::Number(Alpha), Self::Number(StallTorque), Self::Number(NoLoadSpeed)],
+            Scenario::Plate(plate) if plate.load.is_some() => &[Self::Number(MeanGap), Self::Stiffness, Self::Damping],
+            Scenario::Plate(_) => &[Self::Number(FilmLoad), Self::Stiffness, Self::Damping],
         }
     }
 
@@ -126,9 +122,9 @@ pub enum SensitivityError {
     /// The keys.
     #[error(transparent)]
     Keys(#[from] VariationError),
-    /// An uncertainty.
-    #[error(transparent)]
-    Uncertainty(#[from] UncertaintyError),
+    /// An uncertainty that means nothing for its key.
+    #[error("{0}")]
+    Uncertainty(String),
     /// The solver.
     #[error(transparent)]
     Solve(#[from] SolveError),
@@ -421,37 +417,10 @@ impl Uncertainty {
     }
 }
 
-/// What is wrong with an uncertainty.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum UncertaintyError {
-    /// No number.
-    #[error(
-        "uncertainty {found}: expected a standard deviation above 0 in the unit of the key or in per cent, as 10 or 20%, or limits, as ±10"
-    )]
-    Syntax {
-        /// What was given.
-        found: String,
-    },
-    /// A share of a key that is zero, or has no natural zero.
-    #[error(
-        "uncertainty of {key} = {found}: its value is {at} {unit}, of which a share means nothing; give it in {unit}"
-    )]
-    Share {
-        /// The key.
-        key: &'static str,
-        /// What was given.
-        found: String,
-        /// Its value.
-        at: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
-}
-
 impl FromStr for Uncertainty {
-    type Err = UncertaintyError;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, UncertaintyError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let bare = text.trim();
         let limits = bare.strip_prefix('±').or_else(|| bare.strip_prefix("+-"));
         let number = limits.unwrap_or(bare);
@@ -461,7 +430,10 @@ impl FromStr for Uncertainty {
                 let amount = if relative { amount / 100.0 } else { amount };
                 Ok(Self { amount, relative, shape: if limits.is_some() { Shape::Uniform } else { Shape::Normal } })
             }
-            _ => Err(UncertaintyError::Syntax { found: text.to_owned() }),
+            _ => Err(format!(
+                "uncertainty {text}: expected a standard deviation above 0 in the unit of the key or in per cent, as 10 or 20%, or limits, \
+                 as ±10"
+            )),
         }
     }
 }
@@ -497,7 +469,9 @@ impl Uncertainties {
             given.relative && (*at == 0.0 || parameter.unit == "°C")
         };
         if let Some((Parameter { key, unit, .. }, at, given)) = found.iter().find(meaningless) {
-            return Err(UncertaintyError::Share { key, found: given.to_string(), at, unit }.into());
+            return Err(SensitivityError::Uncertainty(format!(
+                "uncertainty of {key} = {given}: its value is {at} {unit}, of which a share means nothing; give it in {unit}"
+            )));
         }
         Ok(found)
     }

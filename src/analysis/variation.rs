@@ -47,28 +47,9 @@ pub enum VariationError {
     /// An unknown key, or one that the scene does not have.
     #[error("{0}")]
     Scene(#[from] SceneError),
-    /// A key that has no derivative.
-    #[error("{}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}", parameter.key, parameter.accepts(), allowed.join(", "))]
-    NotANumber {
-        /// The key.
-        parameter: &'static Parameter,
-        /// The keys that have one.
-        allowed: Vec<&'static str>,
-    },
-    /// A key without a value.
-    #[error("{key}: it is not given in this scene; allowed here: {}", allowed.join(", "))]
-    Absent {
-        /// The key.
-        key: &'static str,
-        /// The keys that are given.
-        allowed: Vec<&'static str>,
-    },
-    /// A key named twice.
-    #[error("{key}: given twice: the keys have to differ")]
-    Twice {
-        /// The key.
-        key: &'static str,
-    },
+    /// A key that has no derivative, has no value, or is named twice; the key, and what is allowed.
+    #[error("{0}")]
+    Key(String),
 }
 
 /// What a derivative was taken over.
@@ -141,7 +122,7 @@ impl Variation {
     /// [`VariationError`], which names the key and what is allowed.
     pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, VariationError> {
         let all = Self::all(scene).parameters;
-        let allowed = || all.iter().map(|parameter| parameter.key).collect();
+        let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
         let mut parameters: Vec<&'static Parameter> = Vec::new();
         for key in keys.iter().map(AsRef::as_ref) {
             // Setting it tells what is wrong with it.
@@ -152,14 +133,21 @@ impl Variation {
                 continue;
             };
             if !matches!(parameter.kind, ParameterKind::Number { .. }) || parameter.table() == "numerics" {
-                return Err(VariationError::NotANumber { parameter, allowed: allowed() });
+                return Err(VariationError::Key(format!(
+                    "{key}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}",
+                    parameter.accepts(),
+                    allowed()
+                )));
             }
             if !all.contains(&parameter) {
                 set?;
-                return Err(VariationError::Absent { key: parameter.key, allowed: allowed() });
+                let allowed = allowed();
+                return Err(VariationError::Key(format!(
+                    "{key}: it is not given in this scene; allowed here: {allowed}"
+                )));
             }
             if parameters.contains(&parameter) {
-                return Err(VariationError::Twice { key: parameter.key });
+                return Err(VariationError::Key(format!("{key}: given twice: the keys have to differ")));
             }
             parameters.push(parameter);
         }

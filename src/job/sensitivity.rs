@@ -1,6 +1,5 @@
 //! Derivatives of the results, and random scenes, in the background.
 
-use super::task::Task;
 use super::work::Work;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
 use crate::control::Cancel;
@@ -9,9 +8,6 @@ use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A task whose messages are the share that is done, 0 to 1. Its result is `None` if it was cancelled.
-pub type Finding<T> = Task<f64, Option<T>>;
 
 /// Counts one more solve. Returns the share of all that is done.
 fn one_more(count: &AtomicUsize, all: usize) -> f64 {
@@ -29,17 +25,17 @@ pub struct Derivatives {
 
 impl Work for Derivatives {
     const NAME: &'static str = "sensitivity";
+    /// The share that is done, 0 to 1.
     type Message = f64;
+    /// The derivatives, or why there are none; `None` if it was cancelled.
     type Found = Option<Result<Box<Sensitivity>, String>>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
         let count = AtomicUsize::new(0);
         let solved = |all: usize| tell(one_more(&count, all));
         let none: [&str; 0] = [];
-        match Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved) {
-            Ok(found) => found.map(|found| Ok(Box::new(found))),
-            Err(error) => Some(Err(error.to_string())),
-        }
+        let found = Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved);
+        found.map(|found| found.map(Box::new)).map_err(|error| error.to_string()).transpose()
     }
 
     fn ended() -> Self::Found {
@@ -62,7 +58,9 @@ pub struct Draws {
 
 impl Work for Draws {
     const NAME: &'static str = "monte-carlo";
+    /// The share that is done, 0 to 1.
     type Message = f64;
+    /// `None` if it was cancelled.
     type Found = Option<MonteCarlo>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {

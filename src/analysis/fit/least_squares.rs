@@ -219,7 +219,10 @@ pub fn fit(
         let left_out = fault.map_or_else(String::new, |why| {
             format!(" ({} of {} could not be computed at the start: {why})", first.len() - used.len(), first.len())
         });
-        return Err(FitError::TooFew { measurements: used.len(), unknowns, left_out });
+        return Err(FitError::Input(format!(
+            "measurements: {}, keys varied: {unknowns}; give at least as many measurements as keys, or vary fewer{left_out}",
+            used.len()
+        )));
     }
     let tried = Mutex::new((0, f64::INFINITY));
     let search = |fixed: &[Option<Bound>]| Search {

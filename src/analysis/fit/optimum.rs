@@ -2,7 +2,7 @@
 
 use super::Tell;
 use super::error::FitError;
-use super::measured::{Observable, named, names};
+use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
 use super::starts::{best, spread};
 use super::unknown::{Bound, Bounds, Unknown};
@@ -52,10 +52,9 @@ impl FromStr for Limit {
     type Err = FitError;
 
     fn from_str(text: &str) -> Result<Self, FitError> {
-        let fault = || FitError::Option {
-            option: "subject-to",
-            found: show_text(text),
-            expected: "name<value or name>value, as in alpha<0.3",
+        let fault = || {
+            let found = show_text(text);
+            FitError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
         };
         let below = text.contains('<');
         let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
@@ -92,11 +91,7 @@ impl Goal {
     pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, FitError> {
         let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
-            named(&problem, name).ok_or_else(|| FitError::Number {
-                option,
-                found: show_text(name),
-                allowed: names(&problem),
-            })
+            named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
         };
         let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
         let limits = limits.collect::<Result<Vec<_>, FitError>>()?;
