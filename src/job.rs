@@ -96,8 +96,6 @@ pub enum Event {
     Done {
         /// The request's number.
         number: u64,
-        /// Whether it was cancelled before its last fidelity.
-        cancelled: bool,
     },
 }
 

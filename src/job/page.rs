@@ -130,7 +130,7 @@ impl Shared {
     fn end(&mut self) {
         if let Some(Running { number, .. }) = self.running.take() {
             self.line = None;
-            self.tell(Event::Done { number, cancelled: true });
+            self.tell(Event::Done { number });
         }
     }
 }
@@ -167,7 +167,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
     let next = running.left.pop_front().filter(|_| !newer);
     let Some(fidelity) = next else {
         this.running = None;
-        this.tell(Event::Done { number, cancelled: newer });
+        this.tell(Event::Done { number });
         drop(this);
         return advance(shared);
     };
@@ -187,7 +187,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
     if let Err(error) = asked {
         this.running = None;
         this.tell(Event::Failed { number, message: format!("there is no worker that solves: {error}") });
-        this.tell(Event::Done { number, cancelled: false });
+        this.tell(Event::Done { number });
     }
 }
 

@@ -119,15 +119,15 @@ fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
                 slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
             }
         };
-        let cancelled = !refine(number, &request, &mut warm, &cancel, now, tell);
+        refine(number, &request, &mut warm, &cancel, now, tell);
         shared.lock().running = None;
-        if !tell(Event::Done { number, cancelled }) {
+        if !tell(Event::Done { number }) {
             return;
         }
     }
 }
 
-/// Solves at every fidelity of the request; false if cancelled.
+/// Solves at every fidelity of the request, until it is cancelled or one fails.
 fn refine(
     number: u64,
     request: &Request,
@@ -135,10 +135,10 @@ fn refine(
     cancel: &Cancel,
     now: fn() -> Instant,
     tell: &dyn Fn(Event) -> bool,
-) -> bool {
+) {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
-            return false;
+            return;
         }
         let mut history = Vec::new();
         let warm = warm.entry(fidelity).or_default();
@@ -147,7 +147,7 @@ fn refine(
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
         match found {
-            None => return false,
+            None => return,
             Some(Ok(timed)) => {
                 let Request { scene, problem, .. } = request;
                 let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
@@ -155,11 +155,10 @@ fn refine(
             }
             Some(Err(message)) => {
                 tell(Event::Failed { number, message });
-                return true;
+                return;
             }
         }
     }
-    true
 }
 
 #[cfg(test)]
@@ -178,7 +177,7 @@ mod tests {
         let mut seen = Vec::new();
         for _ in 0..6000 {
             seen.extend(solver.drain());
-            if seen.iter().any(|event| matches!(event, Event::Done { number: n, .. } if *n == number)) {
+            if seen.iter().any(|event| matches!(event, Event::Done { number: n } if *n == number)) {
                 return seen;
             }
             std::thread::sleep(Duration::from_millis(10));
@@ -234,7 +233,7 @@ mod tests {
         std::thread::sleep(Duration::from_millis(50));
         solver.cancel();
         let events = until_done(&solver, number);
-        assert!(matches!(events.last(), Some(Event::Done { cancelled: true, .. })));
+        assert!(!events.iter().any(|event| matches!(event, Event::Solved(_))));
         solver.submit(request("fundamental", &[Fidelity::Reference]));
         drop(solver);
     }

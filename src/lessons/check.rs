@@ -12,7 +12,6 @@ mod comparison;
 mod name;
 mod parse;
 
-pub use comparison::ABOUT;
 pub use name::{Name, Ran, UnknownName, name};
 pub use parse::CheckError;
 

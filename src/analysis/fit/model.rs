@@ -106,11 +106,6 @@ impl<'a> Model<'a> {
         self
     }
 
-    /// The scene whose keys are chosen.
-    pub fn scene(&self) -> &Scene {
-        self.scene
-    }
-
     /// The keys that are chosen.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns

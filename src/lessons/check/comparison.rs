@@ -6,7 +6,7 @@ use crate::lessons::live::Live;
 use crate::scene::Value;
 
 /// Relative tolerance of `about`, unless the check gives another one.
-pub const ABOUT: f64 = 0.05;
+pub(super) const ABOUT: f64 = 0.05;
 /// Relative tolerance of `=`, `<=` and `>=` between numbers, so that a value that was typed passes.
 const SAME: f64 = 1e-9;
 /// Significant digits in a hint.
