@@ -27,7 +27,6 @@ use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
@@ -328,42 +327,21 @@ fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec
     Ok(values(problem, &found.fine))
 }
 
-/// In bytes: all but what random scenes are solved from.
-type Carried<'a> =
-    (Cow<'a, Variation>, Settings, Status, Cow<'a, [String]>, Cow<'a, [Estimate]>, Cow<'a, [Column]>, Cow<'a, [f64]>);
-
+/// In bytes: all but what random scenes are solved from, and what follows from the scene.
 impl Serialize for Sensitivity {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let carried: Carried<'_> = (
-            Cow::Borrowed(&self.variation),
-            self.settings,
-            self.status,
-            Cow::Borrowed(&self.warnings),
-            Cow::Borrowed(&self.values),
-            Cow::Borrowed(&self.columns),
-            Cow::Borrowed(&self.coarse),
-        );
-        carried.serialize(to)
+        let Self { variation, settings, status, warnings, values, columns, coarse, .. } = self;
+        (variation, settings, status, warnings, values, columns, coarse).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for Sensitivity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let (variation, settings, status, warnings, values, columns, coarse) = Carried::deserialize(from)?;
-        let variation = variation.into_owned();
+        let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
+        let (variation, settings, status, warnings, values, columns, coarse) = carried;
         let problem = Problem::try_from(variation.scene()).map_err(D::Error::custom)?;
-        Ok(Self {
-            variation,
-            settings,
-            outputs: Output::of(&problem),
-            problem,
-            centre: OnceLock::new(),
-            status,
-            warnings: warnings.into_owned(),
-            values: values.into_owned(),
-            columns: columns.into_owned(),
-            coarse: coarse.into_owned(),
-        })
+        let (outputs, centre) = (Output::of(&problem), OnceLock::new());
+        Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
     }
 }
 

@@ -11,8 +11,8 @@ pub use page::Task;
 #[cfg(not(target_arch = "wasm32"))]
 pub use thread::Task;
 
+pub use super::work::News;
 use super::work::Work;
-pub use super::work::{News, Wake};
 
 /// The task that does the work `W`.
 pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
