@@ -141,9 +141,8 @@ impl Staged {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
         let path = self.folder.join(name);
-        if let Err(source) = replaceable(&path) {
-            return Err(WriteError { path, source });
-        }
+        let failed = |source| WriteError { path: path.clone(), source };
+        replaceable(&path).map_err(failed)?;
         let new = self.scratch(self.targets.len(), NEW);
         let written = (|| {
             if !HAS_FILES {
@@ -162,10 +161,8 @@ impl Staged {
             // Some file systems report only now that the disk is full.
             file.sync_data()
         })();
-        match written {
-            Ok(()) => self.targets.push(path),
-            Err(source) => return Err(WriteError { path, source }),
-        }
+        written.map_err(failed)?;
+        self.targets.push(path);
         Ok(())
     }
 

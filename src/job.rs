@@ -43,11 +43,13 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::{Solution, Status, settled};
 use crate::solve::{Settings, solve_from};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 use std::time::Duration;
 
 /// A scene and its solution at one fidelity. It is shared and does not change.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SolvedScene {
     /// The request's number, ascending.
     pub number: u64,
@@ -94,8 +96,6 @@ pub enum Event {
     Done {
         /// The request's number.
         number: u64,
-        /// Whether it was cancelled before its last fidelity.
-        cancelled: bool,
     },
 }
 
@@ -115,18 +115,35 @@ pub struct Request {
 /// A solution, whether the solve started from the fields of an earlier scene, and its wall time \[s\].
 type Timed = (Solution, bool, f64);
 
+/// In bytes: all but the problem and the limits, which follow from the scene and the solution.
+impl Serialize for SolvedScene {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let timed = (&self.solution, self.warm, self.wall_s);
+        (self.number, &self.scene, self.fidelity, timed, &self.history).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for SolvedScene {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (number, scene, fidelity, timed, history) = <(_, Scene, _, _, _)>::deserialize(from)?;
+        let problem = Problem::try_from(&scene).map_err(D::Error::custom)?;
+        Ok(Self::of(number, scene, &problem, fidelity, timed, history))
+    }
+}
+
 impl SolvedScene {
-    /// The result of request `number` at one fidelity, with the residual of each round.
+    /// The result of request `number` at one fidelity, with the residual of each round. `scene` poses `problem`.
     fn of(
         number: u64,
-        Request { scene, problem, .. }: &Request,
+        scene: Scene,
+        problem: &Problem,
         fidelity: Fidelity,
         (solution, warm, wall_s): Timed,
         history: Vec<Progress>,
     ) -> Self {
         Self {
             number,
-            scene: scene.clone(),
+            scene,
             problem: settled(problem, &solution.outcome).into_owned(),
             fidelity,
             validity: outside(problem, Some(&solution)),

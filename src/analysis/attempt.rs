@@ -4,7 +4,7 @@ use crate::control::{Cancel, Observer};
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::solution::{Solution, Status};
-use crate::solve::{Settings, solve_from};
+use crate::solve::{Settings, SolveError, solve_from};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -70,9 +70,15 @@ pub fn attempt_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    caught(|| solve_from(warm, problem, settings, observer, cancel))
-        .map_err(|panic| format!("the solver failed: {panic}"))?
-        .map_err(|error| error.to_string())
+    told(|| solve_from(warm, problem, settings, observer, cancel))
+}
+
+/// What `solve` returns.
+///
+/// # Errors
+/// Its error, or its panic, in words.
+pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
+    caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }
 
 /// What `work` returns.

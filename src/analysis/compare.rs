@@ -14,6 +14,8 @@ use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
 use crate::solution::{Solution, settled};
 use crate::solve::{Settings, SolveError, check};
 use rayon::prelude::*;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -30,7 +32,28 @@ pub struct ComparedRun {
     pub solved: Result<Arc<Solution>, String>,
 }
 
+/// In bytes: all but the problem, which follows from the scene and the solution.
+impl Serialize for ComparedRun {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        (&self.label, &self.scene, &self.solved).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for ComparedRun {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (label, scene, solved) = <(String, Scene, _)>::deserialize(from)?;
+        let problem = Problem::try_from(&scene).map_err(D::Error::custom)?;
+        Ok(Self::new(label, scene, problem, solved))
+    }
+}
+
 impl ComparedRun {
+    /// A run of `problem`, which `scene` poses.
+    pub(crate) fn new(label: String, scene: Scene, problem: Problem, solved: Result<Arc<Solution>, String>) -> Self {
+        let found = solved.as_ref().map_or(Cow::Borrowed(&problem), |solved| settled(&problem, &solved.outcome));
+        Self { label, scene, problem: found.into_owned(), solved }
+    }
+
     /// The numbers; none if it failed.
     pub fn numbers(&self) -> Numbers {
         self.solved.as_ref().map_or_else(|_| Numbers::default(), |solution| Numbers::of(&self.problem, solution))
@@ -80,9 +103,7 @@ pub fn runs(
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
         let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);
-        let found = solved.as_ref().map_or(Cow::Borrowed(&problem), |solved| settled(&problem, &solved.outcome));
-        let problem = found.into_owned();
-        let run = ComparedRun { label, scene: scene.clone(), problem, solved };
+        let run = ComparedRun::new(label, scene.clone(), problem, solved);
         finished(&run);
         run
     });

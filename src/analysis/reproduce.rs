@@ -13,7 +13,7 @@ use crate::scene::{Scene, SceneError, presets};
 use crate::solution::{MotorResult, Outcome, Solution, Status};
 use crate::solve::{Method, Record, Settings};
 use rayon::prelude::*;
-use std::sync::Mutex;
+use std::collections::BTreeMap;
 
 /// A figure of surfaces and pressures: its number, its preset, and what the paper calls it.
 pub const FIELDS: [(u32, &str, &str); 7] = [
@@ -157,15 +157,13 @@ pub fn reproduce(
     let nodes = |work: &Work| work.problem.numerics.film_nodes_along.unwrap_or(0);
     let mut order: Vec<usize> = (0..work.len()).collect();
     order.sort_by_key(|i| (work[*i].settings.method == Method::Auto, std::cmp::Reverse(nodes(&work[*i]))));
-    let solved: Mutex<Vec<Option<Result<Solution, String>>>> = Mutex::new(vec![None; work.len()]);
-    order.into_iter().par_bridge().for_each(|i| {
+    let solve = |i: usize| {
         let result = attempt(&work[i].problem, &work[i].settings, &mut (), cancel);
         finished(&work[i].problem.name);
-        let mut solved = solved.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        solved[i] = Some(result);
-    });
-    let solved = solved.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let mut solved = solved.into_iter().map(|result| result.unwrap_or_else(|| Err("not solved".to_owned())));
+        (i, result)
+    };
+    let solved: BTreeMap<usize, _> = order.into_iter().par_bridge().map(solve).collect();
+    let mut solved = solved.into_values();
     let mut next = || solved.next().unwrap_or_else(|| Err("not solved".to_owned()));
 
     // In the order in which they were put there.

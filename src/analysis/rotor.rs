@@ -7,7 +7,8 @@ use crate::recording::LineLoads;
 use crate::rotor::ring::{Deflection, Mesh, Section};
 use crate::rotor::{self, Compliances, RotorError};
 use crate::scene::Scene;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// Harmonics that are shown, and that the Green's function is the sum of: those of the paper's 180 nodes in a wavelength.
@@ -20,22 +21,11 @@ const PRESENT: &str = "present rotor";
 /// The models beside it: what each is called, and the value of `rotor.model`.
 const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")];
 
-/// One of these names.
-pub type Name = &'static str;
-
-/// One of these names, read from bytes.
-fn known_name<'de, D: Deserializer<'de>>(from: D) -> Result<Name, D::Error> {
-    let found = String::deserialize(from)?;
-    let mut names = OTHERS.into_iter().map(|(name, _)| name);
-    Ok(names.find(|name| *name == found).unwrap_or(PRESENT))
-}
-
 /// One model of the rotor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// What it is called.
-    #[serde(deserialize_with = "known_name")]
-    pub name: Name,
+    pub name: Cow<'static, str>,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub compliance: Vec<f64>,
     /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out) at the nodes of the paper's mesh, λ/180 apart,
@@ -127,7 +117,7 @@ fn curve(name: &'static str, rotor: &Compliances) -> Curve {
         let terms = (1..).zip(&compliance).map(|(n, c)| share(n) * c * (TAU * f64::from(n) * turn).cos());
         [turn * length, 2.0 / length * terms.sum::<f64>()]
     };
-    Curve { name, green: (0..=HARMONICS).map(green).collect(), compliance }
+    Curve { name: name.into(), green: (0..=HARMONICS).map(green).collect(), compliance }
 }
 
 impl Bent {

@@ -9,7 +9,7 @@
 //! of a result f. Monte Carlo draws the keys and solves every draw by the same plan, so that the error of the grids is nearly the same in all of
 //! them and does not add to their spread. It is stated beside the uncertainty, never in it.
 
-use super::attempt::caught;
+use super::attempt::told;
 use super::exact::{Harmonic, solved, units};
 use super::quantity::{Numbers, Quantity, labelled};
 use super::variation::{Column, Jacobian, Slope, Variation, VariationError};
@@ -27,7 +27,6 @@ use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
@@ -43,18 +42,14 @@ pub enum Output {
     Damping,
 }
 
-const OF_MOTOR: [Output; 3] =
-    [Output::Number(Quantity::Alpha), Output::Number(Quantity::StallTorque), Output::Number(Quantity::NoLoadSpeed)];
-const OF_PLATE: [Output; 3] = [Output::Number(Quantity::FilmLoad), Output::Stiffness, Output::Damping];
-const OF_FLOATING: [Output; 3] = [Output::Number(Quantity::MeanGap), Output::Stiffness, Output::Damping];
-
 impl Output {
     /// Those of a problem, the headline first.
     pub fn of(problem: &Problem) -> &'static [Self] {
+        use Quantity::{Alpha, FilmLoad, MeanGap, NoLoadSpeed, StallTorque};
         match &problem.scenario {
-            Scenario::Motor(_) => &OF_MOTOR,
-            Scenario::Plate(plate) if plate.load.is_some() => &OF_FLOATING,
-            Scenario::Plate(_) => &OF_PLATE,
+            Scenario::Motor(_) => &[Self::Number(Alpha), Self::Number(StallTorque), Self::Number(NoLoadSpeed)],
+            Scenario::Plate(plate) if plate.load.is_some() => &[Self::Number(MeanGap), Self::Stiffness, Self::Damping],
+            Scenario::Plate(_) => &[Self::Number(FilmLoad), Self::Stiffness, Self::Damping],
         }
     }
 
@@ -126,9 +121,9 @@ pub enum SensitivityError {
     /// The keys.
     #[error(transparent)]
     Keys(#[from] VariationError),
-    /// An uncertainty.
-    #[error(transparent)]
-    Uncertainty(#[from] UncertaintyError),
+    /// An uncertainty that means nothing for its key.
+    #[error("{0}")]
+    Uncertainty(String),
     /// The solver.
     #[error(transparent)]
     Solve(#[from] SolveError),
@@ -328,49 +323,25 @@ impl Sensitivity {
 }
 
 fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<f64>, String> {
-    let found = caught(|| centre.solve(problem, cancel))
-        .map_err(|panic| format!("the solver failed: {panic}"))?
-        .map_err(|error| error.to_string())?;
-    let found = found.ok_or("it has no periodic state on the grids of the scene")?;
+    let found = told(|| centre.solve(problem, cancel))?.ok_or("it has no periodic state on the grids of the scene")?;
     Ok(values(problem, &found.fine))
 }
 
-/// In bytes: all but what random scenes are solved from.
-type Carried<'a> =
-    (Cow<'a, Variation>, Settings, Status, Cow<'a, [String]>, Cow<'a, [Estimate]>, Cow<'a, [Column]>, Cow<'a, [f64]>);
-
+/// In bytes: all but what random scenes are solved from, and what follows from the scene.
 impl Serialize for Sensitivity {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let carried: Carried<'_> = (
-            Cow::Borrowed(&self.variation),
-            self.settings,
-            self.status,
-            Cow::Borrowed(&self.warnings),
-            Cow::Borrowed(&self.values),
-            Cow::Borrowed(&self.columns),
-            Cow::Borrowed(&self.coarse),
-        );
-        carried.serialize(to)
+        let Self { variation, settings, status, warnings, values, columns, coarse, .. } = self;
+        (variation, settings, status, warnings, values, columns, coarse).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for Sensitivity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let (variation, settings, status, warnings, values, columns, coarse) = Carried::deserialize(from)?;
-        let variation = variation.into_owned();
+        let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
+        let (variation, settings, status, warnings, values, columns, coarse) = carried;
         let problem = Problem::try_from(variation.scene()).map_err(D::Error::custom)?;
-        Ok(Self {
-            variation,
-            settings,
-            outputs: Output::of(&problem),
-            problem,
-            centre: OnceLock::new(),
-            status,
-            warnings: warnings.into_owned(),
-            values: values.into_owned(),
-            columns: columns.into_owned(),
-            coarse: coarse.into_owned(),
-        })
+        let (outputs, centre) = (Output::of(&problem), OnceLock::new());
+        Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
     }
 }
 
@@ -424,37 +395,10 @@ impl Uncertainty {
     }
 }
 
-/// What is wrong with an uncertainty.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum UncertaintyError {
-    /// No number.
-    #[error(
-        "uncertainty {found}: expected a standard deviation above 0 in the unit of the key or in per cent, as 10 or 20%, or limits, as ±10"
-    )]
-    Syntax {
-        /// What was given.
-        found: String,
-    },
-    /// A share of a key that is zero, or has no natural zero.
-    #[error(
-        "uncertainty of {key} = {found}: its value is {at} {unit}, of which a share means nothing; give it in {unit}"
-    )]
-    Share {
-        /// The key.
-        key: &'static str,
-        /// What was given.
-        found: String,
-        /// Its value.
-        at: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
-}
-
 impl FromStr for Uncertainty {
-    type Err = UncertaintyError;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, UncertaintyError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let bare = text.trim();
         let limits = bare.strip_prefix('±').or_else(|| bare.strip_prefix("+-"));
         let number = limits.unwrap_or(bare);
@@ -464,7 +408,10 @@ impl FromStr for Uncertainty {
                 let amount = if relative { amount / 100.0 } else { amount };
                 Ok(Self { amount, relative, shape: if limits.is_some() { Shape::Uniform } else { Shape::Normal } })
             }
-            _ => Err(UncertaintyError::Syntax { found: text.to_owned() }),
+            _ => Err(format!(
+                "uncertainty {text}: expected a standard deviation above 0 in the unit of the key or in per cent, as 10 or 20%, or limits, \
+                 as ±10"
+            )),
         }
     }
 }
@@ -500,7 +447,9 @@ impl Uncertainties {
             given.relative && (*at == 0.0 || parameter.unit == "°C")
         };
         if let Some((Parameter { key, unit, .. }, at, given)) = found.iter().find(meaningless) {
-            return Err(UncertaintyError::Share { key, found: given.to_string(), at, unit }.into());
+            return Err(SensitivityError::Uncertainty(format!(
+                "uncertainty of {key} = {given}: its value is {at} {unit}, of which a share means nothing; give it in {unit}"
+            )));
         }
         Ok(found)
     }

@@ -25,19 +25,17 @@ pub struct Map {
     pub axes: [Edge; 2],
 }
 
-/// A key from one edge of its range to the other.
+/// A key from one edge of its range to the other, by equal ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// Dotted key.
     pub key: &'static str,
-    /// Equal steps or equal ratios.
-    pub scale: Scale,
     /// Mapped up to here only, where a finer grid is no other problem but takes longer.
     pub up_to: Option<f64>,
 }
 
-const fn edge(key: &'static str, scale: Scale) -> Edge {
-    Edge { key, scale, up_to: None }
+const fn edge(key: &'static str) -> Edge {
+    Edge { key, up_to: None }
 }
 
 const SPACING: &str = "film.min_spacing_nm";
@@ -50,30 +48,27 @@ pub const MAPS: [Map; 5] = [
     Map {
         name: "spacing-frequency",
         about: "stiffness of the film against its squeeze number",
-        axes: [edge(SPACING, Scale::Log), edge("stator.frequency_khz", Scale::Log)],
+        axes: [edge(SPACING), edge("stator.frequency_khz")],
     },
     Map {
         name: "load-amplitude",
         about: "from a floating rotor to one pressed flat",
-        axes: [edge("motor.load_per_wave_n", Scale::Log), edge("stator.normal_amplitude_um", Scale::Log)],
+        axes: [edge("motor.load_per_wave_n"), edge("stator.normal_amplitude_um")],
     },
     Map {
         name: "pressure-width",
         about: "from a vacuum to a film that dwarfs the load",
-        axes: [edge("film.ambient_pressure_kpa", Scale::Log), edge("rotor.contact_width_mm", Scale::Log)],
+        axes: [edge("film.ambient_pressure_kpa"), edge("rotor.contact_width_mm")],
     },
     Map {
         name: "steps-spacing",
         about: "steps in time against the stiffness of the film",
-        axes: [
-            Edge { key: "numerics.steps_per_cycle", scale: Scale::Log, up_to: Some(720.0) },
-            edge(SPACING, Scale::Log),
-        ],
+        axes: [Edge { key: "numerics.steps_per_cycle", up_to: Some(720.0) }, edge(SPACING)],
     },
     Map {
         name: "grid-tooth",
         about: "nodes along a tooth (across it and of the contact in proportion) against its width",
-        axes: [Edge { key: NODES, scale: Scale::Log, up_to: Some(201.0) }, edge("stator.tooth_width_mm", Scale::Log)],
+        axes: [Edge { key: NODES, up_to: Some(201.0) }, edge("stator.tooth_width_mm")],
     },
 ];
 
@@ -86,16 +81,14 @@ impl Map {
     /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` leaves the key. Fewer of a key
     /// of whole numbers that has no more.
     pub fn values(&self, axis: usize, scene: &Scene, count: usize) -> Vec<f64> {
-        let Edge { key, scale, up_to } = self.axes[axis];
+        let Edge { key, up_to } = self.axes[axis];
         let Some(Range { min, max }) = scene.range(key) else { return Vec::new() };
         let max = up_to.unwrap_or(max).min(max);
-        let mut values = match scale {
-            Scale::Log if min <= 0.0 => {
-                let mut values = vec![min];
-                values.extend(spaced(max * 10f64.powi(-DECADES_FROM_ZERO), max, count.saturating_sub(1), scale));
-                values
-            }
-            _ => spaced(min, max, count, scale),
+        let spaced = |min: f64, count: usize| spaced(min, max, count, Scale::Log);
+        let mut values = if min <= 0.0 {
+            [vec![min], spaced(max * 10f64.powi(-DECADES_FROM_ZERO), count.saturating_sub(1))].concat()
+        } else {
+            spaced(min, count)
         };
         if matches!(Parameter::find(key).map(|p| p.kind), Some(ParameterKind::Whole { .. })) {
             values.iter_mut().for_each(|value| *value = value.round());

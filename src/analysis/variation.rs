@@ -13,7 +13,7 @@
 //! Where p is at an end of its range, or a rule between keys has no room on one side, D is one-sided, (4 f(h) − f(2h) − 3 f(0))/2h,
 //! and its error the difference to (f(h) − f(0))/h.
 
-use super::attempt::caught;
+use super::attempt::told;
 use crate::control::Cancel;
 use crate::ladder::Nested;
 use crate::problem::{Problem, RotorCompliance, Scenario};
@@ -47,28 +47,9 @@ pub enum VariationError {
     /// An unknown key, or one that the scene does not have.
     #[error("{0}")]
     Scene(#[from] SceneError),
-    /// A key that has no derivative.
-    #[error("{}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}", parameter.key, parameter.accepts(), allowed.join(", "))]
-    NotANumber {
-        /// The key.
-        parameter: &'static Parameter,
-        /// The keys that have one.
-        allowed: Vec<&'static str>,
-    },
-    /// A key without a value.
-    #[error("{key}: it is not given in this scene; allowed here: {}", allowed.join(", "))]
-    Absent {
-        /// The key.
-        key: &'static str,
-        /// The keys that are given.
-        allowed: Vec<&'static str>,
-    },
-    /// A key named twice.
-    #[error("{key}: given twice: the keys have to differ")]
-    Twice {
-        /// The key.
-        key: &'static str,
-    },
+    /// A key that has no derivative, has no value, or is named twice; the key, and what is allowed.
+    #[error("{0}")]
+    Key(String),
 }
 
 /// What a derivative was taken over.
@@ -141,7 +122,7 @@ impl Variation {
     /// [`VariationError`], which names the key and what is allowed.
     pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, VariationError> {
         let all = Self::all(scene).parameters;
-        let allowed = || all.iter().map(|parameter| parameter.key).collect();
+        let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
         let mut parameters: Vec<&'static Parameter> = Vec::new();
         for key in keys.iter().map(AsRef::as_ref) {
             // Setting it tells what is wrong with it.
@@ -152,14 +133,21 @@ impl Variation {
                 continue;
             };
             if !matches!(parameter.kind, ParameterKind::Number { .. }) || parameter.table() == "numerics" {
-                return Err(VariationError::NotANumber { parameter, allowed: allowed() });
+                return Err(VariationError::Key(format!(
+                    "{key}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}",
+                    parameter.accepts(),
+                    allowed()
+                )));
             }
             if !all.contains(&parameter) {
                 set?;
-                return Err(VariationError::Absent { key: parameter.key, allowed: allowed() });
+                let allowed = allowed();
+                return Err(VariationError::Key(format!(
+                    "{key}: it is not given in this scene; allowed here: {allowed}"
+                )));
             }
             if parameters.contains(&parameter) {
-                return Err(VariationError::Twice { key: parameter.key });
+                return Err(VariationError::Key(format!("{key}: given twice: the keys have to differ")));
             }
             parameters.push(parameter);
         }
@@ -194,25 +182,16 @@ impl Variation {
         self.parameters.iter().map(|parameter| number(parameter).unwrap_or(f64::NAN)).collect()
     }
 
-    /// The scene with other values of the keys, in their units.
+    /// What is to be solved at other values of the keys, in their units.
     ///
     /// # Errors
     /// A value out of the range of its key, or a broken rule between keys.
-    pub fn scene_at(&self, values: &[f64]) -> Result<Scene, SceneError> {
+    pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
         let mut scene = self.scene.clone();
         for (parameter, value) in self.parameters.iter().zip(values) {
             scene.set_value(parameter.key, Value::Number(*value))?;
         }
-        scene.check()?;
-        Ok(scene)
-    }
-
-    /// What is to be solved at these values.
-    ///
-    /// # Errors
-    /// As [`Self::scene_at`].
-    pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
-        Problem::try_from(&self.scene_at(values)?)
+        Problem::try_from(&scene)
     }
 
     /// The derivatives, at `values`, of the numbers that `numbers` reads from a problem and its solution, which has no pressure maps.
@@ -227,50 +206,34 @@ impl Variation {
         solved: &(dyn Fn(usize) + Sync),
     ) -> Option<Jacobian> {
         let middle = read(&centre.problem, &centre.solved, numbers);
-        let unsettled = (!centre.is_settled()).then(|| "the scene itself is not converged".to_owned());
-        let plan = |column| match &unsettled {
-            None => self.steps(values, column),
-            why => Steps { step: f64::NAN, sides: Sides::Both, points: Vec::new(), refused: why.clone() },
+        let plan = |column| {
+            if centre.is_settled() {
+                return self.steps(values, column);
+            }
+            let points = Err("the scene itself is not converged".to_owned());
+            Steps { step: f64::NAN, sides: Sides::Both, points }
         };
         let plans: Vec<_> = (0..self.parameters.len()).map(plan).collect();
-        let jobs: Vec<(usize, usize)> = plans
-            .iter()
-            .enumerate()
-            .flat_map(|(column, plan)| (0..plan.points.len()).map(move |i| (column, i)))
-            .collect();
-        let of = |(column, i): &(usize, usize)| {
-            let problem = &plans[*column].points[*i];
-            let found = caught(|| centre.solve(problem, cancel));
+        let jobs: Vec<&Problem> = plans.iter().flat_map(|plan| &plan.points).flatten().collect();
+        let of = |problem: &&Problem| {
+            let found = told(|| centre.solve(problem, cancel));
             solved(jobs.len());
-            match found {
-                Ok(Ok(Some(found))) => Ok(read(problem, &found, numbers)),
-                Ok(Ok(None)) => Err("a solve beside it has no periodic state on the same grids".to_owned()),
-                Ok(Err(error)) => Err(error.to_string()),
-                Err(panic) => Err(format!("the solver failed: {panic}")),
-            }
+            let found = found?.ok_or("a solve beside it has no periodic state on the same grids")?;
+            Ok(read(problem, &found, numbers))
         };
         let mut found: Vec<Result<Nested<Vec<f64>>, String>> = jobs.par_iter().map(of).collect();
         if cancel.is_cancelled() {
             return None;
         }
-        let columns = plans.into_iter().enumerate().map(|(column, plan)| {
-            let points: Result<Vec<_>, String> = found.drain(..plan.points.len()).collect();
-            let slopes = match (plan.refused, points) {
-                (Some(why), _) => Err(why),
-                (None, points) => points.map(|points| {
-                    let smooth = plan.points.iter().all(|point| same_elements(point, &centre.problem));
-                    let one_sided = if plan.sides == Sides::Both { 1.0 } else { 4.0 };
-                    let relative = centre.left_out() / plan.step * if smooth { STEP } else { one_sided };
-                    slopes(plan.sides, plan.step, relative, &middle, &points)
-                }),
-            };
-            Column {
-                parameter: self.parameters[column],
-                at: values[column],
-                step: plan.step,
-                sides: plan.sides,
-                slopes,
-            }
+        let columns = plans.iter().enumerate().map(|(column, Steps { step, sides, points })| {
+            let slopes = points.as_ref().map_err(Clone::clone).and_then(|points| {
+                let solved = found.drain(..points.len()).collect::<Result<Vec<_>, String>>()?;
+                let smooth = points.iter().all(|point| same_elements(point, &centre.problem));
+                let one_sided = if *sides == Sides::Both { 1.0 } else { 4.0 };
+                let relative = centre.left_out() / step * if smooth { STEP } else { one_sided };
+                Ok(slopes(*sides, *step, relative, &middle, &solved))
+            });
+            Column { parameter: self.parameters[column], at: values[column], step: *step, sides: *sides, slopes }
         });
         let columns = columns.collect();
         Some(Jacobian { numbers: middle, columns })
@@ -287,23 +250,22 @@ impl Variation {
             check(&problem, &Settings::default()).map_err(|error| error.to_string())?;
             Ok(problem)
         };
-        let mut refused = None;
+        let mut refused = String::new();
         for (sides, steps) in [(Sides::Both, &BOTH[..]), (Sides::Above, &ABOVE), (Sides::Below, &BELOW)] {
             match steps.iter().map(|steps| at(*steps)).collect() {
-                Ok(points) => return Steps { step, sides, points, refused: None },
-                Err(why) => refused = Some(why),
+                Ok(points) => return Steps { step, sides, points: Ok(points) },
+                Err(why) => refused = why,
             }
         }
-        Steps { step, sides: Sides::Both, points: Vec::new(), refused }
+        Steps { step, sides: Sides::Both, points: Err(refused) }
     }
 }
 
-/// The problems beside the middle.
+/// The problems beside the middle, or why there are none.
 struct Steps {
     step: f64,
     sides: Sides,
-    points: Vec<Problem>,
-    refused: Option<String>,
+    points: Result<Vec<Problem>, String>,
 }
 
 /// What a change of a key is relative to, in its unit: its value, of a temperature from absolute zero; of a key that is zero, a share of what
@@ -450,15 +412,5 @@ mod tests {
         let tolerance = one_sided.step_error + (continued - before.value).abs();
         assert!((one_sided.value - continued).abs() < tolerance, "{one_sided:?} {before:?} {earlier:?}");
         assert!(one_sided.step_error < 0.05 * one_sided.value.abs(), "{one_sided:?}");
-    }
-
-    #[test]
-    fn the_number_of_threads_changes_no_bit() {
-        let keys = ["film.min_spacing_nm", "motor.load_per_wave_n", "rotor.decay_length_mm"];
-        let by = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| jacobian(&presets::find("fundamental").unwrap(), &keys))
-        };
-        assert_eq!(by(1), by(2));
     }
 }

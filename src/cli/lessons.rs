@@ -5,7 +5,7 @@ use super::interrupt::cancel_on_interrupt;
 use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};
-use crate::export::figure::Piece;
+use crate::export::figure::{Piece, sheets_to_pdf};
 use crate::gui::state::lessons::window_names;
 use crate::lessons::record::RecordError;
 use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
@@ -113,7 +113,7 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
             lessons.iter().map(|lesson| handout::sheet(lesson, answers, &cancel)).collect();
         let sheets = sheets.map_err(CliError::Answers)?;
         let html = handout::to_html(title, &sheets).into_bytes();
-        let pdf = handout::to_pdf(title, &sheets)?;
+        let pdf = sheets_to_pdf(title, &sheets)?;
         for (bytes, extension) in [(html, "html"), (pdf, "pdf")] {
             staged.add(format!("{name}.{extension}"), |file| file.write_all(&bytes))?;
         }

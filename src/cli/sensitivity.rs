@@ -71,7 +71,7 @@ pub(super) struct Arguments {
 
 fn uncertainty(text: &str) -> Result<(String, Uncertainty), String> {
     let (key, amount) = pair(text)?;
-    Ok((key, amount.parse().map_err(|error: crate::analysis::sensitivity::UncertaintyError| error.to_string())?))
+    Ok((key, amount.parse()?))
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {

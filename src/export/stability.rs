@@ -5,7 +5,7 @@ use crate::analysis::stability::{Cell, Edge, VERDICTS, Verdict};
 use crate::digits::as_given;
 use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
 use crate::fidelity::Fidelity;
-use crate::scene::{Parameter, Scale};
+use crate::scene::Parameter;
 use crate::solve::Method;
 use serde::Serialize;
 
@@ -146,7 +146,7 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
     figure
 }
 
-/// An axis, and where its values are drawn. On a logarithmic axis zero has a place of its own, below the others.
+/// A logarithmic axis, and where its values are drawn. Zero has a place of its own, below the others.
 fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
     let mut found: Vec<(usize, f64)> = values.collect();
     found.sort_by_key(|(place, _)| *place);
@@ -155,20 +155,18 @@ fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<
     let mut axis = match Parameter::find(edge.key) {
         Some(parameter) => Axis::new(parameter.words(), parameter.unit),
         None => Axis::new(edge.key, ""),
-    };
-    if edge.scale == Scale::Log {
-        axis = axis.log();
-        if let [zero, first, second, ..] = values[..]
-            && zero <= 0.0
-        {
-            let stand_in = first * first / second;
-            axis.names.push((stand_in, "0".to_owned()));
-            // Decades from the first of the others, which keep their values.
-            let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
-            let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
-            axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, as_given(at).to_string())));
-            values[0] = stand_in;
-        }
+    }
+    .log();
+    if let [zero, first, second, ..] = values[..]
+        && zero <= 0.0
+    {
+        let stand_in = first * first / second;
+        axis.names.push((stand_in, "0".to_owned()));
+        // Decades from the first of the others, which keep their values.
+        let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
+        let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
+        axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, as_given(at).to_string())));
+        values[0] = stand_in;
     }
     (axis, values)
 }

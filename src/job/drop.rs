@@ -1,6 +1,6 @@
 //! A plate that is dropped on its vibration, in the background. Each cycle is sent when it has been computed.
 
-use super::task::{Started, Task, TaskOf, Wake};
+use super::task::TaskOf;
 use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::fall::{CYCLES, Cycle, Fall, fall};
@@ -12,8 +12,10 @@ use serde::{Deserialize, Serialize};
 /// A drop, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Dropping {
-    posed: Posed,
-    fidelity: Fidelity,
+    /// The plate, with what it floats on.
+    pub posed: Posed,
+    /// The fidelity of its grids and steps.
+    pub fidelity: Fidelity,
 }
 
 /// A drop in the background.
@@ -34,12 +36,4 @@ impl Work for Dropping {
     fn ended() -> Self::Found {
         Ok(Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()) })
     }
-}
-
-/// Drops the plate of a scene.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(posed: Posed, fidelity: Fidelity, wake: impl Wake) -> Started<Dropping> {
-    Task::of(Dropping { posed, fidelity }, wake)
 }

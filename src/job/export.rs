@@ -1,9 +1,8 @@
 //! Files, made in the background: the same code and the same names as those of the command line.
 
-use super::fit;
-use super::pin::Found;
 use super::task::TaskOf;
-use super::work::{Posed, Work, shared};
+use super::work::{Posed, Work};
+use super::{SolvedScene, fit};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
@@ -11,7 +10,7 @@ use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::tradeoff::Tradeoff;
 use crate::atomic::write_file;
-use crate::control::{Cancel, Progress};
+use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Solved};
@@ -20,7 +19,6 @@ use crate::export::sweep::{figure_of, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
 use crate::fidelity::Fidelity;
 use crate::lessons::record::{self, Record};
-use crate::solution::{Solution, settled};
 use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -28,21 +26,6 @@ use std::sync::Arc;
 
 /// Formats of the figures beside data: those of the command line without `--figures`.
 pub const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
-
-/// A run, with all that its files contain.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Ran {
-    /// The scene.
-    pub posed: Posed,
-    /// The fidelity that it was solved at.
-    pub fidelity: Fidelity,
-    /// Its solution.
-    pub solution: Solution,
-    /// Wall time of the solve \[s\].
-    pub wall_s: f64,
-    /// Residual of each round, all grids, in order.
-    pub history: Vec<Progress>,
-}
 
 /// Which files of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,7 +78,6 @@ pub struct Picture {
     /// Pixels across and down.
     pub size: [u32; 2],
     /// Red, green and blue of each pixel, row by row from the top.
-    #[serde(with = "shared")]
     pub rgb: Arc<Vec<u8>>,
 }
 
@@ -103,28 +85,21 @@ pub struct Picture {
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Content {
     /// One run.
-    Run(OfRun, Box<Ran>),
+    Run(OfRun, Box<SolvedScene>),
     /// Several runs.
-    Runs(OfRuns, Vec<Found>),
+    Runs(OfRuns, Vec<ComparedRun>),
     /// A sweep, and its rows.
-    Sweep(OfSweep, #[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
+    Sweep(OfSweep, Arc<Sweep>, Vec<Row>),
     /// Sensitivities, the uncertainties of keys, random scenes, and the fidelity of all of them.
-    Sensitivity(#[serde(with = "shared")] Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>, Fidelity),
+    Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>, Fidelity),
     /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
-    Fit(String, Box<Posed>, #[serde(with = "shared")] Arc<fit::Found>),
+    Fit(String, Box<Posed>, Arc<fit::Found>),
     /// Error against time of the scene of this name.
     Tradeoff(OfTradeoff, String, Tradeoff),
     /// The record of what a student did.
     Answers(Vec<Record>),
     /// A picture of the window.
     Picture(Picture),
-}
-
-impl Content {
-    /// Several runs.
-    pub fn of_runs(files: OfRuns, runs: &[ComparedRun]) -> Self {
-        Self::Runs(files, runs.iter().map(Found::of).collect())
-    }
 }
 
 /// Files to be made, as they are sent to the thread or worker that makes them.
@@ -164,14 +139,9 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
     let one = || vec![path.to_owned()];
     Ok(match content {
         Content::Run(what, run) => of_run(what, path, &run, control)?,
-        Content::Runs(what, runs) => {
-            let runs: Vec<ComparedRun> = runs.into_iter().map(Found::into_run).collect();
-            match what {
-                OfRuns::Report => files::html(path, &runs, &coarsest(&runs), control)?,
-                OfRuns::Comparison { all } => {
-                    files::comparison(path, &runs, (&coarsest(&runs), all, &[]), BESIDE_DATA, control)?
-                }
-            }
+        Content::Runs(OfRuns::Report, runs) => files::html(path, &runs, &coarsest(&runs), control)?,
+        Content::Runs(OfRuns::Comparison { all }, runs) => {
+            files::comparison(path, &runs, (&coarsest(&runs), all, &[]), BESIDE_DATA, control)?
         }
         Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(path, &sweep, &rows, &[], BESIDE_DATA)?,
         Content::Sweep(OfSweep::Table, sweep, rows) => {
@@ -217,10 +187,9 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
     })
 }
 
-fn of_run(what: OfRun, path: &Path, run: &Ran, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
-    let Ran { posed, fidelity, solution, wall_s, history } = run;
-    let problem = &*settled(&posed.problem, &solution.outcome);
-    let solved = Solved { scene: &posed.scene, problem, solution, history, torque: None };
+fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
+    let SolvedScene { scene, problem, fidelity, solution, wall_s, history, .. } = run;
+    let solved = Solved { scene, problem, solution, history, torque: None };
     let merit = || TorqueCurves::of_solve(problem, *fidelity, solution, control.cancel);
     match what {
         OfRun::Data => {
@@ -290,14 +259,13 @@ mod tests {
 
     #[test]
     fn files_of_a_run_that_are_made_elsewhere_are_the_same() {
-        let scene = presets::find("floating-disc").unwrap();
-        let posed = Posed { problem: Problem::try_from(&scene).unwrap(), scene };
+        let posed = Posed::try_from(presets::find("floating-disc").unwrap()).unwrap();
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
-        // As the window has it.
-        let problem = settled(&posed.problem, &solution.outcome).into_owned();
-        let posed = Posed { problem, ..posed };
-        let ran = Ran { posed, fidelity: Fidelity::Draft, solution, wall_s: 0.5, history: Vec::new() };
-        assert!(made_twice("run", &|| Content::Run(OfRun::Data, Box::new(ran.clone()))) > 8);
+        let timed = (solution, false, 0.5);
+        let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
+        assert!(made_twice("run", &|| Content::Run(OfRun::Data, Box::new(run.clone()))) > 8);
+        let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(Arc::new(run.solution)))];
+        assert!(made_twice("report.html", &|| Content::Runs(OfRuns::Report, runs.to_vec())) == 1);
     }
 
     #[test]
@@ -326,7 +294,7 @@ mod tests {
         let bounds = ["plate.amplitude_um=0.1:0.5".parse().unwrap()];
         let goal = Goal::new(&scene, "mean_load_ratio", true, &[]).unwrap();
         let optimum = optimise(&scene, &bounds, &goal, &draft(), (1, &cancel, &|_, _| ())).unwrap().unwrap();
-        let posed = Posed { scene: optimum.scene.clone(), problem: Problem::try_from(&optimum.scene).unwrap() };
+        let posed = Posed::try_from(optimum.scene.clone()).unwrap();
         let found = Arc::new(fit::Found::Optimum(optimum));
         let content = || Content::Fit(scene.name.clone(), Box::new(posed.clone()), Arc::clone(&found));
         assert!(made_twice("fit", &content) > 3);

@@ -1,7 +1,7 @@
 //! A fit to measurements, or the search for an optimum, in the background.
 
-use super::task::{Started, Task, TaskOf, Wake};
-use super::work::{Work, pooled, shared};
+use super::task::TaskOf;
+use super::work::{Work, pooled};
 use crate::analysis::fit::{Bounds, FitError, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -19,7 +19,7 @@ pub type FitTask = TaskOf<Asked>;
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Found {
     /// A fit, and the measurements that were fitted.
-    Fit(#[serde(with = "shared")] Arc<Measured>, Fitted),
+    Fit(Arc<Measured>, Fitted),
     /// An optimum.
     Optimum(Optimum),
 }
@@ -48,11 +48,16 @@ impl Found {
 /// measurements.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Asked {
-    scene: Scene,
-    measured: Option<Measured>,
-    bounds: Vec<Bounds>,
-    goal: Option<Goal>,
-    settings: Settings,
+    /// The scene whose keys are chosen.
+    pub scene: Scene,
+    /// The measurements, of a fit.
+    pub measured: Option<Arc<Measured>>,
+    /// The keys, which stay within these bounds.
+    pub bounds: Vec<Bounds>,
+    /// What is to be as large or as small as it can be.
+    pub goal: Option<Goal>,
+    /// How it is solved.
+    pub settings: Settings,
 }
 
 impl Work for Asked {
@@ -73,7 +78,7 @@ impl Work for Asked {
             let Some(measured) = measured else { return Ok(None) };
             let model = Model::new(&scene, &bounds, &settings)?.under(&measured)?;
             let found = fit(&model, &measured, STARTS, cancel, &told)?;
-            Ok(found.map(|fitted| Found::Fit(Arc::new(measured), fitted)))
+            Ok(found.map(|fitted| Found::Fit(measured, fitted)))
         };
         pooled(solve).map_err(|error: FitError| error.to_string())
     }
@@ -81,19 +86,4 @@ impl Work for Asked {
     fn ended() -> Self::Found {
         Ok(None)
     }
-}
-
-/// Starts to search for the optimum of `goal`, if there is one, or else to fit `scene` to measurements. Keys stay within `bounds`.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(
-    scene: Scene,
-    measured: Option<Measured>,
-    bounds: Vec<Bounds>,
-    goal: Option<Goal>,
-    settings: Settings,
-    wake: impl Wake,
-) -> Started<Asked> {
-    Task::of(Asked { scene, measured, bounds, goal, settings }, wake)
 }

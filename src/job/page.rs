@@ -88,19 +88,11 @@ impl std::fmt::Debug for Solver {
 }
 
 impl Solver {
-    /// Starts the worker. `wake` is called after every event.
+    /// Starts the worker. The clock `now` measures the solves; `wake` is called after every event.
     ///
     /// # Errors
     /// If the browser refuses.
-    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        Self::start_with_clock(Instant::now, wake)
-    }
-
-    /// As [`Self::start`], with the clock that measures the solves.
-    ///
-    /// # Errors
-    /// If the browser refuses.
-    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    pub fn start(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let (line, events) = (Some(Line::open()?), Vec::new());
         let shared = Shared { line, running: None, waiting: None, events, now, wake: Box::new(wake) };
         Ok(Self { shared: Rc::new(RefCell::new(shared)), next: 0 })
@@ -138,7 +130,7 @@ impl Shared {
     fn end(&mut self) {
         if let Some(Running { number, .. }) = self.running.take() {
             self.line = None;
-            self.tell(Event::Done { number, cancelled: true });
+            self.tell(Event::Done { number });
         }
     }
 }
@@ -175,7 +167,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
     let next = running.left.pop_front().filter(|_| !newer);
     let Some(fidelity) = next else {
         this.running = None;
-        this.tell(Event::Done { number, cancelled: newer });
+        this.tell(Event::Done { number });
         drop(this);
         return advance(shared);
     };
@@ -195,7 +187,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
     if let Err(error) = asked {
         this.running = None;
         this.tell(Event::Failed { number, message: format!("there is no worker that solves: {error}") });
-        this.tell(Event::Done { number, cancelled: false });
+        this.tell(Event::Done { number });
     }
 }
 
@@ -212,7 +204,8 @@ fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as
         }
         Told::End(Ok(timed)) => {
             let history = std::mem::take(&mut running.history);
-            let run = SolvedScene::of(number, &running.request, fidelity, timed, history);
+            let Request { scene, problem, .. } = &running.request;
+            let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
         Told::End(Err(message)) => {

@@ -1,6 +1,6 @@
 //! A rotor by itself, in the background.
 
-use super::task::{Started, Task, TaskOf, Wake};
+use super::task::TaskOf;
 use super::work::{Posed, Work};
 use crate::analysis::rotor::RotorCurves;
 use crate::control::Cancel;
@@ -12,7 +12,7 @@ pub type RotorTask = TaskOf<Alone>;
 
 /// A motor, as it is sent to the thread or worker that computes its rotor.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Alone(Posed);
+pub struct Alone(pub Posed);
 
 impl Work for Alone {
     const NAME: &'static str = "rotor";
@@ -28,12 +28,4 @@ impl Work for Alone {
     fn ended() -> Self::Found {
         None
     }
-}
-
-/// Starts to compute the rotor of a motor.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(posed: Posed, wake: impl Wake) -> Started<Alone> {
-    Task::of(Alone(posed), wake)
 }

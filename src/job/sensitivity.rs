@@ -1,7 +1,6 @@
 //! Derivatives of the results, and random scenes, in the background.
 
-use super::task::{Started, Task, Wake};
-use super::work::{Work, shared};
+use super::work::Work;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -9,9 +8,6 @@ use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A task whose messages are the share that is done, 0 to 1. Its result is `None` if it was cancelled.
-pub type Finding<T> = Task<f64, Option<T>>;
 
 /// Counts one more solve. Returns the share of all that is done.
 fn one_more(count: &AtomicUsize, all: usize) -> f64 {
@@ -21,23 +17,25 @@ fn one_more(count: &AtomicUsize, all: usize) -> f64 {
 /// A scene, as it is sent to the thread or worker that computes its derivatives.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Derivatives {
-    scene: Scene,
-    settings: Settings,
+    /// The scene.
+    pub scene: Scene,
+    /// How it is solved.
+    pub settings: Settings,
 }
 
 impl Work for Derivatives {
     const NAME: &'static str = "sensitivity";
+    /// The share that is done, 0 to 1.
     type Message = f64;
+    /// The derivatives, or why there are none; `None` if it was cancelled.
     type Found = Option<Result<Box<Sensitivity>, String>>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
         let count = AtomicUsize::new(0);
         let solved = |all: usize| tell(one_more(&count, all));
         let none: [&str; 0] = [];
-        match Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved) {
-            Ok(found) => found.map(|found| Ok(Box::new(found))),
-            Err(error) => Some(Err(error.to_string())),
-        }
+        let found = Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved);
+        found.map(|found| found.map(Box::new)).map_err(|error| error.to_string()).transpose()
     }
 
     fn ended() -> Self::Found {
@@ -48,16 +46,21 @@ impl Work for Derivatives {
 /// Random scenes, as they are sent to the thread or worker that solves them.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Draws {
-    #[serde(with = "shared")]
-    sensitivity: Arc<Sensitivity>,
-    uncertainties: Uncertainties,
-    draws: usize,
-    seed: u64,
+    /// The scene, solved.
+    pub sensitivity: Arc<Sensitivity>,
+    /// How uncertain its keys are.
+    pub uncertainties: Uncertainties,
+    /// How many random scenes are solved.
+    pub draws: usize,
+    /// Where the random numbers begin.
+    pub seed: u64,
 }
 
 impl Work for Draws {
     const NAME: &'static str = "monte-carlo";
+    /// The share that is done, 0 to 1.
     type Message = f64;
+    /// `None` if it was cancelled.
     type Found = Option<MonteCarlo>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
@@ -70,25 +73,4 @@ impl Work for Draws {
     fn ended() -> Self::Found {
         None
     }
-}
-
-/// Starts to compute the derivatives of the results of `scene` by every key that they depend on.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn sensitivity(scene: Scene, settings: Settings, wake: impl Wake) -> Started<Derivatives> {
-    Task::of(Derivatives { scene, settings }, wake)
-}
-
-/// Starts to solve `draws` random scenes.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn monte_carlo(
-    sensitivity: Arc<Sensitivity>,
-    uncertainties: Uncertainties,
-    (draws, seed): (usize, u64),
-    wake: impl Wake,
-) -> Started<Draws> {
-    Task::of(Draws { sensitivity, uncertainties, draws, seed }, wake)
 }

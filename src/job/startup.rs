@@ -1,6 +1,5 @@
 //! A start-up in the background. Each cycle is sent when it is complete.
 
-use super::task::{Started, Task, Wake};
 use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::startup::{self, Cycle, Settings, Startup};
@@ -12,8 +11,10 @@ const AHEAD: usize = 4;
 /// A start-up, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct FromRest {
-    posed: Posed,
-    settings: Settings,
+    /// The scene that is started.
+    pub posed: Posed,
+    /// How it is solved.
+    pub settings: Settings,
 }
 
 impl Work for FromRest {
@@ -24,7 +25,9 @@ impl Work for FromRest {
     type Found = Result<Startup, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
-        startup::startup(&self.posed.problem, &self.settings, &mut |cycle| tell(cycle), cancel)
+        // Kept are also those that wait to be taken, and the one that the thread holds while it waits for room.
+        let settings = Settings { kept: self.settings.kept + AHEAD + 1, ..self.settings };
+        startup::startup(&self.posed.problem, &settings, &mut |cycle| tell(cycle), cancel)
             .map_err(|error| error.to_string())
     }
 
@@ -33,39 +36,27 @@ impl Work for FromRest {
     }
 }
 
-/// Starts a scene from rest.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(posed: Posed, settings: Settings, wake: impl Wake) -> Started<FromRest> {
-    // Those that wait to be taken, and the one that the thread holds while it waits for room.
-    let settings = Settings { kept: settings.kept + AHEAD + 1, ..settings };
-    Task::of(FromRest { posed, settings }, wake)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::task::{TaskOf, to_the_end};
+    use super::super::task::{Task, TaskOf, to_the_end};
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::problem::{Problem, Scenario};
     use crate::scene::presets;
     use crate::solution::Status;
     use std::time::Duration;
 
-    fn problem(preset: &str) -> Posed {
-        let scene = presets::find(preset).unwrap();
-        Posed { problem: Problem::try_from(&scene).unwrap(), scene }
+    fn posed(preset: &str) -> Posed {
+        Posed::try_from(presets::find(preset).unwrap()).unwrap()
     }
 
-    fn draft(problem: Posed, cycles: usize) -> TaskOf<FromRest> {
+    fn draft(posed: Posed, cycles: usize) -> TaskOf<FromRest> {
         let settings = Settings { fidelity: Fidelity::Draft, cycles, ..Settings::default() };
-        start(problem, settings, |_| ()).unwrap()
+        Task::of(FromRest { posed, settings }, |_| ()).unwrap()
     }
 
     #[test]
     fn every_cycle_comes_in_order_and_then_how_it_ended() {
-        let (cycles, ended) = to_the_end(&draft(problem("plate-crossover"), 100));
+        let (cycles, ended) = to_the_end(&draft(posed("plate-crossover"), 100));
         let ended = ended.unwrap().unwrap();
         assert_eq!(ended.status, Status::Converged);
         let mut cycles: Vec<usize> = cycles.iter().map(|cycle| cycle.number).collect();
@@ -78,28 +69,17 @@ mod tests {
     #[test]
     fn cancelling_and_dropping_end_a_long_one() {
         let long = || {
-            let mut numerics = problem("fundamental");
-            numerics.problem.numerics.steps_per_cycle = Some(4000);
-            draft(numerics, 1000)
+            let mut fine = posed("fundamental");
+            fine.problem.numerics.steps_per_cycle = Some(4000);
+            draft(fine, 1000)
         };
         let transient = long();
         transient.cancel();
         assert_eq!(to_the_end(&transient).1.unwrap().unwrap().status, Status::Cancelled);
         // A thread that waits for its cycles to be taken ends too.
-        let full = draft(problem("plate-trapped"), 100_000);
+        let full = draft(posed("plate-trapped"), 100_000);
         std::thread::sleep(Duration::from_millis(300));
         drop(full);
         drop(long());
-    }
-
-    #[test]
-    fn a_panic_in_the_solver_is_a_message() {
-        let mut broken = problem("fundamental");
-        // A problem that no scene can make: the solver divides by the number of teeth.
-        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
-            motor.teeth = 0;
-        }
-        let (cycles, ended) = to_the_end(&draft(broken, 10));
-        assert!(cycles.is_empty() && !ended.unwrap_err().is_empty());
     }
 }

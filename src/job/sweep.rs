@@ -1,7 +1,7 @@
 //! A sweep, in the background.
 
-use super::task::{Started, Task, TaskOf, Wake};
-use super::work::{Work, pooled, shared};
+use super::task::TaskOf;
+use super::work::{Work, pooled};
 use crate::analysis::sweep::{Row, Sweep, Vary};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 #[derive(Debug, Serialize, Deserialize)]
 pub enum SweepMessage {
     /// The points are built.
-    Built(#[serde(with = "shared")] Arc<Sweep>),
+    Built(Arc<Sweep>),
     /// A point is solved.
     Solved(Box<Row>),
 }
@@ -27,7 +27,7 @@ pub enum Points {
     /// Points to be built, at most 100 000: the scene, the keys that are varied, and how it is solved.
     New(Scene, Vec<Vary>, Settings),
     /// A sweep whose points are built, and the rows that are solved already.
-    Known(#[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
+    Known(Arc<Sweep>, Vec<Row>),
 }
 
 impl Work for Points {
@@ -52,20 +52,4 @@ impl Work for Points {
     fn ended() -> Self::Found {
         Ok(Vec::new())
     }
-}
-
-/// Starts a sweep of `scene`.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(scene: Scene, vary: Vec<Vary>, settings: Settings, wake: impl Wake) -> Started<Points> {
-    Task::of(Points::New(scene, vary, settings), wake)
-}
-
-/// Continues a sweep of which some rows are solved already.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn go_on(sweep: &Arc<Sweep>, done: Vec<Row>, wake: impl Wake) -> Started<Points> {
-    Task::of(Points::Known(Arc::clone(sweep), done), wake)
 }

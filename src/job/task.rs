@@ -11,14 +11,11 @@ pub use page::Task;
 #[cfg(not(target_arch = "wasm32"))]
 pub use thread::Task;
 
+pub use super::work::News;
 use super::work::Work;
-pub use super::work::{News, Wake};
 
 /// The task that does the work `W`.
 pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
-
-/// A task that was started, or why it cannot be done in the background.
-pub type Started<W> = std::io::Result<TaskOf<W>>;
 
 /// All messages of a task and its end, for tests.
 #[cfg(test)]

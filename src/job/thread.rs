@@ -17,6 +17,14 @@ struct Slot {
     closed: bool,
 }
 
+impl Slot {
+    /// Cancels what is running and forgets what is waiting.
+    fn clear(&mut self) {
+        self.waiting = None;
+        self.running.iter().for_each(Cancel::cancel);
+    }
+}
+
 #[derive(Debug, Default)]
 struct Shared {
     slot: Mutex<Slot>,
@@ -40,13 +48,8 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Starts the worker. `wake` is called after every event, from the worker's thread.
-    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        Self::start_with_clock(Instant::now, wake)
-    }
-
-    /// As [`Self::start`], with the clock that measures the solves.
-    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    /// Starts the worker. The clock `now` measures the solves; `wake` is called after every event, from the worker's thread.
+    pub fn start(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let (sender, events) = channel();
         let theirs = Arc::clone(&shared);
@@ -65,21 +68,15 @@ impl Solver {
     pub fn submit(&mut self, request: Request) -> u64 {
         self.next += 1;
         let mut slot = self.shared.lock();
+        slot.clear();
         slot.waiting = Some((self.next, request));
-        if let Some(running) = &slot.running {
-            running.cancel();
-        }
         self.shared.changed.notify_all();
         self.next
     }
 
     /// Cancels what is running and forgets what is waiting.
     pub fn cancel(&self) {
-        let mut slot = self.shared.lock();
-        slot.waiting = None;
-        if let Some(running) = &slot.running {
-            running.cancel();
-        }
+        self.shared.lock().clear();
     }
 
     /// The events since the last call, in order.
@@ -93,10 +90,7 @@ impl Drop for Solver {
         {
             let mut slot = self.shared.lock();
             slot.closed = true;
-            slot.waiting = None;
-            if let Some(running) = &slot.running {
-                running.cancel();
-            }
+            slot.clear();
             self.shared.changed.notify_all();
         }
         self.events = None;
@@ -125,15 +119,15 @@ fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
                 slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
             }
         };
-        let cancelled = !refine(number, &request, &mut warm, &cancel, now, tell);
+        refine(number, &request, &mut warm, &cancel, now, tell);
         shared.lock().running = None;
-        if !tell(Event::Done { number, cancelled }) {
+        if !tell(Event::Done { number }) {
             return;
         }
     }
 }
 
-/// Solves at every fidelity of the request; false if cancelled.
+/// Solves at every fidelity of the request, until it is cancelled or one fails.
 fn refine(
     number: u64,
     request: &Request,
@@ -141,10 +135,10 @@ fn refine(
     cancel: &Cancel,
     now: fn() -> Instant,
     tell: &dyn Fn(Event) -> bool,
-) -> bool {
+) {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
-            return false;
+            return;
         }
         let mut history = Vec::new();
         let warm = warm.entry(fidelity).or_default();
@@ -153,17 +147,18 @@ fn refine(
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
         match found {
-            None => return false,
+            None => return,
             Some(Ok(timed)) => {
-                tell(Event::Solved(Arc::new(SolvedScene::of(number, request, fidelity, timed, history))));
+                let Request { scene, problem, .. } = request;
+                let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
+                tell(Event::Solved(Arc::new(run)));
             }
             Some(Err(message)) => {
                 tell(Event::Failed { number, message });
-                return true;
+                return;
             }
         }
     }
-    true
 }
 
 #[cfg(test)]
@@ -182,7 +177,7 @@ mod tests {
         let mut seen = Vec::new();
         for _ in 0..6000 {
             seen.extend(solver.drain());
-            if seen.iter().any(|event| matches!(event, Event::Done { number: n, .. } if *n == number)) {
+            if seen.iter().any(|event| matches!(event, Event::Done { number: n } if *n == number)) {
                 return seen;
             }
             std::thread::sleep(Duration::from_millis(10));
@@ -192,7 +187,7 @@ mod tests {
 
     #[test]
     fn results_come_coarse_to_fine() {
-        let mut solver = Solver::start(|| ()).unwrap();
+        let mut solver = Solver::start(Instant::now, || ()).unwrap();
         let number = solver.submit(request("plate-crossover", &[Fidelity::Draft, Fidelity::Standard]));
         let events = until_done(&solver, number);
         let solved: Vec<Fidelity> =
@@ -203,7 +198,7 @@ mod tests {
 
     #[test]
     fn the_newest_request_wins() {
-        let mut solver = Solver::start(|| ()).unwrap();
+        let mut solver = Solver::start(Instant::now, || ()).unwrap();
         let mut last = 0;
         for _ in 0..50 {
             last = solver.submit(request("fundamental", &[Fidelity::Reference]));
@@ -217,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_panic_in_a_solver_is_an_event_and_the_worker_lives_on() {
-        let mut solver = Solver::start(|| ()).unwrap();
+        let mut solver = Solver::start(Instant::now, || ()).unwrap();
         let mut broken = request("fundamental", &[Fidelity::Draft]);
         // A problem that no scene can make: the solver divides by the number of teeth.
         if let Scenario::Motor(motor) = &mut broken.problem.scenario {
@@ -232,13 +227,13 @@ mod tests {
 
     #[test]
     fn cancelling_and_dropping_end_a_long_solve() {
-        let mut solver = Solver::start(|| ()).unwrap();
+        let mut solver = Solver::start(Instant::now, || ()).unwrap();
         // This accuracy takes seconds.
         let number = solver.submit(request("fundamental", &[Fidelity::to(1e-6)]));
         std::thread::sleep(Duration::from_millis(50));
         solver.cancel();
         let events = until_done(&solver, number);
-        assert!(matches!(events.last(), Some(Event::Done { cancelled: true, .. })));
+        assert!(!events.iter().any(|event| matches!(event, Event::Solved(_))));
         solver.submit(request("fundamental", &[Fidelity::Reference]));
         drop(solver);
     }

@@ -1,29 +1,18 @@
 //! Torque over speed, in the background.
 
 use super::SolvedScene;
-use super::task::{Started, Task, TaskOf, Wake};
-use super::work::{Posed, Work};
+use super::task::TaskOf;
+use super::work::Work;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use crate::estimate::Estimate;
-use crate::fidelity::Fidelity;
-use crate::solution::{Performance, Solution};
+use crate::solution::Performance;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The run whose curves are computed, as it is sent to the thread or worker that does it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Curves {
-    posed: Posed,
-    fidelity: Fidelity,
-    solution: Solution,
-}
-
-impl Curves {
-    /// The work for a solution of a scene at this fidelity.
-    pub fn new(posed: Posed, fidelity: Fidelity, solution: Solution) -> Self {
-        Self { posed, fidelity, solution }
-    }
-}
+pub struct Curves(pub Arc<SolvedScene>);
 
 /// The curves, in a form that can be sent as bytes.
 #[derive(Debug, Serialize, Deserialize)]
@@ -59,7 +48,8 @@ impl Work for Curves {
     type Found = Option<Result<Found, String>>;
 
     fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
-        TorqueCurves::of_solve(&self.posed.problem, self.fidelity, &self.solution, cancel)
+        let SolvedScene { problem, fidelity, solution, .. } = &*self.0;
+        TorqueCurves::of_solve(problem, *fidelity, solution, cancel)
             .map(|curves| curves.map(Found))
             .map_err(|error| format!("without film, {error}"))
             .transpose()
@@ -68,14 +58,4 @@ impl Work for Curves {
     fn ended() -> Self::Found {
         None
     }
-}
-
-/// Starts to compute the curves of `run`.
-///
-/// # Errors
-/// If it cannot be done in the background.
-pub fn start(run: &SolvedScene, wake: impl Wake) -> Started<Curves> {
-    let SolvedScene { scene, problem, fidelity, solution, .. } = run;
-    let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-    Task::of(Curves::new(posed, *fidelity, solution.clone()), wake)
 }

@@ -2,9 +2,9 @@
 
 use crate::control::Cancel;
 use crate::problem::Problem;
-use crate::scene::Scene;
-use serde::de::{DeserializeOwned, Error};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use crate::scene::{Scene, SceneError};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize, Serializer};
 
 /// Work, with all data that it needs.
 pub trait Work: Serialize + DeserializeOwned + Send + 'static {
@@ -39,7 +39,8 @@ pub struct News<M, R> {
 }
 
 /// A scene and the problem that it poses. As bytes it is the scene's file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(try_from = "Scene")]
 pub struct Posed {
     /// The scene, in the units of the field.
     pub scene: Scene,
@@ -53,11 +54,11 @@ impl Serialize for Posed {
     }
 }
 
-impl<'de> Deserialize<'de> for Posed {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let scene = Scene::deserialize(from)?;
-        let problem = Problem::try_from(&scene).map_err(Error::custom)?;
-        Ok(Self { scene, problem })
+impl TryFrom<Scene> for Posed {
+    type Error = SceneError;
+
+    fn try_from(scene: Scene) -> Result<Self, SceneError> {
+        Ok(Self { problem: Problem::try_from(&scene)?, scene })
     }
 }
 
@@ -69,22 +70,6 @@ pub fn pooled<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// An [`Arc`](std::sync::Arc) as bytes: those of the value in it.
-pub(super) mod shared {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-    use std::sync::Arc;
-
-    pub(in crate::job) fn serialize<T: Serialize, S: Serializer>(shared: &Arc<T>, to: S) -> Result<S::Ok, S::Error> {
-        T::serialize(shared, to)
-    }
-
-    pub(in crate::job) fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Arc<T>, D::Error> {
-        T::deserialize(from).map(Arc::new)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +77,7 @@ mod tests {
     use crate::analysis::sweep::Sweep;
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
+    use crate::job::SolvedScene;
     use crate::job::face::Heights;
     use crate::job::pin::Compared;
     use crate::job::sweep::Points;
@@ -99,6 +85,7 @@ mod tests {
     use crate::scene::presets;
     use crate::solution::Stats;
     use crate::solve::{Settings, solve};
+    use std::sync::Arc;
 
     fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
         postcard::from_bytes(&postcard::to_stdvec(what).unwrap()).unwrap()
@@ -109,8 +96,7 @@ mod tests {
     }
 
     fn posed(preset: &str) -> Posed {
-        let scene = presets::find(preset).unwrap();
-        Posed { problem: Problem::try_from(&scene).unwrap(), scene }
+        Posed::try_from(presets::find(preset).unwrap()).unwrap()
     }
 
     /// NaN does not equal itself: therefore the printed forms are compared.
@@ -146,8 +132,10 @@ mod tests {
         }
         let posed = posed("fundamental");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
-        both(Curves::new(posed.clone(), Fidelity::Draft, solution));
-        both(Compared::new(posed.clone(), Fidelity::Draft));
+        let timed = (solution, false, 0.5);
+        let run = SolvedScene::of(1, posed.scene.clone(), &posed.problem, Fidelity::Draft, timed, Vec::new());
+        both(Curves(Arc::new(run)));
+        both(Compared { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
         let face = tempfile::NamedTempFile::new().unwrap();
         let row = |y: usize| (0..20).map(|x| format!("{}", (x * y + x * x) % 7)).collect::<Vec<_>>().join(",");
         let heights = (0..20).map(row).collect::<Vec<_>>().join("\n");

@@ -12,15 +12,13 @@ mod comparison;
 mod name;
 mod parse;
 
-pub use comparison::ABOUT;
-pub use name::{Name, Ran, UnknownName, name};
-pub use parse::CheckError;
+pub use name::{Name, Ran, name};
 
 use super::live::Live;
 use crate::digits::{short, significant};
 use crate::scene::Scene;
 use comparison::{Comparison, Expression};
-use parse::{comparisons, expression};
+use parse::{comparisons, expression, unexpected};
 
 /// A check: its source, and its comparisons.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +33,7 @@ impl Check {
     ///
     /// # Errors
     /// A name is unknown or belongs to another kind of scene, or the text is not a comparison.
-    pub fn parse(source: &str, scene: &Scene) -> Result<Self, CheckError> {
+    pub fn parse(source: &str, scene: &Scene) -> Result<Self, String> {
         Ok(Self { source: source.trim().to_owned(), comparisons: comparisons(source, scene)? })
     }
 
@@ -72,15 +70,12 @@ impl Reading {
     ///
     /// # Errors
     /// A name is unknown or belongs to another kind of scene, or the text is not an expression.
-    pub fn parse(source: &str, scene: &Scene) -> Result<Self, CheckError> {
+    pub fn parse(source: &str, scene: &Scene) -> Result<Self, String> {
         let (sum, digits) = match source.rsplit_once(':') {
             None => (source, Self::DIGITS),
             Some((sum, digits)) => match digits.trim().parse() {
                 Ok(digits @ 1..=9) => (sum, digits),
-                _ => {
-                    let expected = "expected a number of digits, 1 to 9";
-                    return Err(CheckError::Unexpected { found: digits.trim().to_owned(), expected });
-                }
+                _ => return Err(unexpected(digits.trim(), "expected a number of digits, 1 to 9")),
             },
         };
         Ok(Self { source: source.trim().to_owned(), expression: expression(sum, scene)?, digits })

@@ -5,7 +5,7 @@ use super::lesson::{Answer, Kind, Lesson, Question, Step};
 use super::text::{Block, Inline, filled, plain};
 use super::trial::{Quoted, quoted};
 use crate::control::Cancel;
-use crate::export::figure::{Axis, Figure, FigureError, Panel, Piece, sheets_to_pdf};
+use crate::export::figure::{Axis, Figure, Panel, Piece};
 use crate::export::html::Page;
 use std::collections::BTreeMap;
 
@@ -119,14 +119,6 @@ fn lowered(text: &str) -> String {
         }
     }
     out
-}
-
-/// Sheets as a PDF.
-///
-/// # Errors
-/// [`FigureError`] if its pages cannot be made.
-pub fn to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
-    sheets_to_pdf(title, sheets)
 }
 
 /// Sheets as one web page, which prints each sheet on a new page.

@@ -18,7 +18,7 @@ pub mod text;
 pub mod trial;
 pub mod work;
 
-pub use error::{LessonError, LessonErrorKind};
+pub use error::LessonError;
 pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};
@@ -83,20 +83,20 @@ pub const FILE: &str = "lesson.md";
 
 /// The lessons of a folder, and the faults in them. The folder is a lesson itself, or each folder in it is one, in the order of their names.
 pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
-    let fault = |kind| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, kind }]);
+    let fault = |what| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, what }]);
     if folder.join(FILE).is_file() {
         return collect([load_one(folder, names)]);
     }
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) => return fault(LessonErrorKind::Unreadable(ReadError::System(error.to_string()))),
+        Err(error) => return fault(ReadError::System(error.to_string()).to_string()),
     };
     let mut folders: Vec<PathBuf> =
         entries.flatten().map(|entry| entry.path()).filter(|path| path.join(FILE).is_file()).collect();
     folders.sort_by_cached_key(|folder| in_order(folder));
     if folders.is_empty() {
         let none = "holds no lesson: expected folders with a lesson.md in each, or a lesson.md itself";
-        return fault(LessonErrorKind::Layout(none.to_owned()));
+        return fault(none.to_owned());
     }
     collect(folders.iter().map(|folder| load_one(folder, names)))
 }
@@ -110,8 +110,8 @@ fn in_order(folder: &Path) -> (u64, PathBuf) {
 
 fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonError>> {
     let path = folder.join(FILE);
-    let fault = |kind| vec![LessonError { origin: path.clone(), line: None, kind }];
-    let text = input::read_text(&path, LARGEST_FILE).map_err(|error| fault(LessonErrorKind::Unreadable(error)))?;
+    let fault = |error: ReadError| vec![LessonError { origin: path.clone(), line: None, what: error.to_string() }];
+    let text = input::read_text(&path, LARGEST_FILE).map_err(fault)?;
     let absolute = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let id = absolute.file_name().map_or_else(|| "lesson".to_owned(), |name| name.to_string_lossy().into_owned());
     // A name cannot lead out of the lesson's folder.

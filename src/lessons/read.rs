@@ -41,7 +41,7 @@ impl Reader<'_> {
         while let Some((number, line)) = lines.next() {
             if let Some(heading) = line.strip_prefix("## ").or_else(|| (line.trim() == "##").then_some("")) {
                 if heading.trim().is_empty() {
-                    self.layout(number, "the heading is empty");
+                    self.fault(number, "the heading is empty");
                 }
                 let title = heading.trim().to_owned();
                 steps.push(Raw { line: number, title, body: Vec::new(), blocks: Vec::new() });
@@ -60,18 +60,18 @@ impl Reader<'_> {
                 }
                 if !closed {
                     let kind = kind.trim();
-                    self.layout(number, format!("the block ```{kind} is never closed: expected a line ``` below it"));
+                    self.fault(number, format!("the block ```{kind} is never closed: expected a line ``` below it"));
                     continue;
                 }
                 let Some(kind) = BLOCKS.into_iter().find(|known| *known == kind.trim()) else {
                     let expected = "expected setup, question, task or observe";
-                    self.layout(number, format!("a block ```{} is not known: {expected}", kind.trim()));
+                    self.fault(number, format!("a block ```{} is not known: {expected}", kind.trim()));
                     continue;
                 };
                 match steps.last_mut() {
-                    None => self.layout(number, format!("a block ```{kind} stands before the first step")),
+                    None => self.fault(number, format!("a block ```{kind} stands before the first step")),
                     Some(step) if step.blocks.iter().any(|(other, _)| *other == kind) => {
-                        self.layout(number, format!("this step has two blocks ```{kind}: keep one"));
+                        self.fault(number, format!("this step has two blocks ```{kind}: keep one"));
                     }
                     Some(step) => step.blocks.push((kind, piece)),
                 }
@@ -88,10 +88,10 @@ impl Reader<'_> {
             }
         }
         if title.is_empty() {
-            self.layout(1, "has no title: expected a line `# Title` before everything else");
+            self.fault(1, "has no title: expected a line `# Title` before everything else");
         }
         if steps.is_empty() {
-            self.layout(1, "has no steps: expected `## Step` below the title, once for each");
+            self.fault(1, "has no steps: expected `## Step` below the title, once for each");
         }
         let about = self.text(&about);
         let steps: Vec<Option<Step>> = steps.iter().map(|step| self.step(step)).collect();

@@ -4,7 +4,7 @@ use super::lesson::{Answer, Kind, Lesson, Prediction, Question};
 use super::text::plain;
 use super::work::{Stage, StepWork};
 use crate::export::html::{Kind as Cell, Page, Table};
-use crate::input::{ReadError, read_text};
+use crate::input::read_text;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -129,23 +129,12 @@ pub fn statements(student: &str, records: &[Record]) -> String {
 
 /// A record that cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub enum RecordError {
-    /// The file cannot be read.
-    #[error("{}: {error}", path.display())]
-    Unreadable {
-        /// Its path.
-        path: PathBuf,
-        /// Why.
-        error: ReadError,
-    },
-    /// The file is not a record.
-    #[error("{}: is not a record of answers as the window saves it (CSV): {error}", path.display())]
-    NoRecord {
-        /// Its path.
-        path: PathBuf,
-        /// Why.
-        error: csv::Error,
-    },
+#[error("{}: {why}", path.display())]
+pub struct RecordError {
+    /// Its path.
+    pub path: PathBuf,
+    /// Why.
+    pub why: String,
 }
 
 /// Reads a record as CSV.
@@ -153,9 +142,10 @@ pub enum RecordError {
 /// # Errors
 /// [`RecordError`], with the line.
 pub fn read(path: &Path) -> Result<Vec<Record>, RecordError> {
-    let text = read_text(path, LARGEST).map_err(|error| RecordError::Unreadable { path: path.to_owned(), error })?;
+    let fault = |why| RecordError { path: path.to_owned(), why };
+    let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?;
     let rows: Result<Vec<Record>, csv::Error> = csv::Reader::from_reader(text.as_bytes()).deserialize().collect();
-    rows.map_err(|error| RecordError::NoRecord { path: path.to_owned(), error })
+    rows.map_err(|error| fault(format!("is not a record of answers as the window saves it (CSV): {error}")))
 }
 
 /// A web page with the summary of the records of a class.

@@ -2,7 +2,7 @@
 //! `$…$` in a line and `$$…$$` on their own line, pictures, and `{…}`, a number of the run. A library such as pulldown-cmark would read
 //! emphasis and lists; formulas, numbers and messages would still have to be read here.
 
-use super::check::{CheckError, Reading};
+use super::check::Reading;
 use super::formula::{Formula, FormulaError};
 use super::picture::{Picture, PictureError};
 use std::borrow::Cow;
@@ -24,7 +24,7 @@ pub enum Inline {
 }
 
 /// Reads the text between the braces of a number.
-pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, CheckError>;
+pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, String>;
 
 /// Reads the picture in a file; the second argument describes it in words.
 pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, PictureError>;
@@ -128,7 +128,7 @@ pub enum TextError {
     Dollar,
     /// A number of the run cannot be read: the number as written, and the reason.
     #[error("{{{0}}}: {1}; write \\{{ for the brace itself")]
-    Number(String, CheckError),
+    Number(String, String),
     /// A picture cannot be shown: its file, and the reason.
     #[error("picture {0}: {1}")]
     Picture(String, PictureError),

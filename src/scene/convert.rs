@@ -36,7 +36,7 @@ impl Scene {
             let parameter = self.parameter(key)?;
             Ok::<_, What>(self.optional_number(parameter).map(|number| parameter.si(number)))
         };
-        let si = |key| optional(key)?.ok_or_else(|| self.unknown_key(key));
+        let si = |key| self.si(key);
         let gas = Gas {
             ambient_pressure: si("film.ambient_pressure_kpa")?,
             viscosity: si("film.viscosity_upa_s")?,

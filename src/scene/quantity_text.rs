@@ -40,9 +40,9 @@ const DECIMALS: usize = 13;
 /// # Errors
 /// The text is not such a number; the message has the key, the text and what is allowed.
 pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
-    let units = kind_of(parameter.unit);
-    value(units, spelled(parameter.unit).as_str(), text).ok_or_else(|| {
-        let others: Vec<&str> = units.iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
+    number(parameter.unit, text).ok_or_else(|| {
+        let others: Vec<&str> =
+            kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
         let others =
             if others.is_empty() { String::new() } else { format!(", in {}", others.join(", ").replace('u', "µ")) };
         let accepts = parameter.accepts();
@@ -52,11 +52,6 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
             text.trim()
         )
     })
-}
-
-/// Reads `text` as a number in `unit`, as [`read`] does; `None` if it is not one.
-pub fn number(unit: &str, text: &str) -> Option<f64> {
-    value(kind_of(unit), &spelled(unit), text)
 }
 
 fn kind_of(unit: &str) -> Kind {
@@ -78,7 +73,8 @@ fn spelled(text: &str) -> String {
     text.chars().filter(|c| !c.is_whitespace()).map(sign).collect()
 }
 
-fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
+/// Reads `text` as a number in `unit`, as [`read`] does; `None` if it is not one.
+pub fn number(unit: &str, text: &str) -> Option<f64> {
     if text.len() > LONGEST {
         return None;
     }
@@ -94,6 +90,7 @@ fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
     if let Ok(plain) = text.parse::<f64>() {
         return plain.is_finite().then_some(plain);
     }
+    let (units, unit) = (kind_of(unit), spelled(unit));
     let mut reader = Reader { rest: &text, units, with_unit: false, unit: 1.0 };
     let found = reader.sum()?;
     let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);

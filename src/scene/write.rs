@@ -38,14 +38,12 @@ impl Scene {
 
     /// The value of a key as [`Scene::set`] takes it; `None` if it is absent.
     pub fn given_text(&self, parameter: &Parameter) -> Option<String> {
-        let listed = |lines: Vec<String>| format!("[{}]", lines.join(", "));
-        Some(match (self.get(parameter.key)?, parameter.kind) {
-            (Value::Text(words), _) => words,
-            (Value::Rows(rows), _) => listed(rows.iter().map(|(a, b)| format!("[{a:?}, {b:?}]")).collect()),
-            (Value::Records(records), ParameterKind::Records { columns, .. }) => {
-                listed(records.iter().map(|record| inline(columns, record)).collect())
-            }
-            (value, _) => value.to_string(),
+        Some(match self.get(parameter.key)? {
+            Value::Text(words) => words,
+            value => match items(parameter, &value) {
+                Some(items) => format!("[{}]", items.join(", ")),
+                None => value.to_string(),
+            },
         })
     }
 
@@ -107,11 +105,22 @@ impl Parameter {
 
 fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
     let leaf = parameter.leaf();
+    if let Some(items) = items(parameter, value) {
+        let _ = match parameter.kind {
+            ParameterKind::Rows { columns: [first, second] } => {
+                writeln!(text, "{leaf} = [  # [{}, {}]", first.key, second.key)
+            }
+            _ => writeln!(text, "{leaf} = [  # {}", parameter.about),
+        };
+        for item in items {
+            let _ = writeln!(text, "  {item},");
+        }
+        text.push_str("]\n");
+        return;
+    }
     let assignment = match value {
         // Debug keeps a point or an exponent, without which TOML would read an integer.
         Value::Number(number) => format!("{leaf} = {number:?}"),
-        Value::Whole(whole) => format!("{leaf} = {whole}"),
-        Value::Flag(flag) => format!("{leaf} = {flag}"),
         Value::Text(words) => {
             let quoted = format!("{leaf} = {}", quote(words));
             if parameter.table().is_empty() {
@@ -120,27 +129,20 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
             }
             quoted
         }
-        Value::Rows(rows) => {
-            if let ParameterKind::Rows { columns: [first, second] } = parameter.kind {
-                let _ = writeln!(text, "{leaf} = [  # [{}, {}]", first.key, second.key);
-            }
-            for (first, second) in rows {
-                let _ = writeln!(text, "  [{first:?}, {second:?}],");
-            }
-            text.push_str("]\n");
-            return;
-        }
-        Value::Records(records) => {
-            let ParameterKind::Records { columns, .. } = parameter.kind else { return };
-            let _ = writeln!(text, "{leaf} = [  # {}", parameter.about);
-            for record in records {
-                let _ = writeln!(text, "  {},", inline(columns, record));
-            }
-            text.push_str("]\n");
-            return;
-        }
+        value => format!("{leaf} = {value}"),
     };
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// The rows of a table, or an array of tables, each as an item of an array in TOML; `None` of any other value.
+fn items(parameter: &Parameter, value: &Value) -> Option<Vec<String>> {
+    match (value, parameter.kind) {
+        (Value::Rows(rows), _) => Some(rows.iter().map(|(a, b)| format!("[{a:?}, {b:?}]")).collect()),
+        (Value::Records(records), ParameterKind::Records { columns, .. }) => {
+            Some(records.iter().map(|record| inline(columns, record)).collect())
+        }
+        _ => None,
+    }
 }
 
 /// One of an array of tables, as an inline table.

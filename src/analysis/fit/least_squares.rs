@@ -119,10 +119,10 @@ struct Search<'a> {
 struct Stopped;
 
 impl Search<'_> {
-    /// (computed − measured)/error of the measurements that count, at several points; not a number where nothing is computed.
-    fn residuals(&self, points: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Stopped> {
-        let solved = self.model.at(points, self.model.settings(), self.cancel).ok_or(Stopped)?;
-        Ok(solved.iter().map(|solved| residuals(self.measured, &in_order(self.measured, solved), self.used)).collect())
+    /// (computed − measured)/error of the measurements that count, at `x`; not a number where nothing is computed.
+    fn residuals(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
+        let solved = self.model.at_one(x, self.cancel).ok_or(Stopped)?;
+        Ok(residuals(self.measured, &in_order(self.measured, &solved), self.used))
     }
 
     /// Of each unknown ∂residual/∂x; zeros where it is fixed. Those of a condition whose neighbours cannot be solved are zeros as well: it
@@ -153,7 +153,7 @@ impl Residual for Search<'_> {
     type Error = Stopped;
 
     fn residual(&self, x: &Vec<f64>) -> Result<Vec<f64>, Stopped> {
-        let found = self.residuals(std::slice::from_ref(x))?.swap_remove(0);
+        let found = self.residuals(x)?;
         let chi_squared = sum_of_squares(&found);
         let mut tried = self.tried.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         tried.0 += 1;
@@ -210,8 +210,8 @@ pub fn fit(
     told: Tell<'_>,
 ) -> Result<Option<Fitted>, FitError> {
     let own = model.start();
-    let Some(first) = model.at(std::slice::from_ref(&own), model.settings(), cancel) else { return Ok(None) };
-    let first = in_order(measured, &first[0]);
+    let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
+    let first = in_order(measured, &first);
     let used: Vec<usize> = (0..first.len()).filter(|i| first[*i].is_ok()).collect();
     let unknowns = model.unknowns().len();
     if used.len() < unknowns {
@@ -219,7 +219,10 @@ pub fn fit(
         let left_out = fault.map_or_else(String::new, |why| {
             format!(" ({} of {} could not be computed at the start: {why})", first.len() - used.len(), first.len())
         });
-        return Err(FitError::TooFew { measurements: used.len(), unknowns, left_out });
+        return Err(FitError::Input(format!(
+            "measurements: {}, keys varied: {unknowns}; give at least as many measurements as keys, or vary fewer{left_out}",
+            used.len()
+        )));
     }
     let tried = Mutex::new((0, f64::INFINITY));
     let search = |fixed: &[Option<Bound>]| Search {
@@ -249,10 +252,10 @@ pub fn fit(
     let mut at = free.clone();
     loop {
         let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
-        let Ok(now) = search(&at).residuals(std::slice::from_ref(&x)) else { return Ok(None) };
+        let Ok(now) = search(&at).residuals(&x) else { return Ok(None) };
         let mut more = false;
         for k in (0..unknowns).filter(|k| at[*k].is_none()).collect::<Vec<_>>() {
-            let slope: f64 = columns[k].iter().zip(&now[0]).map(|(derivative, residual)| derivative * residual).sum();
+            let slope: f64 = columns[k].iter().zip(&now).map(|(derivative, residual)| derivative * residual).sum();
             let bound = if x[k] < AT_BOUND && slope > 0.0 {
                 Bound::Lower
             } else if x[k] > 1.0 - AT_BOUND && slope < 0.0 {
@@ -275,8 +278,8 @@ pub fn fit(
         }
     }
     let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
-    let Some(last) = model.at(std::slice::from_ref(&x), model.settings(), cancel) else { return Ok(None) };
-    let computed = in_order(measured, &last[0]);
+    let Some(last) = model.at_one(&x, cancel) else { return Ok(None) };
+    let computed = in_order(measured, &last);
     Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, minima, converged })?))
 }
 

@@ -99,10 +99,9 @@ impl FromStr for ErrorSize {
     type Err = FitError;
 
     fn from_str(text: &str) -> Result<Self, FitError> {
-        let fault = || FitError::Option {
-            option: "error",
-            found: show_text(text),
-            expected: "a number above 0, or a share, as in 0.005, 1% or film_load_n=1%",
+        let fault = || {
+            let expected = "expected a number above 0, or a share, as in 0.005, 1% or film_load_n=1%";
+            FitError::Input(format!("error {}: {expected}", show_text(text)))
         };
         let (name, size) = match text.split_once('=') {
             Some((name, size)) => (Some(name.trim().to_owned()), size.trim()),
@@ -144,17 +143,23 @@ pub(super) fn named(problem: &Problem, name: &str) -> Option<Quantity> {
     measurable(problem).into_iter().find(|quantity| quantity.name() == name || quantity.column(problem) == name)
 }
 
+/// The fault of a name that results of the scene do not have, given for `option`.
+pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> FitError {
+    FitError::Input(format!("{option} {}: no such number; allowed: {allowed}", show_text(name)))
+}
+
 impl Measured {
     /// The table of a `--data` argument, [`TABLE1`] or the path of a CSV file, for a fit of `scene`.
     ///
     /// # Errors
-    /// The file cannot be read, or [`FitError::Table`].
+    /// The file cannot be read, or is no such table.
     pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, FitError> {
         if name_or_path == TABLE1 {
             return Ok(Self::table1(method)?);
         }
         let path = Path::new(name_or_path);
-        let text = read_text(path, LARGEST_TABLE).map_err(|source| FitError::File { path: path.to_owned(), source })?;
+        let text =
+            read_text(path, LARGEST_TABLE).map_err(|fault| FitError::Input(format!("{}: {fault}", path.display())))?;
         Self::from_csv(&text, &show_text(name_or_path), &Problem::try_from(scene)?)
     }
 
@@ -191,9 +196,12 @@ impl Measured {
     /// * `row`, `name` or `note`: words.
     ///
     /// # Errors
-    /// [`FitError::Table`], which names line, column, value and what is allowed.
+    /// [`FitError::Input`], which names line, column, value and what is allowed.
     pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, FitError> {
-        let fault = |line: Option<u64>, what: String| FitError::Table { origin: origin.to_owned(), line, what };
+        let fault = |line: Option<u64>, what: String| {
+            let line = line.map_or_else(String::new, |line| format!(":{line}"));
+            FitError::Input(format!("{origin}{line}: {what}"))
+        };
         // The reader miscounts lines that end in CRLF.
         let text = &text.replace("\r\n", "\n");
         // Where the comma is in decimals, semicolons divide the columns.
@@ -330,7 +338,7 @@ impl Measured {
             if !names.contains(&name) {
                 names.sort_unstable();
                 names.dedup();
-                return Err(FitError::Number { option: "error", found: show_text(name), allowed: names.join(", ") });
+                return Err(no_such_number("error", name, &names.join(", ")));
             }
         }
         for one in &mut self.measurements {
@@ -341,13 +349,13 @@ impl Measured {
                 None => one.error = 0.0,
             }
             if one.error <= 0.0 {
-                let what = format!(
-                    "{}: {} = {} has no error: give one, absolute if the value is 0",
+                return Err(FitError::Input(format!(
+                    "{}: {}: {} = {} has no error: give one, absolute if the value is 0",
+                    self.name,
                     one.label,
                     one.what.name(),
                     one.value
-                );
-                return Err(FitError::Table { origin: self.name.clone(), line: None, what });
+                )));
             }
         }
         self.errors_known = true;
@@ -363,8 +371,8 @@ impl Measured {
             let before = self.measurements.len();
             self.measurements.retain(|one| one.label != *label);
             if self.measurements.len() == before {
-                let what = format!("skip {}: no line has this name", show_text(label));
-                return Err(FitError::Table { origin: self.name.clone(), line: None, what });
+                let label = show_text(label);
+                return Err(FitError::Input(format!("{}: skip {label}: no line has this name", self.name)));
             }
         }
         Ok(self)

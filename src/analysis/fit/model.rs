@@ -3,16 +3,15 @@
 use super::error::FitError;
 use super::measured::{Measured, Observable};
 use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
-use crate::analysis::attempt::{RunStatus, attempt_from, caught};
+use crate::analysis::attempt::{RunStatus, attempt, caught};
 use crate::analysis::quantity::Numbers;
 use crate::analysis::variation::Variation;
 use crate::control::Cancel;
 use crate::drive::Scaled;
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
-use crate::motor::Warm;
 use crate::problem::{Problem, Scenario, rpm};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 use crate::solution::{Outcome, Solution};
 use crate::solve::near::Centre;
 use crate::solve::{Method, Record, Settings, check};
@@ -50,15 +49,14 @@ impl<'a> Model<'a> {
     /// [`FitError`], which names the key, the value and what is allowed.
     pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, FitError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
-            return Err(FitError::Count { found: bounds.len(), most: MOST_UNKNOWNS });
+            let found = bounds.len();
+            return Err(FitError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_UNKNOWNS}")));
         }
         let unknowns = bounds.iter().map(|bounds| Unknown::new(scene, bounds)).collect::<Result<Vec<_>, _>>()?;
         for (i, unknown) in unknowns.iter().enumerate() {
-            if unknowns[..i].iter().any(|other| other.parameter.key == unknown.parameter.key) {
-                return Err(FitError::Twice {
-                    key: unknown.parameter.key,
-                    why: "given twice: the keys have to differ",
-                });
+            let key = unknown.parameter.key;
+            if unknowns[..i].iter().any(|other| other.parameter.key == key) {
+                return Err(FitError::Input(format!("vary {key}: given twice: the keys have to differ")));
             }
         }
         check(&Problem::try_from(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
@@ -81,17 +79,16 @@ impl<'a> Model<'a> {
         for unknown in &self.unknowns {
             let key = unknown.parameter.key;
             if measured.measurements.iter().all(|one| sets(&measured.conditions[one.condition], key)) {
-                return Err(FitError::Twice {
-                    key,
-                    why: "every line of the table of measurements sets it: nothing is left to choose",
-                });
+                return Err(FitError::Input(format!(
+                    "vary {key}: every line of the table of measurements sets it: nothing is left to choose"
+                )));
             }
         }
         let condition = |changes: &Vec<(String, String)>| -> Result<Condition, FitError> {
             let mut scene = self.scene.clone();
-            scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))).map_err(|error| {
-                FitError::Table { origin: measured.name.clone(), line: None, what: error.to_string() }
-            })?;
+            scene
+                .set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
+                .map_err(|error| FitError::Input(format!("{}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
             Ok(Condition { scene, chosen })
         };
@@ -107,11 +104,6 @@ impl<'a> Model<'a> {
     pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
         self.asked = vec![numbers];
         self
-    }
-
-    /// The scene whose keys are chosen.
-    pub fn scene(&self) -> &Scene {
-        self.scene
     }
 
     /// The keys that are chosen.
@@ -135,12 +127,12 @@ impl<'a> Model<'a> {
     }
 
     /// The scene with the values at `x`, under one condition.
-    fn scene_at(&self, condition: &Condition, x: &[f64]) -> Result<Problem, String> {
+    fn scene_at(&self, condition: &Condition, x: &[f64]) -> Result<Scene, SceneError> {
         let mut scene = condition.scene.clone();
         for ((unknown, x), _) in self.unknowns.iter().zip(x).zip(&condition.chosen).filter(|(_, chosen)| **chosen) {
-            unknown.set(&mut scene, *x).map_err(|error| error.to_string())?;
+            unknown.set(&mut scene, *x)?;
         }
-        Problem::try_from(&scene).map_err(|error| error.to_string())
+        Ok(scene)
     }
 
     /// The scene itself with the values at `x`, named as one that was fitted.
@@ -171,6 +163,11 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(rows)
     }
 
+    /// The same at one point, solved as asked: `[condition][asked]`.
+    pub(super) fn at_one(&self, x: &[f64], cancel: &Cancel) -> Option<Vec<Vec<Computed>>> {
+        self.at(&[x.to_vec()], &self.settings, cancel)?.pop()
+    }
+
     /// The same by drafts.
     pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
         self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
@@ -182,8 +179,9 @@ impl<'a> Model<'a> {
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
         self.solves.fetch_add(1, Ordering::Relaxed);
-        let solved = self.scene_at(&self.conditions[condition], x).and_then(|problem| {
-            let solution = attempt_from(&mut Warm::default(), &problem, &settings, &mut (), cancel)?;
+        let problem = self.scene_at(&self.conditions[condition], x).and_then(|scene| Problem::try_from(&scene));
+        let solved = problem.map_err(|error| error.to_string()).and_then(|problem| {
+            let solution = attempt(&problem, &settings, &mut (), cancel)?;
             match RunStatus::from(solution.status) {
                 RunStatus::Converged => Ok((problem, solution)),
                 status => Err(status.to_string()),
@@ -207,17 +205,14 @@ impl<'a> Model<'a> {
     }
 
     fn slopes_of(&self, condition: usize, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
-        let Condition { scene, chosen } = &self.conditions[condition];
+        let Condition { chosen, .. } = &self.conditions[condition];
         let asked = &self.asked[condition];
         let varied: Vec<usize> = (0..x.len()).filter(|k| free[*k] && chosen[*k]).collect();
         let mut slopes = vec![vec![0.0; x.len()]; asked.len()];
         if varied.is_empty() {
             return Some(slopes);
         }
-        let mut scene = scene.clone();
-        for k in (0..x.len()).filter(|k| chosen[*k]) {
-            self.unknowns[k].set(&mut scene, x[k]).ok()?;
-        }
+        let scene = self.scene_at(&self.conditions[condition], x).ok()?;
         let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
         let variation = Variation::new(&scene, &keys).ok()?;
         let values = variation.values();
@@ -257,19 +252,17 @@ impl<'a> Model<'a> {
 /// What is asked of a solution.
 fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Computed> {
     let numbers = Numbers::of(problem, solution);
-    let motor = match (&problem.scenario, &solution.outcome) {
-        (Scenario::Motor(motor), Outcome::Motor(result)) => Some((motor, result)),
-        _ => None,
-    };
-    let speeds: Vec<f64> = match motor {
-        Some((motor, _)) => {
-            asked.iter().filter_map(|what| speed(*what).map(|speed| speed / rpm(1.0, motor.contact_radius))).collect()
+    let mut curve = Vec::new();
+    if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) {
+        let speed = |what: &Observable| match what {
+            Observable::Torque { speed_rpm } => Some(speed_rpm / rpm(1.0, motor.contact_radius)),
+            Observable::Number(_) => None,
+        };
+        let speeds: Vec<f64> = asked.iter().filter_map(speed).collect();
+        if !speeds.is_empty() {
+            curve = Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve;
         }
-        None => Vec::new(),
-    };
-    let curve = motor.filter(|_| !speeds.is_empty()).map_or_else(Vec::new, |(motor, result)| {
-        Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve
-    });
+    }
     let mut curve = curve.into_iter();
     let none = || "the scene has no such number".to_owned();
     asked
@@ -279,11 +272,4 @@ fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Com
             Observable::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
         })
         .collect()
-}
-
-fn speed(what: Observable) -> Option<f64> {
-    match what {
-        Observable::Torque { speed_rpm } => Some(speed_rpm),
-        Observable::Number(_) => None,
-    }
 }

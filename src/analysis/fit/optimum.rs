@@ -2,7 +2,7 @@
 
 use super::Tell;
 use super::error::FitError;
-use super::measured::{Observable, named, names};
+use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
 use super::starts::{best, spread};
 use super::unknown::{Bound, Bounds, Unknown};
@@ -52,10 +52,9 @@ impl FromStr for Limit {
     type Err = FitError;
 
     fn from_str(text: &str) -> Result<Self, FitError> {
-        let fault = || FitError::Option {
-            option: "subject-to",
-            found: show_text(text),
-            expected: "name<value or name>value, as in alpha<0.3",
+        let fault = || {
+            let found = show_text(text);
+            FitError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
         };
         let below = text.contains('<');
         let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
@@ -92,11 +91,7 @@ impl Goal {
     pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, FitError> {
         let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
-            named(&problem, name).ok_or_else(|| FitError::Number {
-                option,
-                found: show_text(name),
-                allowed: names(&problem),
-            })
+            named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
         };
         let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
         let limits = limits.collect::<Result<Vec<_>, FitError>>()?;
@@ -166,7 +161,6 @@ struct Search<'a> {
     model: &'a Model<'a>,
     goal: &'a Goal,
     size: f64,
-    settings: Settings,
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
@@ -185,7 +179,7 @@ type Outcome = (f64, Vec<f64>);
 struct Stopped;
 
 impl Search<'_> {
-    fn at(&self, x: &[f64]) -> Result<Option<(f64, Vec<f64>)>, Stopped> {
+    fn at(&self, x: &[f64]) -> Result<Option<Outcome>, Stopped> {
         // The library may look beyond the bounds.
         let x: Vec<f64> = x.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
@@ -194,8 +188,8 @@ impl Search<'_> {
         {
             return Ok(found.clone());
         }
-        let solved = self.model.at(std::slice::from_ref(&x), &self.settings, self.cancel).ok_or(Stopped)?;
-        let found = self.goal.judge(&solved[0][0], self.size);
+        let solved = self.model.at_one(&x, self.cancel).ok_or(Stopped)?;
+        let found = self.goal.judge(&solved[0], self.size);
         let mut tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
         tried.0 += 1;
         if let Some((cost, beyond)) = &found
@@ -278,7 +272,6 @@ pub fn optimise(
             model: &model,
             goal,
             size,
-            settings: *settings,
             lower: vec![0.0; count],
             upper: vec![1.0; count],
             cancel,
@@ -296,8 +289,8 @@ pub fn optimise(
         };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
         // Of limits that are kept to a thousandth of their value.
-        let Some(solved) = model.at(std::slice::from_ref(&x), settings, cancel) else { return Ok(None) };
-        let Some((cost, beyond)) = goal.judge(&solved[0][0], size) else { continue };
+        let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
+        let Some((cost, beyond)) = goal.judge(&solved[0], size) else { continue };
         let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
         if reached.as_ref().is_none_or(|best| cost < best.0) {
             reached = Some((cost, x, ended.cost_evals() < MOST_POINTS));

@@ -27,7 +27,7 @@ impl FromStr for Bounds {
     type Err = FitError;
 
     fn from_str(text: &str) -> Result<Self, FitError> {
-        let syntax = || FitError::Bounds { found: text.to_owned() };
+        let syntax = || no_bounds(text);
         let (key, range) = text.split_once('=').ok_or_else(syntax)?;
         let parts: Vec<&str> = range.split(':').map(str::trim).collect();
         let (from, to, scale) = match parts[..] {
@@ -39,6 +39,12 @@ impl FromStr for Bounds {
         let number = |text: &str| text.parse().map_err(|_| syntax());
         Ok(Self { key: key.trim().to_owned(), from: number(from)?, to: number(to)?, scale })
     }
+}
+
+/// The fault of bounds that are not of the form asked for.
+fn no_bounds(found: &str) -> FitError {
+    let expected = "expected key=from:to or key=from:to:log, as in film.min_spacing_nm=100:400";
+    FitError::Input(format!("vary {found}: {expected}"))
 }
 
 /// Which bound.
@@ -86,16 +92,19 @@ impl Unknown {
         let Some(parameter) = Parameter::find(key) else {
             // Setting it tells what is wrong with it.
             scene.clone().set(key, "0")?;
-            return Err(FitError::Bounds { found: key.clone() });
+            return Err(no_bounds(key));
         };
         for end in [bounds.from, bounds.to] {
             scene.clone().set_value(key, Value::Number(end))?;
         }
         if !matches!(parameter.kind, ParameterKind::Number { .. }) {
-            return Err(FitError::NotANumber { parameter });
+            return Err(FitError::Input(format!(
+                "vary {key}: it accepts {}; only a key that is a number, and not a whole one, can be chosen between two bounds",
+                parameter.accepts()
+            )));
         }
         let (from, to) = (bounds.from.min(bounds.to), bounds.from.max(bounds.to));
-        let range = |why| FitError::Range { key: parameter.key, from, to, why };
+        let range = |why| FitError::Input(format!("vary {key}: from {from} to {to} {why}"));
         if from == to {
             return Err(range("is no range: the ends have to differ"));
         }

@@ -114,15 +114,10 @@ impl Axis {
     /// [`SweepError`], which names the key, the value and what is allowed.
     pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
         let key = &vary.key;
-        let parameter = match Parameter::find(key) {
-            Some(parameter) => parameter,
+        let Some(parameter) = Parameter::find(key) else {
             // Setting it tells what is wrong with it.
-            None => {
-                return match scene.clone().set(key, "0") {
-                    Err(error) => Err(error.into()),
-                    Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
-                };
-            }
+            scene.clone().set(key, "0")?;
+            return Err(SweepError::Syntax { found: key.clone() });
         };
         let count = match &vary.values {
             Values::Range { count, .. } => *count,
@@ -142,13 +137,11 @@ impl Axis {
                     return Err(SweepError::Syntax { found: format!("{key}={}", words.join(",")) });
                 }
                 let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
-                Ok(match numbers {
-                    Ok(values) => Self { parameter, values, words: Vec::new(), scale: Scale::Linear },
-                    Err(_) => {
-                        let values = (0..count).map(|place| place as f64).collect();
-                        Self { parameter, values, words: words.clone(), scale: Scale::Linear }
-                    }
-                })
+                let (values, words) = match numbers {
+                    Ok(numbers) => (numbers, Vec::new()),
+                    Err(_) => ((0..count).map(|place| place as f64).collect(), words.clone()),
+                };
+                Ok(Self { parameter, values, words, scale: Scale::Linear })
             }
             Values::Range { from, to, scale, .. } => {
                 let whole = match parameter.kind {

@@ -262,7 +262,7 @@ impl Pins {
             let Some(end) = task.drain().end else { return true };
             let stored = waiting.slot.map(|slot| (waiting.name.clone(), slot));
             match end {
-                Ok(Some(run)) => solved.push((waiting.id, stored, run.into_run())),
+                Ok(Some(run)) => solved.push((waiting.id, stored, run)),
                 Ok(None) => failed = Some(Note::Failure(format!("{} could not be solved", waiting.name))),
                 Err(panic) => failed = Some(Note::Failure(format!("{} could not be solved: {panic}", waiting.name))),
             }

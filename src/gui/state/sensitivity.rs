@@ -2,7 +2,8 @@
 
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
 use crate::fidelity::Fidelity;
-use crate::job::sensitivity::Finding;
+use crate::job::sensitivity::{Derivatives, Draws};
+use crate::job::task::TaskOf;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,8 +16,8 @@ pub const SEED: u64 = 1;
 /// Derivatives, uncertainties and random scenes.
 #[derive(Debug, Default)]
 pub struct SensitivityState {
-    derivatives: Option<Finding<Result<Box<Sensitivity>, String>>>,
-    drawing: Option<Finding<MonteCarlo>>,
+    derivatives: Option<TaskOf<Derivatives>>,
+    drawing: Option<TaskOf<Draws>>,
     share: f64,
     /// Why nothing came of the last work.
     pub failure: Option<String>,
@@ -45,7 +46,7 @@ impl SensitivityState {
     }
 
     /// `task` computes the derivatives at this fidelity. What was found before stays until it has.
-    pub fn begin(&mut self, task: std::io::Result<Finding<Result<Box<Sensitivity>, String>>>, fidelity: Fidelity) {
+    pub fn begin(&mut self, task: std::io::Result<TaskOf<Derivatives>>, fidelity: Fidelity) {
         (self.share, self.failure, self.drawing) = (0.0, None, None);
         match task {
             Ok(task) => (self.derivatives, self.fidelity) = (Some(task), fidelity),
@@ -54,7 +55,7 @@ impl SensitivityState {
     }
 
     /// `task` solves random scenes.
-    pub fn begin_drawing(&mut self, task: std::io::Result<Finding<MonteCarlo>>) {
+    pub fn begin_drawing(&mut self, task: std::io::Result<TaskOf<Draws>>) {
         (self.share, self.failure) = (0.0, None);
         match task {
             Ok(task) => self.drawing = Some(task),

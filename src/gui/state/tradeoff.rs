@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_panic_of_the_measurement_ends_it_and_is_told() {
-        let task = Task::start("test", |_| (), |_, _| panic!("out of luck")).unwrap();
+        let task = Task::start("test", None, |_| (), |_, _| panic!("out of luck")).unwrap();
         let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
         for _ in 0..6000 {
             state.drain();

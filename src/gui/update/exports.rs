@@ -6,10 +6,9 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::job::SolvedScene;
-use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff, Ran};
+use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
 use crate::job::task::Task;
 use crate::job::work::Posed;
-use crate::problem::Problem;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -39,14 +38,11 @@ impl Updater {
     }
 
     /// The run on screen; its scene has a name and a description that claim no more than is true of it.
-    fn named(&self) -> Option<Ran> {
-        let run = self.state.run.as_ref()?;
-        let mut scene = run.scene.clone();
-        scene.retitle(self.state.document.saved());
-        let problem = Problem { name: scene.name.clone(), ..run.problem.clone() };
-        let SolvedScene { fidelity, solution, wall_s, history, .. } = &**run;
-        let (posed, solution, history) = (Posed { scene, problem }, solution.clone(), history.clone());
-        Some(Ran { posed, fidelity: *fidelity, solution, wall_s: *wall_s, history })
+    fn named(&self) -> Option<SolvedScene> {
+        let mut run = SolvedScene::clone(self.state.run.as_ref()?);
+        run.scene.retitle(self.state.document.saved());
+        run.problem.name = run.scene.name.clone();
+        Some(run)
     }
 
     /// What is exported, with its own share of all that it needs.
@@ -67,14 +63,14 @@ impl Updater {
             Export::Fields => of_run(OfRun::Fields),
             Export::Animation => of_run(OfRun::Animation),
             Export::Report => {
-                let Ran { posed: Posed { scene, problem }, solution, .. } = self.named()?;
+                let SolvedScene { scene, problem, solution, .. } = self.named()?;
                 let run = ComparedRun { label: scene.name.clone(), scene, problem, solved: Ok(Arc::new(solution)) };
-                Some(Content::of_runs(OfRuns::Report, &[run]))
+                Some(Content::Runs(OfRuns::Report, vec![run]))
             }
-            Export::ComparisonReport => Some(Content::of_runs(OfRuns::Report, self.state.pins.runs())),
+            Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs().to_vec())),
             Export::Comparison => {
                 let all = self.state.pins.all_parameters;
-                Some(Content::of_runs(OfRuns::Comparison { all }, self.state.pins.runs()))
+                Some(Content::Runs(OfRuns::Comparison { all }, self.state.pins.runs().to_vec()))
             }
             Export::Sweep => of_sweep(|_| OfSweep::Data),
             Export::SweepTable => of_sweep(|_| OfSweep::Table),
@@ -86,8 +82,7 @@ impl Updater {
             }
             Export::Fit => {
                 let (scene, found) = self.state.fit.found.as_ref()?;
-                let problem = Problem::try_from(found.scene()).ok()?;
-                let posed = Posed { scene: found.scene().clone(), problem };
+                let posed = Posed::try_from(found.scene().clone()).ok()?;
                 Some(Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found)))
             }
             Export::Answers => Some(Content::Answers(self.state.lessons.records())),

@@ -6,11 +6,11 @@ use crate::gui::command::{FaceCommand, FitCommand};
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
-use crate::job;
+use crate::job::fit::Asked;
+use crate::job::task::Task;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// Progress is drawn at most this often.
@@ -77,9 +77,7 @@ impl Updater {
         }
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
         let asked = scene.clone();
-        let measured = measured.map(Arc::unwrap_or_clone);
-        let task = job::fit::start(scene, measured, bounds, goal, settings, self.wake(REDRAW));
-        match task {
+        match Task::of(Asked { scene, measured, bounds, goal, settings }, self.wake(REDRAW)) {
             Ok(task) => self.state.fit.begin(asked, task),
             Err(error) => self.state.fail(format!("The fit cannot be started: {error}")),
         }

@@ -7,11 +7,16 @@ use crate::gui::state::dropped::Dropped;
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
-use crate::job;
+use crate::job::drop::Dropping;
 use crate::job::hold::{HeldPlate, slowed};
+use crate::job::rotor::Alone;
+use crate::job::startup::FromRest;
+use crate::job::task::Task;
+use crate::job::torque::Curves;
 use crate::job::work::Posed;
 use crate::problem::{Problem, Scenario};
 use crate::startup;
+use std::sync::Arc;
 use std::time::Duration;
 
 impl Updater {
@@ -37,7 +42,7 @@ impl Updater {
     pub fn follow_torque(&mut self) {
         let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
         if self.state.torque.lacks(&run) {
-            let task = job::torque::start(&run, self.wake(Duration::ZERO));
+            let task = Task::of(Curves(Arc::clone(&run)), self.wake(Duration::ZERO));
             self.state.torque.begin(&run, task);
         }
     }
@@ -50,7 +55,7 @@ impl Updater {
         let Scenario::Motor(motor) = &problem.scenario else { return };
         if self.state.rotor.lacks(motor) {
             let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-            let task = job::rotor::start(posed, self.wake(Duration::ZERO));
+            let task = Task::of(Alone(posed), self.wake(Duration::ZERO));
             self.state.rotor.begin(motor, task);
         }
     }
@@ -126,7 +131,8 @@ impl Updater {
         let fidelity = self.state.document.target().min(Fidelity::Standard);
         let scene = self.state.document.scene().clone();
         if scene.floats() {
-            match job::drop::start(Posed { scene: scene.clone(), problem }, fidelity, self.wake(Duration::ZERO)) {
+            let posed = Posed { scene: scene.clone(), problem };
+            match Task::of(Dropping { posed, fidelity }, self.wake(Duration::ZERO)) {
                 Ok(task) => self.state.dropped = Some(Dropped::new(task, scene, fidelity)),
                 Err(error) => self.state.fail(format!("The plate cannot be dropped: {error}")),
             }
@@ -135,11 +141,8 @@ impl Updater {
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
-        match job::startup::start(
-            Posed { scene: scene.clone(), problem: problem.clone() },
-            settings,
-            self.wake(Duration::ZERO),
-        ) {
+        let posed = Posed { scene: scene.clone(), problem: problem.clone() };
+        match Task::of(FromRest { posed, settings }, self.wake(Duration::ZERO)) {
             Ok(task) => self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count)),
             Err(error) => self.state.fail(format!("The start-up cannot be started: {error}")),
         }

@@ -4,7 +4,8 @@ use super::updater::Updater;
 use crate::fidelity::Fidelity;
 use crate::gui::command::PinCommand;
 use crate::gui::state::pins::to_compare;
-use crate::job::pin::{self, PinTask};
+use crate::job::pin::{Compared, PinTask};
+use crate::job::task::Task;
 use crate::scene::{Scene, presets};
 use std::time::Duration;
 
@@ -66,6 +67,6 @@ impl Updater {
 
     /// Solves a scene to be pinned, in the background.
     fn solve_pin(&self, scene: Scene, fidelity: Fidelity) -> std::io::Result<PinTask> {
-        pin::start(scene, fidelity, self.wake(Duration::ZERO))
+        Task::of(Compared { scene, fidelity }, self.wake(Duration::ZERO))
     }
 }

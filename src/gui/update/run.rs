@@ -158,7 +158,7 @@ impl Updater {
                 Event::Failed { number, message } if number == state.activity.number => {
                     state.activity.failure = Some(message);
                 }
-                Event::Done { number, .. } if number == state.activity.number => state.activity.running = None,
+                Event::Done { number } if number == state.activity.number => state.activity.running = None,
                 _ => {}
             }
         }

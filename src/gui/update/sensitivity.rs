@@ -3,7 +3,8 @@
 use super::updater::Updater;
 use crate::gui::command::SensitivityCommand;
 use crate::gui::state::sensitivity::SEED;
-use crate::job::sensitivity::{monte_carlo, sensitivity};
+use crate::job::sensitivity::{Derivatives, Draws};
+use crate::job::task::Task;
 use crate::solve::Settings;
 use std::sync::Arc;
 use std::time::Duration;
@@ -21,7 +22,7 @@ impl Updater {
         match command {
             SensitivityCommand::Start => {
                 let settings = Settings { fidelity, ..Settings::default() };
-                state.begin(sensitivity(scene, settings, wake), fidelity);
+                state.begin(Task::of(Derivatives { scene, settings }, wake), fidelity);
             }
             SensitivityCommand::Cancel => state.cancel(),
             SensitivityCommand::Look(output) => state.output = output,
@@ -31,8 +32,9 @@ impl Updater {
                 let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
                     return;
                 };
-                let task = monte_carlo(Arc::clone(found), uncertainties.clone(), (state.draws(), SEED), wake);
-                state.begin_drawing(task);
+                let (sensitivity, uncertainties) = (Arc::clone(found), uncertainties.clone());
+                let draws = Draws { sensitivity, uncertainties, draws: state.draws(), seed: SEED };
+                state.begin_drawing(Task::of(draws, wake));
             }
         }
     }

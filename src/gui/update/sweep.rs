@@ -2,9 +2,10 @@
 
 use super::updater::Updater;
 use crate::gui::command::SweepCommand;
-use crate::job;
-use crate::job::sweep::SweepTask;
+use crate::job::sweep::{Points, SweepTask};
+use crate::job::task::Task;
 use crate::solve::Settings;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Points are drawn as they come, but at most this often.
@@ -17,8 +18,8 @@ impl Updater {
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running) {
-                    let task = job::sweep::go_on(&swept.sweep, swept.rows.to_vec(), self.wake(REDRAW));
-                    self.begin_sweep(task, true);
+                    let points = Points::Known(Arc::clone(&swept.sweep), swept.rows.to_vec());
+                    self.begin_sweep(Task::of(points, self.wake(REDRAW)), true);
                 }
             }
             SweepCommand::Open(point) => {
@@ -49,7 +50,7 @@ impl Updater {
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        let task = job::sweep::start(swept, vary, settings, self.wake(REDRAW));
+        let task = Task::of(Points::New(swept, vary, settings), self.wake(REDRAW));
         self.begin_sweep(task, false);
     }
 

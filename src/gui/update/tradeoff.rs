@@ -2,7 +2,8 @@
 
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
-use crate::job;
+use crate::job::task::Task;
+use crate::job::tradeoff::Measurement;
 use crate::job::work::Posed;
 use std::time::Duration;
 
@@ -20,13 +21,8 @@ impl Updater {
         let (mut candidates, effort) = (self.platform.measure)(&problem);
         with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
-        match job::tradeoff::measure(
-            Posed { scene: scene.clone(), problem },
-            candidates,
-            effort,
-            now,
-            self.wake(MEASURE_INTERVAL),
-        ) {
+        let posed = Posed { scene: scene.clone(), problem };
+        match Task::of(Measurement { posed, candidates, effort, now }, self.wake(MEASURE_INTERVAL)) {
             Ok(task) => self.state.tradeoff = Some(TradeoffState::new(task, scene, now())),
             Err(error) => self.state.fail(format!("The measurement cannot be started: {error}")),
         }

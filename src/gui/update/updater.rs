@@ -35,7 +35,7 @@ impl Updater {
     /// Begins with `state`, and starts to solve its scene. `parent`: a file dialog over the window.
     pub fn start(ctx: &egui::Context, state: State, platform: Platform, parent: Parent) -> std::io::Result<Self> {
         let wake = ctx.clone();
-        let solver = Solver::start_with_clock(platform.now, move || wake.request_repaint())?;
+        let solver = Solver::start(platform.now, move || wake.request_repaint())?;
         let dialogs = Dialogs::new(platform.ask, parent);
         let (ctx, pictures) = (ctx.clone(), channel());
         let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, writing: Vec::new() };

@@ -3,7 +3,7 @@
 use crate::analysis::attempt::caught;
 use crate::control::Cancel;
 use crate::job::work::{News, Wake, Work};
-use std::sync::mpsc::{Receiver, Sender, SyncSender, TryRecvError, channel, sync_channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
 /// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop it is cancelled and joined.
@@ -22,21 +22,8 @@ enum Event<M, R> {
     End(Result<R, String>),
 }
 
-/// The sender's side of the channel.
-enum Line<E> {
-    Free(Sender<E>),
-    Bounded(SyncSender<E>),
-}
-
-impl<E> Line<E> {
-    /// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
-    fn send(&self, event: E) {
-        let _ = match self {
-            Self::Free(sender) => sender.send(event),
-            Self::Bounded(sender) => sender.send(event),
-        };
-    }
-}
+/// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
+type Line<M, R> = Box<dyn Fn(Event<M, R>) + Send + Sync>;
 
 impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
     /// Starts to do `work` on a thread of its own.
@@ -44,46 +31,36 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
     /// # Errors
     /// If no thread can be started.
     pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
-        Self::bounded(W::NAME, W::AHEAD, wake, |cancel, tell| work.run(cancel, tell))
-    }
-
-    /// Starts a function as [`Self::of`] starts a work, for tests.
-    #[cfg(test)]
-    pub(crate) fn start(
-        name: &str,
-        wake: impl Wake,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self> {
-        Self::bounded(name, None, wake, work)
+        Self::start(W::NAME, W::AHEAD, wake, |cancel, tell| work.run(cancel, tell))
     }
 
     /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it is given; where
     /// `ahead` is given, it waits while so many of its messages have not been taken.
-    fn bounded(
+    pub(crate) fn start(
         name: &str,
         ahead: Option<usize>,
         wake: impl Wake,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
     ) -> std::io::Result<Self> {
-        let (line, events) = match ahead {
+        let (send, events): (Line<M, R>, _) = match ahead {
             Some(most) => {
                 let (sender, events) = sync_channel(most);
-                (Line::Bounded(sender), events)
+                (Box::new(move |event| drop(sender.send(event))), events)
             }
             None => {
                 let (sender, events) = channel();
-                (Line::Free(sender), events)
+                (Box::new(move |event| drop(sender.send(event))), events)
             }
         };
         let cancel = Cancel::new();
         let theirs = cancel.clone();
         let thread = Builder::new().name(format!("squeezefilm-{name}")).spawn(move || {
             let tell = |message: M| {
-                line.send(Event::Message(message));
+                send(Event::Message(message));
                 wake(false);
             };
             let end = caught(|| work(&theirs, &tell));
-            line.send(Event::End(end));
+            send(Event::End(end));
             wake(true);
         })?;
         Ok(Self { cancel, events: Some(events), thread: Some(thread) })
@@ -135,7 +112,7 @@ mod tests {
         let woken = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&woken);
         let wake = move |ended: bool| theirs.store(ended, Ordering::Relaxed);
-        let task: Task<i32, ()> = Task::start("test", wake, |_, tell| {
+        let task: Task<i32, ()> = Task::start("test", None, wake, |_, tell| {
             tell(1);
             panic!("on purpose, {}", 2);
         })
@@ -155,6 +132,7 @@ mod tests {
         let endless = || -> Task<&str, usize> {
             Task::start(
                 "test",
+                None,
                 |_| (),
                 |cancel, tell| {
                     while !cancel.is_cancelled() {
@@ -177,7 +155,7 @@ mod tests {
     fn bounded_work_waits_and_still_ends_on_drop() {
         let sent = Arc::new(std::sync::atomic::AtomicUsize::new(0));
         let theirs = Arc::clone(&sent);
-        let task: Task<usize, ()> = Task::bounded(
+        let task: Task<usize, ()> = Task::start(
             "test",
             Some(2),
             |_| (),

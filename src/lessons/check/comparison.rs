@@ -6,7 +6,7 @@ use crate::lessons::live::Live;
 use crate::scene::Value;
 
 /// Relative tolerance of `about`, unless the check gives another one.
-pub const ABOUT: f64 = 0.05;
+pub(super) const ABOUT: f64 = 0.05;
 /// Relative tolerance of `=`, `<=` and `>=` between numbers, so that a value that was typed passes.
 const SAME: f64 = 1e-9;
 /// Significant digits in a hint.
@@ -72,26 +72,22 @@ impl Comparison {
             _ => String::new(),
         };
         let words = match self.operator {
-            Operator::Less => "below",
-            Operator::AtMost => "at most",
-            Operator::More => "above",
-            Operator::AtLeast => "at least",
+            Operator::Less => "below ",
+            Operator::AtMost => "at most ",
+            Operator::More => "above ",
+            Operator::AtLeast => "at least ",
             Operator::Equal => "",
-            Operator::About => "about",
+            Operator::About => "about ",
         };
-        let space = if words.is_empty() { "" } else { " " };
         let to = match self.operator {
             Operator::About if self.within != ABOUT => format!(" to {} %", short(100.0 * self.within, DIGITS)),
             _ => String::new(),
         };
         let apart = (DIGITS..MOST_DIGITS).find(|digits| short(left, *digits) != short(right, *digits));
         let [is, wanted] = [left, right].map(|value| short(value, apart.unwrap_or(MOST_DIGITS)));
-        (!self.holds(left, right))
-            .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}{to}"))
+        (!self.holds(left, right)).then(|| format!("{subject} is {is}{unit}, and should be {words}{wanted}{unit}{to}"))
     }
-}
 
-impl Comparison {
     fn holds(&self, left: f64, right: f64) -> bool {
         let off = (left - right).abs();
         match self.operator {

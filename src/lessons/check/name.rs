@@ -27,31 +27,11 @@ pub struct Ran<'a> {
     pub live: &'a Readings,
 }
 
-/// A name that is neither a result nor a key.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{name} is neither a result nor a key of the scene{}", suggestion(nearest.as_deref()))]
-pub struct UnknownName {
-    /// As written.
-    pub name: String,
-    /// The nearest name.
-    pub nearest: Option<String>,
-}
-
-fn suggestion(nearest: Option<&str>) -> String {
-    nearest.map_or_else(
-        || {
-            "; results are called as in --json (alpha, film_load_n, …), keys as in a preset (film.min_spacing_nm, …)"
-                .to_owned()
-        },
-        |name| format!(": did you mean {name}?"),
-    )
-}
-
 /// Finds a name: a result, a number of a tab, or a key.
 ///
 /// # Errors
-/// There is none of this name; the error has the nearest one.
-pub fn name(text: &str) -> Result<Name, UnknownName> {
+/// There is none of this name; the message has the nearest one.
+pub fn name(text: &str) -> Result<Name, String> {
     if let Some(quantity) = Quantity::all().find(|quantity| quantity.name() == text) {
         return Ok(Name::Quantity(quantity));
     }
@@ -63,7 +43,14 @@ pub fn name(text: &str) -> Result<Name, UnknownName> {
     }
     let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
     let known = results.chain(PARAMETERS.iter().map(|parameter| parameter.key));
-    Err(UnknownName { name: text.to_owned(), nearest: nearest(text, known).map(str::to_owned) })
+    let meant = match nearest(text, known) {
+        Some(name) => format!(": did you mean {name}?"),
+        None => {
+            "; results are called as in --json (alpha, film_load_n, …), keys as in a preset (film.min_spacing_nm, …)"
+                .to_owned()
+        }
+    };
+    Err(format!("{text} is neither a result nor a key of the scene{meant}"))
 }
 
 impl Name {

@@ -1,57 +1,17 @@
 //! Reads the comparisons of a check.
 
 use super::comparison::{ABOUT, Comparison, Expression, Operator};
-use super::name::{Name, UnknownName, name};
-use crate::scene::{Parameter, ParameterKind, Scene};
+use super::name::{Name, name};
+use crate::scene::{ParameterKind, Scene};
 
 /// Most levels of nested brackets.
 const DEEPEST: usize = 32;
 const OPERATORS: &str = "expected one of < <= > >= = about";
 const VALUE: &str = "expected a number, the name of a result, a key of the scene, or a bracket";
 
-/// Why a check cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum CheckError {
-    /// A name that is neither a result nor a key.
-    #[error(transparent)]
-    Unknown(#[from] UnknownName),
-    /// Something else was expected.
-    #[error("{found} is not expected here: {expected}")]
-    Unexpected {
-        /// What is there.
-        found: String,
-        /// What may be there.
-        expected: &'static str,
-    },
-    /// A result or key that the step's scene does not have.
-    #[error("{name} belongs to another kind of scene; this step's is a {scene}")]
-    NotHere {
-        /// The name.
-        name: &'static str,
-        /// "motor" or "plate".
-        scene: &'static str,
-    },
-    /// A key whose value is a word is used in an expression, or compared with a number.
-    #[error("{name} is no number: compare it with = and {expected}")]
-    NoNumber {
-        /// The key.
-        name: &'static str,
-        /// What it accepts.
-        expected: String,
-    },
-    /// A key is compared with a word that it cannot have.
-    #[error("\"{value}\" is not a value of {name}: expected {expected}")]
-    NoChoice {
-        /// The key.
-        name: &'static str,
-        /// As written.
-        value: String,
-        /// What it accepts.
-        expected: String,
-    },
-    /// Brackets are nested deeper than in any check.
-    #[error("more than {0} levels of brackets")]
-    TooDeep(usize),
+/// The message of what is there, where something else was expected.
+pub(super) fn unexpected(found: &str, expected: &str) -> String {
+    format!("{found} is not expected here: {expected}")
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -86,8 +46,7 @@ const WRITTEN: [(&str, Operator, &str); 6] = [
     ("=", Operator::Equal, "="),
 ];
 
-fn tokens(source: &str) -> Result<Vec<Token>, CheckError> {
-    let unexpected = |found: &str, expected| Err(CheckError::Unexpected { found: found.to_owned(), expected });
+fn tokens(source: &str) -> Result<Vec<Token>, String> {
     let mut tokens = Vec::new();
     let mut rest = source.trim_start();
     while let Some(first) = rest.chars().next() {
@@ -98,7 +57,7 @@ fn tokens(source: &str) -> Result<Vec<Token>, CheckError> {
         } else if "+-*/()".contains(first) {
             (Token::Sign(first), 1)
         } else if first == '"' {
-            let Some(end) = rest[1..].find('"') else { return unexpected(rest, "expected a closing quote") };
+            let Some(end) = rest[1..].find('"') else { return Err(unexpected(rest, "expected a closing quote")) };
             (Token::Text(rest[1..=end].to_owned()), end + 2)
         } else if first.is_ascii_digit() {
             let mut before = first;
@@ -107,14 +66,14 @@ fn tokens(source: &str) -> Result<Vec<Token>, CheckError> {
                 before = c;
                 signed || c.is_ascii_alphanumeric() || c == '.'
             });
-            let Ok(number) = text.parse() else { return unexpected(text, VALUE) };
+            let Ok(number) = text.parse() else { return Err(unexpected(text, VALUE)) };
             (Token::Number(number, text.to_owned()), text.len())
         } else {
             let token = match leading(rest, |c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.')) {
                 "and" => Token::And,
                 "about" => Token::Operator(Operator::About, "about"),
                 name if first.is_ascii_alphabetic() || first == '_' => Token::Name(name.to_owned()),
-                _ => return unexpected(&first.to_string(), VALUE),
+                _ => return Err(unexpected(&first.to_string(), VALUE)),
             };
             let length = token.text().len();
             (token, length)
@@ -131,7 +90,7 @@ fn leading(text: &str, mut inside: impl FnMut(char) -> bool) -> &str {
 }
 
 /// Reads the comparisons of a check for steps on `scene`.
-pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>, CheckError> {
+pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>, String> {
     let tokens = tokens(source)?;
     let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
     let mut comparisons = vec![reader.comparison()?];
@@ -145,7 +104,7 @@ pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>
 }
 
 /// Reads an expression for steps on `scene`.
-pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, CheckError> {
+pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, String> {
     let tokens = tokens(source)?;
     let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
     let sum = reader.sum()?;
@@ -170,12 +129,11 @@ impl Reader<'_> {
         takes
     }
 
-    fn unexpected(&self, expected: &'static str) -> CheckError {
-        let found = self.tokens.get(self.at).map_or_else(|| "the end".to_owned(), Token::text);
-        CheckError::Unexpected { found, expected }
+    fn unexpected(&self, expected: &str) -> String {
+        unexpected(&self.tokens.get(self.at).map_or_else(|| "the end".to_owned(), Token::text), expected)
     }
 
-    fn comparison(&mut self) -> Result<Comparison, CheckError> {
+    fn comparison(&mut self) -> Result<Comparison, String> {
         let from = self.at;
         let left = self.sum()?;
         let words: Vec<String> = self.tokens[from..self.at].iter().map(Token::text).collect();
@@ -192,43 +150,11 @@ impl Reader<'_> {
             self.at += 1;
             within = *share;
         }
-        let comparison = Comparison { left, operator: *operator, right, within, words: words.join(" ") };
-        self.types(&comparison)?;
-        Ok(comparison)
+        types(&left, *operator, &right)?;
+        Ok(Comparison { left, operator: *operator, right, within, words: words.join(" ") })
     }
 
-    /// Checks the types: a key whose value is a word is compared by `=` with one of its words, everything else with numbers.
-    fn types(&self, comparison: &Comparison) -> Result<(), CheckError> {
-        let accepted = |parameter: &Parameter| parameter.accepts();
-        if let Expression::Name { name: Name::Key(parameter), start: false } = comparison.left {
-            let is_number = parameter.range().is_some();
-            match (&comparison.right, comparison.operator) {
-                (Expression::Text(value), Operator::Equal) => {
-                    let fits = match parameter.kind {
-                        ParameterKind::Choice { options, .. } => options.contains(&value.as_str()),
-                        ParameterKind::Flag { .. } => ["true", "false"].contains(&value.as_str()),
-                        _ => parameter.absent.is_some() && value == "none",
-                    };
-                    let no_choice = || CheckError::NoChoice {
-                        name: parameter.key,
-                        value: value.clone(),
-                        expected: accepted(parameter),
-                    };
-                    return if fits { Ok(()) } else { Err(no_choice()) };
-                }
-                _ if !is_number => {
-                    return Err(CheckError::NoNumber { name: parameter.key, expected: accepted(parameter) });
-                }
-                _ => {}
-            }
-        }
-        for side in [&comparison.left, &comparison.right] {
-            numeric(side)?;
-        }
-        Ok(())
-    }
-
-    fn sum(&mut self) -> Result<Expression, CheckError> {
+    fn sum(&mut self) -> Result<Expression, String> {
         let mut sum = self.product()?;
         while let Some(Token::Sign(sign @ ('+' | '-'))) = self.tokens.get(self.at) {
             self.at += 1;
@@ -237,7 +163,7 @@ impl Reader<'_> {
         Ok(sum)
     }
 
-    fn product(&mut self) -> Result<Expression, CheckError> {
+    fn product(&mut self) -> Result<Expression, String> {
         let mut product = self.factor()?;
         while let Some(Token::Sign(sign @ ('*' | '/'))) = self.tokens.get(self.at) {
             self.at += 1;
@@ -246,10 +172,10 @@ impl Reader<'_> {
         Ok(product)
     }
 
-    fn factor(&mut self) -> Result<Expression, CheckError> {
+    fn factor(&mut self) -> Result<Expression, String> {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return Err(CheckError::TooDeep(DEEPEST));
+            return Err(format!("more than {DEEPEST} levels of brackets"));
         }
         let Some(token) = self.tokens.get(self.at) else { return Err(self.unexpected(VALUE)) };
         self.at += 1;
@@ -258,24 +184,19 @@ impl Reader<'_> {
             Token::Text(text) => Expression::Text(text.clone()),
             Token::Name(text) if text == "true" || text == "false" => Expression::Text(text.clone()),
             Token::Name(text) if text == "abs" && self.takes(&Token::Sign('(')) => {
-                let inside = self.sum()?;
-                self.close()?;
-                Expression::Absolute(Box::new(inside))
+                Expression::Absolute(Box::new(self.bracketed()?))
             }
             Token::Name(text) => {
                 let (start, text) = text.strip_prefix("start.").map_or((false, text.as_str()), |rest| (true, rest));
                 let name = name(text)?;
                 if !name.belongs(self.scene) {
-                    return Err(CheckError::NotHere { name: name.text(), scene: self.scene.scene() });
+                    let (name, scene) = (name.text(), self.scene.scene());
+                    return Err(format!("{name} belongs to another kind of scene; this step's is a {scene}"));
                 }
                 Expression::Name { name, start }
             }
             Token::Sign('-') => Expression::Negative(Box::new(self.factor()?)),
-            Token::Sign('(') => {
-                let inside = self.sum()?;
-                self.close()?;
-                inside
-            }
+            Token::Sign('(') => self.bracketed()?,
             Token::Sign(_) | Token::Operator(..) | Token::And => {
                 self.at -= 1;
                 return Err(self.unexpected(VALUE));
@@ -285,17 +206,35 @@ impl Reader<'_> {
         Ok(factor)
     }
 
-    fn close(&mut self) -> Result<(), CheckError> {
-        if self.takes(&Token::Sign(')')) { Ok(()) } else { Err(self.unexpected("expected )")) }
+    /// What is in a bracket that has been opened.
+    fn bracketed(&mut self) -> Result<Expression, String> {
+        let inside = self.sum()?;
+        if self.takes(&Token::Sign(')')) { Ok(inside) } else { Err(self.unexpected("expected )")) }
     }
 }
 
-fn numeric(expression: &Expression) -> Result<(), CheckError> {
+/// Checks the types of a comparison: a key whose value is a word is compared by `=` with one of its words, everything else with numbers.
+fn types(left: &Expression, operator: Operator, right: &Expression) -> Result<(), String> {
+    if let Expression::Name { name: Name::Key(parameter), start: false } = left
+        && let (Operator::Equal, Expression::Text(value)) = (operator, right)
+    {
+        let fits = match parameter.kind {
+            ParameterKind::Choice { options, .. } => options.contains(&value.as_str()),
+            ParameterKind::Flag { .. } => ["true", "false"].contains(&value.as_str()),
+            _ => parameter.absent.is_some() && value == "none",
+        };
+        let (name, expected) = (parameter.key, parameter.accepts());
+        return if fits { Ok(()) } else { Err(format!("\"{value}\" is not a value of {name}: expected {expected}")) };
+    }
+    numeric(left).and_then(|()| numeric(right))
+}
+
+fn numeric(expression: &Expression) -> Result<(), String> {
     match expression {
         Expression::Number(_) => Ok(()),
-        Expression::Text(text) => Err(CheckError::Unexpected { found: format!("\"{text}\""), expected: VALUE }),
+        Expression::Text(text) => Err(unexpected(&format!("\"{text}\""), VALUE)),
         Expression::Name { name: Name::Key(parameter), .. } if parameter.range().is_none() => {
-            Err(CheckError::NoNumber { name: parameter.key, expected: parameter.accepts() })
+            Err(format!("{} is no number: compare it with = and {}", parameter.key, parameter.accepts()))
         }
         Expression::Name { .. } => Ok(()),
         Expression::Negative(inside) | Expression::Absolute(inside) => numeric(inside),

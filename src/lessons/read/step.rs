@@ -39,16 +39,14 @@ impl Reader<'_> {
         if let Some(piece) = block(SETUP) {
             self.table(SETUP, SETUP_KEYS, piece, |reader, table| setup = reader.setup(table));
         }
-        if self.scene.is_none() {
-            if setup.faulty {
-                return None;
+        let Some(scene) = self.scene.clone() else {
+            if !setup.faulty {
+                let missing =
+                    "setup.preset is missing: the first step has to name a preset, built in or a file beside lesson.md";
+                self.fault(raw.line, missing);
             }
-            let missing =
-                "setup.preset is missing: the first step has to name a preset, built in or a file beside lesson.md";
-            self.layout(raw.line, missing);
             return None;
-        }
-        let scene = self.scene.clone()?;
+        };
         let body = self.text(&raw.body);
         let (mut question, mut task, mut observe) = (None, None, None);
         if let Some(piece) = block(QUESTION) {
@@ -60,7 +58,7 @@ impl Reader<'_> {
         match block(OBSERVE) {
             Some(piece) if task.is_none() => {
                 let fault = "a block ```observe asks what was seen after a task, and this step has no ```task";
-                self.layout(piece.line - 1, fault);
+                self.fault(piece.line - 1, fault);
             }
             Some(piece) => {
                 self.table(OBSERVE, OBSERVE_KEYS, piece, |reader, table| observe = reader.question(table));

@@ -1,10 +1,11 @@
 //! The state of the reader of a lesson (its origin, the names it may use, the faults found so far), and how it reads the TOML of a block.
 
 use crate::lessons::check::Reading;
-use crate::lessons::error::{LessonError, LessonErrorKind};
+use crate::lessons::error::LessonError;
 use crate::lessons::lesson::WindowNames;
 use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
 use crate::scene::{Scene, SceneError};
+use std::fmt::Display;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -35,18 +36,14 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn fault(&mut self, line: usize, kind: LessonErrorKind) {
-        self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), kind });
+    /// Something is wrong in this line of the file.
+    pub(super) fn fault(&mut self, line: usize, what: impl ToString) {
+        self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), what: what.to_string() });
     }
 
-    /// Headings and blocks are not as a lesson has them.
-    pub(super) fn layout(&mut self, line: usize, message: impl Into<String>) {
-        self.fault(line, LessonErrorKind::Layout(message.into()));
-    }
-
-    /// Something is wrong with a key of a block. `fault` follows the key in the message.
-    pub(super) fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: impl Into<String>) {
-        self.fault(line, LessonErrorKind::Key { block, key: key.to_owned(), fault: fault.into() });
+    /// Something is wrong with a key of a block. `fault`, the value as written and what is allowed, follows the key in the message.
+    pub(super) fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: impl Display) {
+        self.fault(line, format!("{block}.{key}{fault}"));
     }
 
     /// The value `found` of a key is none of those that are `allowed`.
@@ -89,7 +86,7 @@ impl Reader<'_> {
             Err(error) => {
                 let line = piece.line + error.span().map_or(0, |span| newlines(&piece.text, span.start));
                 let message = error.message().lines().next().unwrap_or_default();
-                self.layout(line, format!("is not valid TOML: {message}"));
+                self.fault(line, format!("is not valid TOML: {message}"));
             }
         }
     }
@@ -100,7 +97,7 @@ impl Reader<'_> {
         for piece in pieces {
             match self.formatted(&piece.text) {
                 Ok(read) => blocks.extend(read),
-                Err((line, error)) => self.fault(piece.line + line, error.into()),
+                Err((line, error)) => self.fault(piece.line + line, error),
             }
         }
         blocks

@@ -84,7 +84,7 @@ fn styles(cx: &DrawContext<'_>) -> [(Color32, LineStyle); 3] {
 
 fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<'_>) {
     let styled: Vec<_> = found.curves.iter().zip(styles(cx)).collect();
-    let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (curve.name, *colour, *style)).collect();
+    let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (&*curve.name, *colour, *style)).collect();
     legend(ui, &entries);
     let em = ui.text_style_height(&TextStyle::Body);
     if ui.available_width() > BESIDE * em {
