@@ -68,8 +68,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Bar::points(scenes.len(), 0).timed(|bar| runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label)));
     let runs = solved?;
     if cancel.is_cancelled() {
-        terminal::note("cancelled; no file was written");
-        return Ok(Exit::Other);
+        return Err(ExportError::Cancelled.into());
     }
     for run in &runs {
         match &run.solved {
@@ -89,15 +88,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
         let how = (&settings, arguments.all, command);
-        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control);
+        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control)?;
         drop(bar);
-        match paths {
-            Err(ExportError::Cancelled) => {
-                terminal::note(&ExportError::Cancelled.to_string());
-                return Ok(Exit::Other);
-            }
-            paths => terminal::note(&written(folder, &paths?)),
-        }
+        terminal::note(&written(folder, &paths));
     }
     Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }

@@ -143,7 +143,7 @@ impl SolveOptions {
             rayon::ThreadPoolBuilder::new()
                 .num_threads(usize::from(threads))
                 .build_global()
-                .map_err(|error| CliError::Threads { threads, reason: error.to_string() })?;
+                .map_err(|source| CliError::Threads { threads, source })?;
         }
         self.memory.apply();
         let method = self.method.unwrap_or(method);

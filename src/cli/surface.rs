@@ -77,9 +77,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 }
 
 fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
-    let fault = |reason: String| CliError::Answers(format!("{}: {reason}", file.display()));
-    let text = read_text(file, LARGEST).map_err(|error| fault(error.to_string()))?;
-    measured(&text, usize::from(degree)).map_err(|error| fault(error.to_string()))
+    let text = read_text(file, LARGEST).map_err(|source| CliError::File { path: file.to_owned(), source })?;
+    measured(&text, usize::from(degree)).map_err(|error| CliError::Answers(format!("{}: {error}", file.display())))
 }
 
 fn text(object: &Object) -> String {

@@ -204,6 +204,16 @@ pub fn animated_frames(solution: &Solution, options: &Options, format: super::an
     }
 }
 
+/// A movie as GIF. `path`: of the file, for a fault.
+pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
+    let mut gif = Vec::new();
+    match movie.gif(&mut gif, cancel) {
+        Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
+        Err(source) => Err(WriteError { path: path.to_owned(), source }.into()),
+        Ok(()) => Ok(gif),
+    }
+}
+
 /// Animations of several runs as GIF, each with its name.
 fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
     if !cfg!(feature = "render") {
@@ -212,15 +222,11 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
     let options = Options::default();
     let all = compare::frames(runs, options.frames);
     let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
-    let gif = |(name, movie): (&str, Movie)| {
-        let mut gif = Vec::new();
-        match movie.gif(&mut gif, control.cancel) {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
-            Err(source) => Err(WriteError { path: folder.join(format!("{name}.gif")), source }.into()),
-            Ok(()) => Ok((name.to_owned(), gif)),
-        }
+    let named = |(name, movie): (&str, Movie)| {
+        let bytes = gif(&movie, &folder.join(format!("{name}.gif")), control.cancel)?;
+        Ok((name.to_owned(), bytes))
     };
-    drawn.into_iter().map(gif).collect()
+    drawn.into_iter().map(named).collect()
 }
 
 /// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
