@@ -1,6 +1,6 @@
 //! `squeezefilm compare`: presets side by side.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
@@ -104,13 +104,12 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     } else {
         format!("{} presets, {how}; differences are against {}", runs.len(), letter(0))
     };
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     for (i, run) in runs.iter().enumerate() {
         columns.row([letter(i), run.label.clone(), mark(run)]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
 
     let mut columns = Columns::new();
     let letters = |first: &str| std::iter::once(first.to_owned()).chain((0..runs.len()).map(letter));
@@ -126,7 +125,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     if listed == 0 {
         text.push_str("  no parameter differs\n");
     } else {
-        text.push_str(&columns.text("  ", &right));
+        text.push_str(&columns.text(&right));
     }
 
     let mut columns = Columns::new();
@@ -150,7 +149,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
         columns.row(std::iter::once(LIMITS.to_owned()).chain(runs.iter().enumerate().flat_map(names)));
     }
     text.push('\n');
-    text.push_str(&columns.text("  ", &right));
+    text.push_str(&columns.text(&right));
     text
 }
 

@@ -156,7 +156,9 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Solve(error) | Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => Exit::Other,
+            Self::Solve(error) | Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => {
+                Exit::Other
+            }
             Self::Fit(error) if !error.is_bad_input() => Exit::Other,
             Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Export(ExportError::Extension { .. }) => Exit::BadInput,

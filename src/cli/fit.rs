@@ -1,6 +1,6 @@
 //! `squeezefilm fit`: keys chosen to agree with measurements, or so that one number is as large or as small as it can be.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
@@ -212,8 +212,7 @@ fn at_bound(at: Option<Bound>) -> &'static str {
 /// A fit for people.
 fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     let title = format!("{}, fitted to {}", show_text(&scene.name), measured.name);
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     columns.row(["key", "value ± standard error", "start", "bounds", ""]);
     for found in &fitted.unknowns {
@@ -230,7 +229,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             at_bound(found.at).to_owned(),
         ]);
     }
-    text.push_str(&columns.text("  ", &[2]));
+    text.push_str(&columns.text(&[2]));
     if fitted.unknowns.len() > 1 {
         text.push_str("\nCorrelation:\n\n");
         let mut columns = Columns::new();
@@ -240,7 +239,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
                 cells.map(|value| if value.is_finite() { signed(format!("{value:.2}")) } else { "–".to_owned() });
             columns.row(std::iter::once(found.unknown.parameter.key.to_owned()).chain(cells));
         }
-        text.push_str(&columns.text("  ", &(1..=fitted.unknowns.len()).collect::<Vec<_>>()));
+        text.push_str(&columns.text(&(1..=fitted.unknowns.len()).collect::<Vec<_>>()));
     }
     text.push('\n');
     text.push_str(&paragraph(&summary(fitted, measured), "", ""));
@@ -262,7 +261,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             residual,
         ]);
     }
-    text.push_str(&columns.text("  ", &[2, 4, 5]));
+    text.push_str(&columns.text(&[2, 4, 5]));
     text
 }
 
@@ -303,8 +302,7 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
 fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let size = if found.goal.greatest { "large" } else { "small" };
     let title = format!("{}: {}, as {size} as possible", show_text(&scene.name), found.goal.quantity.label(problem));
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     let before = found
         .before
@@ -313,7 +311,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
         columns.row([quantity.name().to_owned(), reached.to_string(), format!("allowed: {limit}")]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     text.push('\n');
     let mut columns = Columns::new();
     columns.row([
@@ -333,6 +331,6 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
             at_bound(line.at).to_owned(),
         ]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     text
 }

@@ -254,8 +254,8 @@ impl CommonOptions {
 #[derive(Clone, Debug, Args)]
 pub(super) struct FigureOptions {
     /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
-    figures: Vec<FigureFormat>,
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
+    figures: Vec<String>,
 }
 
 impl FigureOptions {
@@ -270,8 +270,8 @@ impl FigureOptions {
 
     /// The formats asked for, and whether the fields are to be written as VTK.
     pub(super) fn formats_and_vtk(&self) -> (Vec<Format>, bool) {
-        let drawn = |format: &FigureFormat| if let FigureFormat::Drawn(format) = format { Some(*format) } else { None };
-        (self.figures.iter().filter_map(drawn).collect(), self.figures.contains(&FigureFormat::Vtk))
+        let asked = |name: &str| self.figures.iter().any(|figure| figure == name);
+        (Format::ALL.into_iter().filter(|format| asked(format.name())).collect(), asked("vtk"))
     }
 
     /// Stages a figure under a name, once in each format.
@@ -280,24 +280,8 @@ impl FigureOptions {
     }
 }
 
-/// What is written beside numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FigureFormat {
-    None,
-    Drawn(Format),
-    Vtk,
-}
-
-fn figure_format() -> ValueParser {
-    let names = Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]);
-    let format = |name: String| match name.as_str() {
-        "none" => FigureFormat::None,
-        "vtk" => FigureFormat::Vtk,
-        _ => {
-            Format::ALL.into_iter().find(|format| format.name() == name).map_or(FigureFormat::None, FigureFormat::Drawn)
-        }
-    };
-    PossibleValuesParser::new(names).map(format).into()
+fn figure_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]))
 }
 
 /// Reads a whole number within limits.

@@ -1,6 +1,6 @@
 //! `squeezefilm reproduce`: every table and figure of the paper, in one report.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, SolveOptions};
@@ -114,8 +114,7 @@ fn write(
 
 /// Table I for people.
 fn text(all: &Reproduction) -> String {
-    let mut text = paragraph("Table I of Maeno and Bogy (1992): film share α of the load", "", "");
-    text.push('\n');
+    let mut text = heading("Table I of Maeno and Bogy (1992): film share α of the load");
     let mut columns = Columns::new();
     columns.row(["row", "published", "paper's algorithm", "converged"]);
     let with = |value: Option<f64>, error: Option<f64>| {
@@ -129,6 +128,6 @@ fn text(all: &Reproduction) -> String {
             with(row.alpha, row.alpha_error),
         ]);
     }
-    text.push_str(&columns.text("  ", &[1, 2, 3]));
+    text.push_str(&columns.text(&[1, 2, 3]));
     text
 }

@@ -146,7 +146,7 @@ fn one(
     if !arguments.common.output.json {
         terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
     } else if arguments.presets.len() == 1 {
-        terminal::data(&result.to_text());
+        terminal::data(&json::text(&result));
     }
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {

@@ -113,7 +113,7 @@ fn text(object: &Object) -> String {
         &|face| face.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
         "along x over across",
     );
-    let mut text = columns.text("  ", &[]);
+    let mut text = columns.text(&[]);
     let (number, same) = (object.faces.len(), "Both faces are taken to be like it. ");
     text.push_str(&paragraph(
         &format!(
@@ -132,5 +132,5 @@ fn text(object: &Object) -> String {
     row("h/σ", 2, |at| at.gap_over_rms);
     row("φ along x", 3, |at| at.along);
     row("φ along y", 3, |at| at.across);
-    text + &factors.text("  ", &[1, 2, 3, 4]) + "\n" + &object.preset
+    text + &factors.text(&[1, 2, 3, 4]) + "\n" + &object.preset
 }

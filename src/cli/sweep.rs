@@ -1,6 +1,6 @@
 //! `squeezefilm sweep`: up to three keys of a scene varied.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
@@ -273,8 +273,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
     let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
     let how = effort(sweep.settings(), budget);
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
     let mut columns = Columns::new();
     let labels = |quantities: &[Quantity]| {
@@ -297,7 +296,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
         columns.row(cells);
     }
     let numbers: Vec<usize> = (0..keys.len() + shown.len()).collect();
-    text.push_str(&columns.text("  ", &numbers));
+    text.push_str(&columns.text(&numbers));
     let published = sweep.published();
     if !published.is_empty() {
         text.push_str("\nPublished there (Table I):\n\n");
@@ -308,7 +307,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
             cells.extend([format!("{:.3}", point.alpha), format!("{:.3}", point.film_load), point.row.clone()]);
             columns.row(cells);
         }
-        text.push_str(&columns.text("  ", &numbers[..keys.len() + 2]));
+        text.push_str(&columns.text(&numbers[..keys.len() + 2]));
     }
     text
 }

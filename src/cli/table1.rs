@@ -127,7 +127,7 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
             _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),
         }
     }
-    text.push_str(&columns.text("  ", &[1, 3, 5]));
+    text.push_str(&columns.text(&[1, 3, 5]));
     // What is known about the differences holds for the scenes as they are.
     if changes.is_empty() {
         text.push('\n');

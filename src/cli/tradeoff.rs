@@ -1,6 +1,6 @@
 //! `squeezefilm tradeoff`: error against time, measured now, on this machine.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, whole};
@@ -150,14 +150,10 @@ fn advice(tradeoff: &Tradeoff, target: Target, alone: &str) -> String {
 /// The table for people.
 fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     let judged = tradeoff.judged.label(problem);
-    let mut text = paragraph(
-        &format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)),
-        "",
-        "",
-    );
-    text.push('\n');
+    let mut text =
+        heading(&format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)));
     let mut columns = Columns::new();
-    let head = [
+    columns.row([
         "setting",
         "time",
         "quartiles",
@@ -170,12 +166,11 @@ fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
         "rounds",
         "contacts",
         "",
-    ];
-    columns.row(head);
+    ]);
     for (i, point) in tradeoff.points.iter().enumerate() {
         columns.row(cells(point, tradeoff.judged, tradeoff.reference == Some(i)));
     }
-    text.push_str(&columns.text("  ", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+    text.push_str(&columns.text(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
     text.push('\n');
     text.push_str(&paragraph(
         "measured: distance from the reference plus the reference's own stated error, a share of the value; stated: what \

@@ -63,19 +63,12 @@ pub struct Solved<'a> {
 /// # Errors
 /// [`WriteError`], also of what cannot be drawn.
 pub fn stage_figure(staged: &mut Staged, name: &str, figure: &Figure, formats: &[Format]) -> Result<(), WriteError> {
-    for format in each(formats) {
+    for format in formats {
         staged.add(format!("{name}.{}", format.name()), |out| {
-            out.write_all(&to_bytes(figure, format).map_err(io::Error::other)?)
+            out.write_all(&to_bytes(figure, *format).map_err(io::Error::other)?)
         })?;
     }
     Ok(())
-}
-
-fn each(formats: &[Format]) -> Vec<Format> {
-    let mut formats = formats.to_vec();
-    formats.sort_unstable();
-    formats.dedup();
-    formats
 }
 
 /// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
@@ -99,7 +92,7 @@ pub fn solve(
 ) -> Result<Vec<PathBuf>, ExportError> {
     let Solved { scene, problem, solution, .. } = *solved;
     let mut staged = Staged::new(folder)?;
-    staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
+    staged.add("summary.json", |out| out.write_all(json::text(summary).as_bytes()))?;
     staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
     staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
@@ -145,7 +138,9 @@ fn add_figures(
     formats: &[Format],
     control: &Control<'_>,
 ) -> Result<(), ExportError> {
-    let formats = each(formats);
+    let mut formats = formats.to_vec();
+    formats.sort_unstable();
+    formats.dedup();
     if formats.is_empty() {
         return Ok(());
     }

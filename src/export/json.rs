@@ -3,8 +3,7 @@
 use super::estimates::{self, finite};
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
-use crate::analysis::quantity::force_unit;
-use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
@@ -292,11 +291,6 @@ impl Summary {
             self.warnings.push(format!("not known, hence null: {}", unknown.join(", ")));
         }
     }
-
-    /// As text, indented, with a line break at the end.
-    pub fn to_text(&self) -> String {
-        text(self)
-    }
 }
 
 /// An object of `--json` as text, between what all of them have: the version of the format first, the program's version and the
@@ -379,7 +373,7 @@ mod tests {
         for name in ["stats.wall_s", "film_load_error_n", "mean_load_ratio_error"] {
             assert!(warning.contains(name), "{warning}");
         }
-        let value: serde_json::Value = serde_json::from_str(&summary.to_text()).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text(&summary)).unwrap();
         assert!(value["film_load_error_n"].is_null() && value["film_load_n"].is_f64());
     }
 }
