@@ -139,9 +139,8 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
             Method::Paper => "the paper's method",
         };
         let title = format!("{}, {method}", first.map.name.replace('-', " and "));
-        let mut panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
-        panel.legend = Legend::Above;
-        figure.panels.push(panel);
+        let panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
+        figure.panels.push(panel.legend(Legend::Above));
     }
     figure
 }

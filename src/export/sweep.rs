@@ -174,14 +174,13 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
     let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
     let provenance = Provenance {
-        preset: show_text(&sweep.scene().name),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
         error: format!("errors up to {worst:.1e}"),
         note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
+        ..Provenance::named(&show_text(&sweep.scene().name))
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     match sweep.axes() {
@@ -210,17 +209,17 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
             }
             (figure.columns, figure.width) = (first.values.len().clamp(1, 2), Width::Page);
         }
-        [x, ..] if quantity != primary(sweep) => figure.panels.push(curve_panel(sweep, rows, x, quantity)),
         [x, ..] => {
             figure.panels.push(curve_panel(sweep, rows, x, quantity));
+            if quantity != primary(sweep) {
+                return figure;
+            }
             let below = if sweep.quantities().contains(&Quantity::StallTorque) {
                 Quantity::StallTorque
             } else {
                 Quantity::MaxPressure
             };
-            let mut lower = curve_panel(sweep, rows, x, below).height(30.0);
-            lower.legend = Legend::None;
-            figure.panels.push(lower);
+            figure.panels.push(curve_panel(sweep, rows, x, below).height(30.0).legend(Legend::None));
         }
         [] => {}
     }
@@ -240,7 +239,7 @@ fn primary(sweep: &Sweep) -> Quantity {
 fn figure_axis(axis: &SweepAxis) -> Axis {
     let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
     if axis.words.is_empty() {
-        return if axis.scale == Scale::Log { drawn.log() } else { drawn };
+        return Axis { scale: axis.scale, ..drawn };
     }
     let names = axis.values.iter().map(|value| (*value, axis.text(*value))).collect();
     Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
@@ -253,7 +252,6 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     // In ascending order, with a gap where there is no value.
     let mut rows: Vec<&Row> = rows.iter().collect();
     rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    let sound = |row: &&&Row| row.status == RunStatus::Converged;
     let value = |row: &Row| match row.status {
         RunStatus::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
         _ => f64::NAN,
@@ -282,7 +280,7 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     }
     let unsound: Vec<[f64; 2]> = rows
         .iter()
-        .filter(|row| !sound(row))
+        .filter(|row| row.status != RunStatus::Converged)
         .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
         .collect();
     panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
@@ -336,7 +334,7 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     panel = panel.layer(map);
     if x.words.is_empty() && y.words.is_empty() {
         let error = typical_error(rows, quantity);
-        panel = panel.layer(Contours { grid, error, labels: true });
+        panel = panel.layer(Contours { grid, error });
     }
     panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();

@@ -6,7 +6,7 @@ use super::layers::{Layer, Shading};
 use super::legend;
 use super::placed::{
     BAR, Bar, FOOT, GAP, HEAD, LABEL, LEADING, MAJOR, MM, NOTE, Placed, TICK, TITLE, axis_label, fills, first_map,
-    map_range,
+    map_range, widest,
 };
 use super::plane;
 use super::scale::{Scaled, Tick, Ticks};
@@ -187,11 +187,6 @@ fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
         end = at + half + 4.0;
     }
     false
-}
-
-/// The widest label.
-fn widest(ticks: &Ticks) -> f64 {
-    ticks.ticks.iter().filter_map(|tick| tick.label.as_deref()).map(|l| text::width(l, TICK)).fold(0.0, f64::max)
 }
 
 impl Placed {

@@ -56,7 +56,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     );
 
     page.section("What the text says, checked");
-    let mut table = Table::new("").heads([
+    let mut table = Table::default().heads([
         (Kind::Words, "the paper says"),
         (Kind::Words, "published"),
         (Kind::Words, "paper's algorithm"),
@@ -77,7 +77,6 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     page.section("The figures");
     if let Some(gif) = animation {
         page.picture(
-            "image/gif",
             gif,
             "One cycle of the fundamental case, animated",
             "The fundamental case, moving.",
@@ -174,7 +173,7 @@ fn row_name(row: &Row) -> String {
 }
 
 fn table1(all: &Reproduction) -> Table {
-    let mut table = Table::new("")
+    let mut table = Table::default()
         .groups([(1, ""), (2, "published"), (3, "paper's algorithm, paper's meshes"), (3, "converged")])
         .heads([
             (Kind::Words, "changed"),
