@@ -338,7 +338,7 @@ fn every_scene_has_its_figures() {
         ("plate-crossover", vec![("plate.width_mm", "1")], &plate),
     ] {
         let (problem, solution) = solved(preset, &changes);
-        let figures = figures::of(&problem, &solution, &[]);
+        let figures = figures::of(&problem, &solution, &[], None);
         let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
         assert_eq!(names, expected);
         for (name, figure) in &figures {
@@ -350,7 +350,7 @@ fn every_scene_has_its_figures() {
     }
     let (problem, mut solution) = solved("plate-viscous", &[]);
     solution.recording = Default::default();
-    assert!(figures::of(&problem, &solution, &[]).is_empty());
+    assert!(figures::of(&problem, &solution, &[], None).is_empty());
 }
 
 #[test]
@@ -358,7 +358,7 @@ fn the_wave_shows_the_recording() {
     let (problem, solution) = solved("fundamental", &[]);
     let recording = &solution.recording;
     let frame = figures::motor::crest_in_the_middle(recording);
-    let figures = figures::of(&problem, &solution, &[]);
+    let figures = figures::of(&problem, &solution, &[], None);
     let svg = figure::to_svg(&figures[0].1);
     let document = Document::parse(&svg).unwrap();
     let stator = vertices(panels(&document)[0], "stator", "data-y");

@@ -66,12 +66,7 @@ impl Inner {
 
     /// The figures, with their names. With `torque` the figure of torque over speed is among them.
     fn figures(&self, torque: Option<&TorqueCurves>) -> Vec<(&'static str, Figure)> {
-        let mut all = figures::of(&self.problem, &self.solution, &self.history);
-        if let Some(curves) = torque {
-            let drawn = figures::torque::torque(curves);
-            all.push((TORQUE, figures::dressed(&self.problem, &self.solution, drawn)));
-        }
-        all
+        figures::of(&self.problem, &self.solution, &self.history, torque)
     }
 }
 

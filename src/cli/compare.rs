@@ -4,7 +4,6 @@ use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::analysis::decision::effort;
@@ -90,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let how = (&settings, arguments.all, command);
         let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control)?;
         drop(bar);
-        terminal::note(&written(folder, &paths));
+        terminal::wrote(folder, &paths);
     }
     Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }

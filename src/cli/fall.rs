@@ -4,7 +4,6 @@ use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::control::Cancel;
@@ -64,7 +63,7 @@ pub(super) fn run(
         drawn.provenance.fidelity = fidelity.to_string();
         common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Some(Exit::of(&ended.status)))
 }

@@ -4,7 +4,6 @@ use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
@@ -158,7 +157,7 @@ impl Call<'_> {
             let problem = Problem::try_from(&fitted.scene)?;
             let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
             let paths = files::fitted(folder, of, (&fitted, measured), self.command, &formats)?;
-            terminal::note(&written(folder, &paths));
+            terminal::wrote(folder, &paths);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -181,7 +180,7 @@ impl Call<'_> {
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
-            terminal::note(&written(folder, &files::optimum(folder, of, &found, self.command, &formats)?));
+            terminal::wrote(folder, &files::optimum(folder, of, &found, self.command, &formats)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }

@@ -137,8 +137,13 @@ pub(super) struct SolveOptions {
 }
 
 impl SolveOptions {
-    /// The settings, with defaults for what was not chosen; starts the threads and allows the memory.
-    pub(super) fn prepare(&self, fidelity: Fidelity, method: Method) -> Result<Settings, CliError> {
+    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
+    pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
+        self.begin_with(Fidelity::default(), Method::default())
+    }
+
+    /// The same, with these for what was not chosen. Starts the threads and allows the memory.
+    pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new()
                 .num_threads(usize::from(threads))
@@ -153,18 +158,10 @@ impl SolveOptions {
         if let (Method::Paper, Some(level)) = (method, self.accuracy.named()) {
             terminal::warning(&format!("{} has no effect: method paper has its own meshes", level.option()));
         }
-        Ok(Settings { fidelity: self.accuracy.fidelity().unwrap_or(fidelity), method, ..Settings::default() })
-    }
-
-    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
-    pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
-        let settings = self.prepare(Fidelity::default(), Method::default())?;
-        Ok((settings, self.within_budget(cancel_on_interrupt())))
-    }
-
-    /// The flag of a command whose solves each have the budget that was given.
-    pub(super) fn within_budget(&self, cancel: Cancel) -> Cancel {
-        self.accuracy.budget.map_or(cancel.clone(), |budget| timed(&cancel, budget))
+        let fidelity = self.accuracy.fidelity().unwrap_or(fidelity);
+        let interrupted = cancel_on_interrupt();
+        let cancel = self.accuracy.budget.map_or(interrupted.clone(), |budget| timed(&interrupted, budget));
+        Ok((Settings { fidelity, method, ..Settings::default() }, cancel))
     }
 }
 

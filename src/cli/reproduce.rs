@@ -2,10 +2,8 @@
 
 use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
-use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, SolveOptions};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
 use crate::atomic::{Staged, check_writable};
@@ -58,8 +56,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     // Finds out whether it can be written before anything is solved.
     check_writable(&arguments.out)?;
-    let settings = arguments.solve.prepare(Fidelity::Fine, Method::Auto)?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
+    let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, Method::Auto)?;
     let started = Instant::now();
     let bar = Bar::points(number_of_solves(), 0);
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));
@@ -67,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let all = solved?;
     let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
     terminal::result(arguments.json, || json::document(&Object::new(&all), command), || text(&all));
-    terminal::note(&written(&arguments.out, &paths));
+    terminal::wrote(&arguments.out, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
         number_of_solves(),

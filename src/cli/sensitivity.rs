@@ -126,7 +126,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let paths = files::sensitivity(folder, &found, &fidelity, command, &arguments.common.figures.formats())?;
-        terminal::note(&super::solve::written(folder, &paths));
+        terminal::wrote(folder, &paths);
     }
     Ok(Exit::of(&sensitivity.status()))
 }

@@ -4,7 +4,6 @@ use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
@@ -93,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let drawn = figure(&scene.name, settings.fidelity, &cells);
             arguments.common.figures.stage(&mut staged, "stability", &drawn)?;
         }
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }

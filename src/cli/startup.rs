@@ -5,7 +5,6 @@ use super::exit::{CliError, Exit};
 use super::fall::{self, Dropped};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::Staged;
@@ -128,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
         arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Exit::of(&ended.status))
 }

@@ -3,7 +3,6 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{FigureOptions, OutputOptions, whole};
-use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{signed, significant};
@@ -71,7 +70,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
             arguments.figures.stage(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
         }
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Exit::Solved)
 }

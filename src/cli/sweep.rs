@@ -4,7 +4,6 @@ use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
@@ -150,7 +149,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let exit = tell(&sweep, &rows, budget, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, &arguments.common.figures)?));
+        terminal::wrote(folder.path, &folder.save(&rows, &arguments.common.figures)?);
     }
     Ok(exit)
 }

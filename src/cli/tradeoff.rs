@@ -5,7 +5,6 @@ use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
@@ -107,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());

@@ -144,11 +144,7 @@ fn add_figures(
     if formats.is_empty() {
         return Ok(());
     }
-    let mut figures = figures::of(solved.problem, solved.solution, solved.history);
-    if let Some(curves) = solved.torque {
-        let torque = figures::torque::torque(curves);
-        figures.push(("torque", figures::dressed(solved.problem, solved.solution, torque)));
-    }
+    let figures = figures::of(solved.problem, solved.solution, solved.history, solved.torque);
     let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(files.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {

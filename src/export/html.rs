@@ -22,10 +22,9 @@ pub struct Page {
 }
 
 /// Where a cell's words stand, and how they look.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Words, on the left.
-    #[default]
     Words,
     /// A number, on the right, digits below digits.
     Number,
