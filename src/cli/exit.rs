@@ -18,17 +18,17 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// How a command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a command ended, the worse the later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
     /// Solved.
     Solved,
-    /// Anything else.
-    Other,
-    /// Bad input.
-    BadInput,
     /// Not converged.
     NotConverged,
+    /// Bad input.
+    BadInput,
+    /// Anything else.
+    Other,
     /// Nobody reads standard output any more.
     Unread,
 }
@@ -36,11 +36,7 @@ pub(super) enum Exit {
 impl Exit {
     /// What a solve that ended so leads to.
     pub(super) fn of(status: &Status) -> Self {
-        match status {
-            Status::Converged => Self::Solved,
-            Status::NotConverged { .. } | Status::NotResolved { .. } => Self::NotConverged,
-            Status::Cancelled => Self::Other,
-        }
+        Self::from(&RunStatus::from(*status))
     }
 
     /// The status.
@@ -57,8 +53,7 @@ impl Exit {
 
     /// What several lead to: the worst of them.
     pub(super) fn worst(all: impl IntoIterator<Item = Self>) -> Self {
-        let order = [Self::Solved, Self::NotConverged, Self::BadInput, Self::Other, Self::Unread];
-        all.into_iter().max_by_key(|exit| order.iter().position(|other| other == exit)).unwrap_or(Self::Solved)
+        all.into_iter().max().unwrap_or(Self::Solved)
     }
 }
 

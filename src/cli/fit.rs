@@ -112,11 +112,8 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (folder, settings, cancel) = arguments.common.begin()?;
-    let sought = match (&arguments.maximise, &arguments.minimise) {
-        (Some(name), _) => Some((name, true)),
-        (_, Some(name)) => Some((name, false)),
-        _ => None,
-    };
+    let greatest = arguments.maximise.as_ref().map(|name| (name, true));
+    let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));
     let call = Call { arguments, scene: &scene, settings: &settings, folder, cancel: &cancel, command };
     match (&arguments.data, sought) {
         (_, Some((name, greatest))) => call.optimum(&Goal::new(&scene, name, greatest, &arguments.subject_to)?),

@@ -93,11 +93,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
     }
-    for axis in sweep.axes() {
-        let key = axis.parameter.key;
-        if arguments.common.scene.changes.iter().any(|(changed, _)| changed == key) {
-            return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
-        }
+    if arguments.common.scene.changes.iter().any(|(key, _)| varies(key)) {
+        return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
     }
     for (vary, axis) in arguments.vary.iter().zip(sweep.axes()) {
         if let Values::Range { count, .. } = vary.values

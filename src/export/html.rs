@@ -209,16 +209,12 @@ impl Page {
     pub fn figures<'a>(&mut self, figures: impl IntoIterator<Item = (&'a str, &'a Figure)>) {
         self.body.push_str("<div class=\"figures\">\n");
         for (name, figure) in figures {
-            self.figure(name, figure);
+            let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
+            let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
+            self.caption(name, &figure.caption);
+            self.body.push_str("</figure>\n");
         }
         self.body.push_str("</div>\n");
-    }
-
-    fn figure(&mut self, name: &str, figure: &Figure) {
-        let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
-        let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
-        self.caption(name, &figure.caption);
-        self.body.push_str("</figure>\n");
     }
 
     fn caption(&mut self, name: &str, caption: &str) {

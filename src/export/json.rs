@@ -249,20 +249,18 @@ impl Summary {
             command: command.to_vec(),
             ..Self::default()
         };
-        match &problem.scenario {
-            Scenario::Motor(motor) => {
+        match (&problem.scenario, &solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.scene = "motor";
                 summary.dry_torque_nm = finite(motor.friction_torque(motor.load));
+                summary.levitated = Some(result.levitated);
             }
-            Scenario::Plate(_) => summary.scene = "plate",
-        }
-        match (&problem.scenario, &solution.outcome) {
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                summary.scene = "plate";
                 summary.exact = Some(Comparison::of(plate, result.film_load, &solution.recording));
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }
-            (Scenario::Motor(_), Outcome::Motor(result)) => summary.levitated = Some(result.levitated),
             _ => {}
         }
         summary.tell_unknown(problem, solution);

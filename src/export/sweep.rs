@@ -10,8 +10,8 @@ use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
-    Shading, Shape, Style, Width, extent,
+    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading,
+    Shape, Style, Width, extent,
 };
 use crate::scene::{Scale, show_text};
 use crate::solution::StoppedBy;
@@ -184,7 +184,7 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     match sweep.axes() {
-        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity)),
+        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity, Range::Auto)),
         [first, x, y] => {
             // A map for each value of the first key, with one scale of colours.
             let found = rows
@@ -192,19 +192,13 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
                 .filter(|row| row.status == RunStatus::Converged)
                 .filter_map(|row| row.numbers.get(quantity));
             let [least, most] = extent(found);
+            let range = if least < most { Range::Fixed(least, most) } else { Range::Auto };
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
                 let of_value: Vec<Row> =
                     of_value.map(|row| Row { values: row.values[1..].to_vec(), ..row.clone() }).collect();
-                let mut panel = map_panel(sweep, &of_value, [x, y], quantity);
+                let mut panel = map_panel(sweep, &of_value, [x, y], quantity, range.clone());
                 panel.title = format!("{} = {} {}", first.parameter.words(), first.text(*value), first.parameter.unit);
-                for layer in &mut panel.layers {
-                    if let Layer::Map(map) = layer
-                        && least < most
-                    {
-                        map.range = Range::Fixed(least, most);
-                    }
-                }
                 figure.panels.push(panel.height(46.0));
             }
             (figure.columns, figure.width) = (first.values.len().clamp(1, 2), Width::Page);
@@ -310,7 +304,7 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
-fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity) -> Panel {
+fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity, range: Range) -> Panel {
     let ascending = |values: &[f64]| {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);
@@ -329,9 +323,9 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
         }
     }
     let grid = Grid { x: xs, y: ys, values };
-    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0);
-    let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
-    panel = panel.layer(map);
+    let label = quantity.words().to_owned();
+    let map = Map { label, grid: grid.clone(), range, shading: Shading::Cells, ..Map::default() };
+    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
     if x.words.is_empty() && y.words.is_empty() {
         let error = typical_error(rows, quantity);
         panel = panel.layer(Contours { grid, error });

@@ -249,7 +249,7 @@ impl Placed {
     fn above(&self, panel: &Panel) -> f64 {
         let text = legend::height(self, panel);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
-        let title = if self.title_line(panel) { HEAD * LEADING + 2.0 } else { 0.0 };
+        let title = if panel.title.trim().is_empty() { 0.0 } else { HEAD * LEADING + 2.0 };
         // A title and a colour bar share their line if there is room for both.
         let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
         text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
@@ -258,11 +258,6 @@ impl Placed {
     /// Width of a colour bar above the axes, its label included.
     fn bar_above(&self) -> f64 {
         self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.label, NOTE))
-    }
-
-    /// Whether there is a line for the title.
-    fn title_line(&self, panel: &Panel) -> bool {
-        !panel.title.trim().is_empty()
     }
 
     /// What stands below it.
@@ -279,7 +274,7 @@ impl Placed {
         self.rect.y = top;
         let rect = self.rect;
         let legend = legend::height(self, panel);
-        if self.title_line(panel) {
+        if !panel.title.trim().is_empty() {
             self.title = Some([rect.x, row + HEAD]);
         }
         legend::place(self, panel);
