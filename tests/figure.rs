@@ -175,7 +175,7 @@ fn a_map() -> Figure {
     let values: Vec<f64> = nodes.iter().flat_map(|x| nodes.map(|y| 100.0 * (x + y))).collect();
     let grid = Grid { x: nodes.to_vec(), y: nodes.to_vec(), values };
     let map = Map { label: "pressure".into(), unit: "kPa".into(), grid: grid.clone(), ..Map::default() };
-    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let lines = Contours { grid, ..Contours::default() };
     let panel = Panel::new("", Axis::new("x", "mm"), Axis::new("y", "mm")).layer(map).layer(lines);
     let mut figure = Figure::new("A map of p").panel(panel);
     figure.provenance = Provenance { preset: "plate".into(), error: "± 1 %".into(), ..Provenance::default() };
@@ -265,7 +265,7 @@ fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
     let mut panel = Panel::new("p_{a}", ax.clone(), ay.clone())
         .layer(Map { grid: grid.clone(), ..Map::default() })
         .layer(Map { grid: grid.clone(), shading: Shading::Cells, range: Range::Fixed(2.0, 2.0), ..Map::default() })
-        .layer(Contours { grid, labels: true, ..Contours::default() })
+        .layer(Contours { grid, ..Contours::default() })
         .layer(Categories { x: x.to_vec(), y: y.to_vec(), values: kinds, kinds: vec![("k".into(), Colour::BLACK)] })
         .layer(Line::new("line", points(), Style::nth(0)))
         .layer(other)
@@ -338,7 +338,7 @@ fn every_scene_has_its_figures() {
         ("plate-crossover", vec![("plate.width_mm", "1")], &plate),
     ] {
         let (problem, solution) = solved(preset, &changes);
-        let figures = figures::of(&problem, &solution, &[]);
+        let figures = figures::of(&problem, &solution, &[], None);
         let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
         assert_eq!(names, expected);
         for (name, figure) in &figures {
@@ -350,7 +350,7 @@ fn every_scene_has_its_figures() {
     }
     let (problem, mut solution) = solved("plate-viscous", &[]);
     solution.recording = Default::default();
-    assert!(figures::of(&problem, &solution, &[]).is_empty());
+    assert!(figures::of(&problem, &solution, &[], None).is_empty());
 }
 
 #[test]
@@ -358,7 +358,7 @@ fn the_wave_shows_the_recording() {
     let (problem, solution) = solved("fundamental", &[]);
     let recording = &solution.recording;
     let frame = figures::motor::crest_in_the_middle(recording);
-    let figures = figures::of(&problem, &solution, &[]);
+    let figures = figures::of(&problem, &solution, &[], None);
     let svg = figure::to_svg(&figures[0].1);
     let document = Document::parse(&svg).unwrap();
     let stator = vertices(panels(&document)[0], "stator", "data-y");
@@ -397,7 +397,7 @@ fn a_gif_has_all_frames_and_they_move() {
     let (problem, solution) = solved("fundamental", &[]);
     let options = animation::Options { width: 300, seconds: 2.0, frames: 12 };
     let movie = animation::cycle(&problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
-    let count = movie.len();
+    let count = movie.count();
     assert!((6..=12).contains(&count) && solution.recording.frames.is_multiple_of(count), "{count}");
     let mut bytes = Vec::new();
     movie.gif(&mut bytes, &Cancel::new()).unwrap();
@@ -433,7 +433,7 @@ fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
     let path = folder.path().join("a.mp4");
     let encoded = std::cell::Cell::new(0);
     movie.write(&path, &|| encoded.set(encoded.get() + 1), &Cancel::new()).unwrap();
-    assert_eq!(encoded.get(), movie.len());
+    assert_eq!(encoded.get(), movie.count());
     let frames = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
     let frames: Vec<_> = frames.iter().map(|path| decoded(&fs::read(path).unwrap())).collect();
     let (across, down) = (frames[0].0.width as usize, frames[0].0.height as usize);
@@ -447,7 +447,7 @@ fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
     assert_eq!((file.tracks().len(), track.width as usize, track.height as usize), (1, width, height));
     assert_eq!(track.duration, 12 * track.timescale, "twice six seconds");
     assert_eq!(track.codec_string(&file).unwrap(), "av01.0.00M.08", "main profile, level 2.0, 8 bits");
-    let count = movie.len();
+    let count = movie.count();
     assert_eq!(track.samples.len(), 2 * count);
     for (i, sample) in track.samples.iter().enumerate() {
         assert_eq!(sample.is_sync, i % count == 0, "sample {i}");

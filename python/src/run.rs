@@ -11,7 +11,7 @@ use squeezefilm::export::fields::fields;
 use squeezefilm::export::figure::{Figure, Format, to_bytes};
 use squeezefilm::export::figures;
 use squeezefilm::export::files::{self, Control, ExportError, Solved};
-use squeezefilm::export::json::Summary;
+use squeezefilm::export::json::{self, Summary};
 use squeezefilm::export::torque;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::Scene as Edited;
@@ -66,12 +66,7 @@ impl Inner {
 
     /// The figures, with their names. With `torque` the figure of torque over speed is among them.
     fn figures(&self, torque: Option<&TorqueCurves>) -> Vec<(&'static str, Figure)> {
-        let mut all = figures::of(&self.problem, &self.solution, &self.history);
-        if let Some(curves) = torque {
-            let drawn = figures::torque::torque(curves);
-            all.push((TORQUE, figures::dressed(&self.problem, &self.solution, drawn)));
-        }
-        all
+        figures::of(&self.problem, &self.solution, &self.history, torque)
     }
 }
 
@@ -106,10 +101,10 @@ impl Run {
     /// The object of `solve --json`, as text; if `torque` is true, with torque over speed.
     fn summary(&self, py: Python<'_>, torque: bool) -> PyResult<String> {
         if !torque {
-            return Ok(self.0.summary().to_text());
+            return Ok(json::text(&self.0.summary()));
         }
         let inner = Arc::clone(&self.0);
-        apart(py, None, move |cancel, _| inner.complete(cancel).to_text())
+        apart(py, None, move |cancel, _| json::text(inner.complete(cancel)))
     }
 
     /// Torque over speed, of a motor, as CSV.

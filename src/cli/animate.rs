@@ -7,7 +7,7 @@ use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::{check_file, check_writable};
 use crate::export::animation::{Format, Options};
-use crate::export::files::{self, Control, ExportError, Solved};
+use crate::export::files::{self, Control, Solved};
 use crate::problem::Problem;
 use crate::solution::{Status, settled};
 use crate::solve::solve;
@@ -88,15 +88,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let bar = Bar::frames(count);
     let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
     let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
-    let written = files::animation(&arguments.out, &solved, &options, &control);
+    files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);
-    match written {
-        Ok(_) => terminal::note(&format!("wrote {}: {count} frames", arguments.out.display())),
-        Err(ExportError::Cancelled) => {
-            terminal::note(&ExportError::Cancelled.to_string());
-            return Ok(Exit::Other);
-        }
-        Err(error) => return Err(error.into()),
-    }
+    terminal::note(&format!("wrote {}: {count} frames", arguments.out.display()));
     Ok(Exit::of(&solution.status))
 }

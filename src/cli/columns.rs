@@ -5,7 +5,6 @@ use comfy_table::{CellAlignment, Table};
 use textwrap::{Options, WordSplitter};
 
 /// Rows of cells; every column is as wide as its widest cell.
-#[derive(Default)]
 pub(super) struct Columns(Table);
 
 impl Columns {
@@ -21,15 +20,19 @@ impl Columns {
         self.0.add_row(cells.into_iter().map(|cell| escaped(&cell.into())).collect::<Vec<_>>());
     }
 
-    /// The rows, each on a line begun with `indent`, cells two spaces apart; the columns listed in `right` are
-    /// aligned to the right.
-    pub(super) fn text(mut self, indent: &str, right: &[usize]) -> String {
+    /// The rows, each on a line, begun with two spaces and cells as far apart; the columns listed in `right` are aligned to the right.
+    pub(super) fn text(mut self, right: &[usize]) -> String {
         for (i, column) in self.0.column_iter_mut().enumerate() {
             column.set_padding((0, 2));
             column.set_cell_alignment(if right.contains(&i) { CellAlignment::Right } else { CellAlignment::Left });
         }
-        self.0.lines().map(|line| format!("{indent}{line}").trim_end().to_owned() + "\n").collect()
+        self.0.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n").collect()
     }
+}
+
+/// What a table is about, and an empty line below.
+pub(super) fn heading(words: &str) -> String {
+    paragraph(words, "", "") + "\n"
 }
 
 /// The widest line of a paragraph.
@@ -51,7 +54,7 @@ mod tests {
         let mut columns = Columns::new();
         columns.row(["α", "1.5", "x"]);
         columns.row(["load", "10.25", ""]);
-        assert_eq!(columns.text(" ", &[1]), " α       1.5  x\n load  10.25\n");
+        assert_eq!(columns.text(&[1]), "  α       1.5  x\n  load  10.25\n");
     }
 
     #[test]
@@ -59,7 +62,7 @@ mod tests {
         let mut columns = Columns::new();
         columns.row(["超音波", "1"]);
         columns.row(["a\u{202e}\nb", "2"]);
-        assert_eq!(columns.text("", &[]), "超音波        1\na\\u{202e}\\nb  2\n");
+        assert_eq!(columns.text(&[]), "  超音波        1\n  a\\u{202e}\\nb  2\n");
     }
 
     #[test]

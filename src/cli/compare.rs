@@ -1,10 +1,9 @@
 //! `squeezefilm compare`: presets side by side.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::analysis::decision::effort;
@@ -68,8 +67,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Bar::points(scenes.len(), 0).timed(|bar| runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label)));
     let runs = solved?;
     if cancel.is_cancelled() {
-        terminal::note("cancelled; no file was written");
-        return Ok(Exit::Other);
+        return Err(ExportError::Cancelled.into());
     }
     for run in &runs {
         match &run.solved {
@@ -89,15 +87,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
         let how = (&settings, arguments.all, command);
-        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control);
+        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control)?;
         drop(bar);
-        match paths {
-            Err(ExportError::Cancelled) => {
-                terminal::note(&ExportError::Cancelled.to_string());
-                return Ok(Exit::Other);
-            }
-            paths => terminal::note(&written(folder, &paths?)),
-        }
+        terminal::wrote(folder, &paths);
     }
     Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }
@@ -111,13 +103,12 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     } else {
         format!("{} presets, {how}; differences are against {}", runs.len(), letter(0))
     };
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     for (i, run) in runs.iter().enumerate() {
         columns.row([letter(i), run.label.clone(), mark(run)]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
 
     let mut columns = Columns::new();
     let letters = |first: &str| std::iter::once(first.to_owned()).chain((0..runs.len()).map(letter));
@@ -133,7 +124,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     if listed == 0 {
         text.push_str("  no parameter differs\n");
     } else {
-        text.push_str(&columns.text("  ", &right));
+        text.push_str(&columns.text(&right));
     }
 
     let mut columns = Columns::new();
@@ -157,7 +148,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
         columns.row(std::iter::once(LIMITS.to_owned()).chain(runs.iter().enumerate().flat_map(names)));
     }
     text.push('\n');
-    text.push_str(&columns.text("  ", &right));
+    text.push_str(&columns.text(&right));
     text
 }
 

@@ -18,17 +18,17 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// How a command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a command ended, the worse the later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
     /// Solved.
     Solved,
-    /// Anything else.
-    Other,
-    /// Bad input.
-    BadInput,
     /// Not converged.
     NotConverged,
+    /// Bad input.
+    BadInput,
+    /// Anything else.
+    Other,
     /// Nobody reads standard output any more.
     Unread,
 }
@@ -36,11 +36,7 @@ pub(super) enum Exit {
 impl Exit {
     /// What a solve that ended so leads to.
     pub(super) fn of(status: &Status) -> Self {
-        match status {
-            Status::Converged => Self::Solved,
-            Status::NotConverged { .. } | Status::NotResolved { .. } => Self::NotConverged,
-            Status::Cancelled => Self::Other,
-        }
+        Self::from(&RunStatus::from(*status))
     }
 
     /// The status.
@@ -57,8 +53,7 @@ impl Exit {
 
     /// What several lead to: the worst of them.
     pub(super) fn worst(all: impl IntoIterator<Item = Self>) -> Self {
-        let order = [Self::Solved, Self::NotConverged, Self::BadInput, Self::Other, Self::Unread];
-        all.into_iter().max_by_key(|exit| order.iter().position(|other| other == exit)).unwrap_or(Self::Solved)
+        all.into_iter().max().unwrap_or(Self::Solved)
     }
 }
 
@@ -85,30 +80,17 @@ pub(super) enum CliError {
     Compare(#[from] CompareError),
     /// What a cancelled sweep left cannot be continued.
     #[error("{}: cannot be continued: {source}; give another folder, or --restart to begin anew", path.display())]
-    Resume {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: saved::ReadError,
-    },
+    Resume { path: PathBuf, source: saved::ReadError },
     /// Parts of a sweep that are not joined.
     #[error(transparent)]
     Join(#[from] JoinError),
     /// A file that was given.
     #[error("{}: {source}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: ReadError,
-    },
+    File { path: PathBuf, source: ReadError },
     /// Another sweep has the folder.
     #[error("{}: another sweep is being saved into this folder; give another folder, or wait for it", folder.display())]
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// What a new motor is made of.
+    Busy { folder: PathBuf },
+    /// Answers, measured faces, lessons: why they are of no use.
     #[error("{0}")]
     Answers(String),
     /// A record of answers.
@@ -127,13 +109,8 @@ pub(super) enum CliError {
     #[error(transparent)]
     Export(#[from] ExportError),
     /// `--threads`.
-    #[error("--threads {threads}: the threads cannot be started: {reason}")]
-    Threads {
-        /// How many were asked for.
-        threads: u16,
-        /// The system's reason.
-        reason: String,
-    },
+    #[error("--threads {threads}: the threads cannot be started: {source}")]
+    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
     /// The thread that a command runs on.
     #[error("no thread can be started: {0}")]
     Thread(io::Error),
@@ -146,12 +123,7 @@ pub(super) enum CliError {
     #[error(
         "no window can be opened here: {reason}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help{advice}"
     )]
-    Window {
-        /// The system's reason.
-        reason: String,
-        /// What else may help on this system.
-        advice: &'static str,
-    },
+    Window { reason: String, advice: &'static str },
     /// A preset on standard input.
     #[error("standard input: {0}")]
     Input(ReadError),
@@ -179,36 +151,18 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
+            Self::Solve(error) | Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => {
+                Exit::Other
+            }
             Self::Fit(error) if !error.is_bad_input() => Exit::Other,
-            Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
-            Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => Exit::Other,
             Self::Output(_) if self.is_silent() => Exit::Unread,
-            Self::Scene(_)
-            | Self::Sweep(_)
-            | Self::Sensitivity(_)
-            | Self::Fit(_)
-            | Self::Compare(_)
-            | Self::Resume { .. }
-            | Self::Join(_)
-            | Self::File { .. }
-            | Self::Busy { .. }
-            | Self::Answers(_)
-            | Self::Record(_)
-            | Self::Usage(_)
-            | Self::Input(_)
-            | Self::Figure(FigureError::Extension { .. })
-            | Self::Export(ExportError::Extension { .. }) => Exit::BadInput,
-            #[cfg(feature = "gui")]
-            Self::Link(_) => Exit::BadInput,
+            Self::Export(ExportError::Extension { .. }) => Exit::BadInput,
+            Self::Write(_) | Self::Figure(_) | Self::Export(_) | Self::Output(_) => Exit::Other,
+            Self::Threads { .. } | Self::Thread(_) => Exit::Other,
             #[cfg(feature = "gui")]
             Self::Window { .. } => Exit::Other,
-            Self::Solve(_)
-            | Self::Write(_)
-            | Self::Figure(_)
-            | Self::Export(_)
-            | Self::Threads { .. }
-            | Self::Thread(_)
-            | Self::Output(_) => Exit::Other,
+            // All others are about what was given.
+            _ => Exit::BadInput,
         }
     }
 }

@@ -1,17 +1,16 @@
 //! `squeezefilm startup` of a plate under a load: it is dropped on its vibration.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Object, Row, figure, floats, write_csv};
-use crate::export::json;
+use crate::export::fall::{Object, Row, figure, floats};
+use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -58,13 +57,13 @@ pub(super) fn run(
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
-        staged.add("startup.csv", |out| write_csv(&rows, out))?;
+        staged.add("startup.csv", |out| csv::rows(&rows, out))?;
         staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
         drawn.provenance.fidelity = fidelity.to_string();
         common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Some(Exit::of(&ended.status)))
 }
@@ -82,8 +81,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Optio
         }
         Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
     };
-    let mut text = paragraph(&format!("{}, dropped on its vibration: {how}", show_text(&scene.name)), "", "");
-    text.push('\n');
+    let mut text = heading(&format!("{}, dropped on its vibration: {how}", show_text(&scene.name)));
     let mut columns = Columns::new();
     columns.row(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
     let every = rows.len().div_ceil(SHOWN).max(1);
@@ -98,7 +96,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Optio
             significant(row.speed_mm_per_s, 3),
         ]);
     }
-    text.push_str(&columns.text("  ", &[0, 1, 2, 3]));
+    text.push_str(&columns.text(&[0, 1, 2, 3]));
     if let Some(gap) = floats {
         let told = format!(
             "The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm; the ± above is that of the time \

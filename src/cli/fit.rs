@@ -1,10 +1,9 @@
 //! `squeezefilm fit`: keys chosen to agree with measurements, or so that one number is as large or as small as it can be.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
@@ -113,11 +112,8 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (folder, settings, cancel) = arguments.common.begin()?;
-    let sought = match (&arguments.maximise, &arguments.minimise) {
-        (Some(name), _) => Some((name, true)),
-        (_, Some(name)) => Some((name, false)),
-        _ => None,
-    };
+    let greatest = arguments.maximise.as_ref().map(|name| (name, true));
+    let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));
     let call = Call { arguments, scene: &scene, settings: &settings, folder, cancel: &cancel, command };
     match (&arguments.data, sought) {
         (_, Some((name, greatest))) => call.optimum(&Goal::new(&scene, name, greatest, &arguments.subject_to)?),
@@ -158,7 +154,7 @@ impl Call<'_> {
             let problem = Problem::try_from(&fitted.scene)?;
             let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
             let paths = files::fitted(folder, of, (&fitted, measured), self.command, &formats)?;
-            terminal::note(&written(folder, &paths));
+            terminal::wrote(folder, &paths);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -181,7 +177,7 @@ impl Call<'_> {
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
-            terminal::note(&written(folder, &files::optimum(folder, of, &found, self.command, &formats)?));
+            terminal::wrote(folder, &files::optimum(folder, of, &found, self.command, &formats)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -212,8 +208,7 @@ fn at_bound(at: Option<Bound>) -> &'static str {
 /// A fit for people.
 fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     let title = format!("{}, fitted to {}", show_text(&scene.name), measured.name);
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     columns.row(["key", "value ± standard error", "start", "bounds", ""]);
     for found in &fitted.unknowns {
@@ -230,7 +225,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             at_bound(found.at).to_owned(),
         ]);
     }
-    text.push_str(&columns.text("  ", &[2]));
+    text.push_str(&columns.text(&[2]));
     if fitted.unknowns.len() > 1 {
         text.push_str("\nCorrelation:\n\n");
         let mut columns = Columns::new();
@@ -240,7 +235,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
                 cells.map(|value| if value.is_finite() { signed(format!("{value:.2}")) } else { "–".to_owned() });
             columns.row(std::iter::once(found.unknown.parameter.key.to_owned()).chain(cells));
         }
-        text.push_str(&columns.text("  ", &(1..=fitted.unknowns.len()).collect::<Vec<_>>()));
+        text.push_str(&columns.text(&(1..=fitted.unknowns.len()).collect::<Vec<_>>()));
     }
     text.push('\n');
     text.push_str(&paragraph(&summary(fitted, measured), "", ""));
@@ -262,7 +257,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             residual,
         ]);
     }
-    text.push_str(&columns.text("  ", &[2, 4, 5]));
+    text.push_str(&columns.text(&[2, 4, 5]));
     text
 }
 
@@ -303,8 +298,7 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
 fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let size = if found.goal.greatest { "large" } else { "small" };
     let title = format!("{}: {}, as {size} as possible", show_text(&scene.name), found.goal.quantity.label(problem));
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     let before = found
         .before
@@ -313,7 +307,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
         columns.row([quantity.name().to_owned(), reached.to_string(), format!("allowed: {limit}")]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     text.push('\n');
     let mut columns = Columns::new();
     columns.row([
@@ -333,6 +327,6 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
             at_bound(line.at).to_owned(),
         ]);
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     text
 }

@@ -2,7 +2,6 @@
 
 use super::exit::{CliError, Exit};
 use super::options::{FigureOptions, OutputOptions};
-use super::solve::written;
 use super::sweep::tell;
 use super::terminal;
 use crate::export::files;
@@ -49,7 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
     if let Some(folder) = folder {
         let paths = files::swept(folder, &sweep, &rows, &command, &arguments.figures.formats())?;
-        terminal::note(&written(folder, &paths));
+        terminal::wrote(folder, &paths);
     }
     Ok(exit)
 }

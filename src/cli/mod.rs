@@ -29,6 +29,7 @@ mod table1;
 mod terminal;
 mod tradeoff;
 
+use crate::export::files::ExportError;
 use crate::scene::presets::BUILT_IN;
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -110,7 +111,6 @@ Exit status:
 /// Runs the program with its arguments, the program's name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let words: Vec<String> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
         Err(usage) => {
@@ -136,7 +136,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         // clap asks for a command where there is no window.
         #[cfg(not(feature = "gui"))]
         None => Ok(Exit::Solved),
-        Some(command) => on_a_thread(|| carry_out(command, words)),
+        Some(command) => on_a_thread(|| carry_out(command, &command_line(&arguments))),
+    };
+    let ended = match ended {
+        Err(CliError::Export(cancelled @ ExportError::Cancelled)) => {
+            terminal::note(&cancelled.to_string());
+            Ok(Exit::Other)
+        }
+        ended => ended,
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),
@@ -178,25 +185,25 @@ fn on_a_thread(command: impl FnOnce() -> Result<Exit, CliError> + Send) -> Resul
     })
 }
 
-fn carry_out(command: Command, words: Vec<String>) -> Result<Exit, CliError> {
+fn carry_out(command: Command, words: &[String]) -> Result<Exit, CliError> {
     match command {
         #[cfg(feature = "gui")]
         Command::Gui(arguments) => gui::run(&arguments),
-        Command::Solve(arguments) => solve::run(&arguments, &command_line(words)),
-        Command::Sweep(arguments) => sweep::run(&arguments, &command_line(words)),
+        Command::Solve(arguments) => solve::run(&arguments, words),
+        Command::Sweep(arguments) => sweep::run(&arguments, words),
         Command::Join(arguments) => join::run(&arguments),
-        Command::Fit(arguments) => fit::run(&arguments, &command_line(words)),
-        Command::Compare(arguments) => compare::run(&arguments, &command_line(words)),
+        Command::Fit(arguments) => fit::run(&arguments, words),
+        Command::Compare(arguments) => compare::run(&arguments, words),
         Command::Table1(arguments) => table1::run(&arguments),
-        Command::Reproduce(arguments) => reproduce::run(&arguments, &command_line(words)),
-        Command::Tradeoff(arguments) => tradeoff::run(&arguments, &command_line(words)),
-        Command::Stability(arguments) => stability::run(&arguments, &command_line(words)),
-        Command::Sensitivity(arguments) => sensitivity::run(&arguments, &command_line(words)),
-        Command::Startup(arguments) => startup::run(&arguments, &command_line(words)),
+        Command::Reproduce(arguments) => reproduce::run(&arguments, words),
+        Command::Tradeoff(arguments) => tradeoff::run(&arguments, words),
+        Command::Stability(arguments) => stability::run(&arguments, words),
+        Command::Sensitivity(arguments) => sensitivity::run(&arguments, words),
+        Command::Startup(arguments) => startup::run(&arguments, words),
         Command::Animate(arguments) => animate::run(&arguments),
         Command::Presets(arguments) => presets::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
-        Command::Surface(arguments) => surface::run(&arguments, &command_line(words)),
+        Command::Surface(arguments) => surface::run(&arguments, words),
         Command::Completions(arguments) => completions::completions(&arguments, Cli::command()),
         Command::Man(arguments) => completions::man(&arguments, Cli::command()),
         #[cfg(feature = "gui")]
@@ -205,11 +212,9 @@ fn carry_out(command: Command, words: Vec<String>) -> Result<Exit, CliError> {
 }
 
 /// The command line as it is recorded with results: the program by its name, wherever it lies.
-fn command_line(mut words: Vec<String>) -> Vec<String> {
-    if let Some(program) = words.first_mut() {
-        *program = "squeezefilm".to_owned();
-    }
-    words
+fn command_line(arguments: &[OsString]) -> Vec<String> {
+    let words = arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("squeezefilm".to_owned()).chain(words).collect()
 }
 
 #[cfg(test)]

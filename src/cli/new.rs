@@ -143,5 +143,5 @@ fn told(motor: &NewMotor) {
     for assumption in &motor.assumed {
         columns.row([assumption.key, &assumption.value, &assumption.why]);
     }
-    terminal::note(&format!("\n{}{}", paragraph("Assumed, and why:", "", ""), columns.text("  ", &[])));
+    terminal::note(&format!("\n{}{}", paragraph("Assumed, and why:", "", ""), columns.text(&[])));
 }

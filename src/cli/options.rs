@@ -137,13 +137,18 @@ pub(super) struct SolveOptions {
 }
 
 impl SolveOptions {
-    /// The settings, with defaults for what was not chosen; starts the threads and allows the memory.
-    pub(super) fn prepare(&self, fidelity: Fidelity, method: Method) -> Result<Settings, CliError> {
+    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
+    pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
+        self.begin_with(Fidelity::default(), Method::default())
+    }
+
+    /// The same, with these for what was not chosen. Starts the threads and allows the memory.
+    pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new()
                 .num_threads(usize::from(threads))
                 .build_global()
-                .map_err(|error| CliError::Threads { threads, reason: error.to_string() })?;
+                .map_err(|source| CliError::Threads { threads, source })?;
         }
         self.memory.apply();
         let method = self.method.unwrap_or(method);
@@ -153,18 +158,10 @@ impl SolveOptions {
         if let (Method::Paper, Some(level)) = (method, self.accuracy.named()) {
             terminal::warning(&format!("{} has no effect: method paper has its own meshes", level.option()));
         }
-        Ok(Settings { fidelity: self.accuracy.fidelity().unwrap_or(fidelity), method, ..Settings::default() })
-    }
-
-    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
-    pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
-        let settings = self.prepare(Fidelity::default(), Method::default())?;
-        Ok((settings, self.within_budget(cancel_on_interrupt())))
-    }
-
-    /// The flag of a command whose solves each have the budget that was given.
-    pub(super) fn within_budget(&self, cancel: Cancel) -> Cancel {
-        self.accuracy.budget.map_or(cancel.clone(), |budget| timed(&cancel, budget))
+        let fidelity = self.accuracy.fidelity().unwrap_or(fidelity);
+        let interrupted = cancel_on_interrupt();
+        let cancel = self.accuracy.budget.map_or(interrupted.clone(), |budget| timed(&interrupted, budget));
+        Ok((Settings { fidelity, method, ..Settings::default() }, cancel))
     }
 }
 
@@ -254,8 +251,8 @@ impl CommonOptions {
 #[derive(Clone, Debug, Args)]
 pub(super) struct FigureOptions {
     /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
-    figures: Vec<FigureFormat>,
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
+    figures: Vec<String>,
 }
 
 impl FigureOptions {
@@ -270,8 +267,8 @@ impl FigureOptions {
 
     /// The formats asked for, and whether the fields are to be written as VTK.
     pub(super) fn formats_and_vtk(&self) -> (Vec<Format>, bool) {
-        let drawn = |format: &FigureFormat| if let FigureFormat::Drawn(format) = format { Some(*format) } else { None };
-        (self.figures.iter().filter_map(drawn).collect(), self.figures.contains(&FigureFormat::Vtk))
+        let asked = |name: &str| self.figures.iter().any(|figure| figure == name);
+        (Format::ALL.into_iter().filter(|format| asked(format.name())).collect(), asked("vtk"))
     }
 
     /// Stages a figure under a name, once in each format.
@@ -280,24 +277,8 @@ impl FigureOptions {
     }
 }
 
-/// What is written beside numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FigureFormat {
-    None,
-    Drawn(Format),
-    Vtk,
-}
-
-fn figure_format() -> ValueParser {
-    let names = Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]);
-    let format = |name: String| match name.as_str() {
-        "none" => FigureFormat::None,
-        "vtk" => FigureFormat::Vtk,
-        _ => {
-            Format::ALL.into_iter().find(|format| format.name() == name).map_or(FigureFormat::None, FigureFormat::Drawn)
-        }
-    };
-    PossibleValuesParser::new(names).map(format).into()
+fn figure_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]))
 }
 
 /// Reads a whole number within limits.

@@ -104,7 +104,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     for (preset, scene) in &scenes {
         columns.row([preset.name, &about(scene)]);
     }
-    let (lines, mut last, mut text) = (columns.text("  ", &[]), "", String::new());
+    let (lines, mut last, mut text) = (columns.text(&[]), "", String::new());
     for (line, (preset, _)) in lines.lines().zip(&scenes) {
         if preset.group != last {
             let gap = if last.is_empty() { "" } else { "\n" };

@@ -1,25 +1,21 @@
 //! `squeezefilm reproduce`: every table and figure of the paper, in one report.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
-
-use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, SolveOptions};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
-use crate::atomic::{Staged, WriteError, check_writable};
+use crate::atomic::{Staged, check_writable};
 use crate::control::Cancel;
 use crate::digits::{duration, with_error};
 use crate::export::animation::{Options, cycle, frames};
-use crate::export::files::ExportError;
+use crate::export::files::{self, ExportError};
 use crate::export::reproduce::{Object, RowObject, figures, report};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
 use clap::Args;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -60,21 +56,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     // Finds out whether it can be written before anything is solved.
     check_writable(&arguments.out)?;
-    let settings = arguments.solve.prepare(Fidelity::Fine, Method::Auto)?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
+    let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, Method::Auto)?;
     let started = Instant::now();
     let bar = Bar::points(number_of_solves(), 0);
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));
     drop(bar);
     let all = solved?;
-    let written_to =
-        if cancel.is_cancelled() { None } else { write(&arguments.out, &all, arguments, command, &cancel)? };
-    let Some(paths) = written_to else {
-        terminal::note("cancelled; no file was written");
-        return Ok(Exit::Other);
-    };
+    let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
     terminal::result(arguments.json, || json::document(&Object::new(&all), command), || text(&all));
-    terminal::note(&written(&arguments.out, &paths));
+    terminal::wrote(&arguments.out, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
         number_of_solves(),
@@ -84,30 +74,24 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(if all.unsolved() == 0 { Exit::Solved } else { Exit::NotConverged })
 }
 
-/// Writes the files; `None` if it was cancelled meanwhile, and then no file is there.
+/// Writes the files; none if it was cancelled meanwhile.
 fn write(
     folder: &Path,
     all: &Reproduction,
     arguments: &Arguments,
     command: &[String],
     cancel: &Cancel,
-) -> Result<Option<Vec<PathBuf>>, CliError> {
+) -> Result<Vec<PathBuf>, CliError> {
+    let check = || if cancel.is_cancelled() { Err(ExportError::Cancelled) } else { Ok(()) };
+    check()?;
     let mut gif = None;
     if let Some((both, solution)) =
         all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
     {
         let options = Options { width: 860, ..Options::default() };
         let bar = Bar::frames(frames(&solution.recording, options.frames));
-        let movie = match cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel) {
-            Err(ExportError::Cancelled) => return Ok(None),
-            movie => movie?,
-        };
-        let mut bytes = Vec::new();
-        match movie.gif(&mut bytes, cancel) {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
-            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
-        }
-        gif = Some(bytes);
+        let movie = cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel)?;
+        gif = Some(files::gif(&movie, &folder.join("cycle.gif"), cancel)?);
     }
     let mut staged = Staged::new(folder)?;
     let page = report(all, gif.as_deref(), command);
@@ -115,24 +99,19 @@ fn write(
     staged.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
     staged.add("figures.json", |out| out.write_all(json::document(&Object::new(all), command).as_bytes()))?;
     for (number, figure) in figures(all) {
-        if cancel.is_cancelled() {
-            return Ok(None);
-        }
+        check()?;
         arguments.figures.stage(&mut staged, &format!("fig{number}"), &figure)?;
     }
     if let Some(gif) = &gif {
         staged.add("cycle.gif", |out| out.write_all(gif))?;
     }
-    if cancel.is_cancelled() {
-        return Ok(None);
-    }
-    Ok(Some(staged.commit()?))
+    check()?;
+    Ok(staged.commit()?)
 }
 
 /// Table I for people.
 fn text(all: &Reproduction) -> String {
-    let mut text = paragraph("Table I of Maeno and Bogy (1992): film share α of the load", "", "");
-    text.push('\n');
+    let mut text = heading("Table I of Maeno and Bogy (1992): film share α of the load");
     let mut columns = Columns::new();
     columns.row(["row", "published", "paper's algorithm", "converged"]);
     let with = |value: Option<f64>, error: Option<f64>| {
@@ -146,6 +125,6 @@ fn text(all: &Reproduction) -> String {
             with(row.alpha, row.alpha_error),
         ]);
     }
-    text.push_str(&columns.text("  ", &[1, 2, 3]));
+    text.push_str(&columns.text(&[1, 2, 3]));
     text
 }

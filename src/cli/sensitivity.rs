@@ -1,6 +1,6 @@
 //! `squeezefilm sensitivity`: derivatives of the results by every key, and what uncertain keys make of them.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::fit::with_unit;
 use super::options::{CommonOptions, pair, whole};
@@ -126,7 +126,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let paths = files::sensitivity(folder, &found, &fidelity, command, &arguments.common.figures.formats())?;
-        terminal::note(&super::solve::written(folder, &paths));
+        terminal::wrote(folder, &paths);
     }
     Ok(Exit::of(&sensitivity.status()))
 }
@@ -163,8 +163,7 @@ fn text(found: &Found<'_>) -> String {
     let (problem, outputs) = (sensitivity.problem(), sensitivity.outputs);
     let name = show_text(&sensitivity.scene().name);
     let mut text =
-        paragraph(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"), "", "");
-    text.push('\n');
+        heading(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"));
     let mut columns = Columns::new();
     columns.row(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
     let values = sensitivity
@@ -202,7 +201,7 @@ fn text(found: &Found<'_>) -> String {
         columns.row(std::iter::once(key).chain((0..outputs.len()).map(cell)));
     }
     let right: Vec<usize> = (1..=outputs.len()).collect();
-    text.push_str(&columns.text("  ", &right));
+    text.push_str(&columns.text(&right));
     let unknown =
         sensitivity.columns.iter().filter_map(|column| Some((column.parameter.key, column.slopes.as_ref().err()?)));
     for (key, why) in unknown {
@@ -269,7 +268,7 @@ fn uncertain(found: &Found<'_>) -> String {
         }
         columns.row(row);
     }
-    text.push_str(&columns.text("  ", &[1]));
+    text.push_str(&columns.text(&[1]));
     if let Some(carlo) = found.carlo {
         text.push_str(&format!("\n{} random scenes, seed {}.\n", carlo.draws.len(), carlo.seed));
     }

@@ -18,7 +18,7 @@ use crate::scene::presets::BUILT_IN;
 use crate::solution::{Status, settled};
 use crate::solve::{Method, Settings, check, solve};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
@@ -146,7 +146,7 @@ fn one(
     if !arguments.common.output.json {
         terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
     } else if arguments.presets.len() == 1 {
-        terminal::data(&result.to_text());
+        terminal::data(&json::text(&result));
     }
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
@@ -166,7 +166,7 @@ fn one(
                 terminal::note(&ExportError::Cancelled.to_string());
                 exit = Exit::Other;
             }
-            paths => terminal::note(&written(folder, &paths?)),
+            paths => terminal::wrote(folder, &paths?),
         }
     }
     Ok((exit, Some(result)))
@@ -193,12 +193,6 @@ const MUCH: u64 = 500_000_000;
 /// `writing about 1.2 GB to results …`, if that is much.
 fn announced(folder: &Path, bytes: u64) -> Option<String> {
     (bytes > MUCH).then(|| format!("writing about {} to {} …", memory::size(bytes), folder.display()))
-}
-
-/// `wrote results: summary.json, scene.toml, …`
-pub(super) fn written(folder: &Path, paths: &[PathBuf]) -> String {
-    let names: Vec<_> = paths.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy()).collect();
-    format!("wrote to {}: {}", folder.display(), names.join(", "))
 }
 
 #[cfg(test)]

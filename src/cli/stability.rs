@@ -1,10 +1,9 @@
 //! `squeezefilm stability`: where each method solves, to the edges of the ranges.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
@@ -84,22 +83,16 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
     }
-    match folder {
-        Some(folder) if !cells.is_empty() => {
-            let mut staged = Staged::new(folder)?;
-            // What was cancelled does not pass for a map.
-            let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-            staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
-            if complete {
-                arguments.common.figures.stage(
-                    &mut staged,
-                    "stability",
-                    &figure(&scene.name, settings.fidelity, &cells),
-                )?;
-            }
-            terminal::note(&written(folder, &staged.commit()?));
+    if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
+        let mut staged = Staged::new(folder)?;
+        // What was cancelled does not pass for a map.
+        let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
+        staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
+        if complete {
+            let drawn = figure(&scene.name, settings.fidelity, &cells);
+            arguments.common.figures.stage(&mut staged, "stability", &drawn)?;
         }
-        _ => {}
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }
@@ -118,8 +111,7 @@ fn text(
         show_text(name),
         exactness(&fidelity.to_string())
     );
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let mut columns = Columns::new();
     columns.row(["map", "method", "cells"].into_iter().chain(VERDICTS));
     for map in maps {
@@ -132,7 +124,7 @@ fn text(
             columns.row(row);
         }
     }
-    text.push_str(&columns.text("  ", &[2, 3, 4, 5, 6, 7]));
+    text.push_str(&columns.text(&[2, 3, 4, 5, 6, 7]));
     let ours = |cell: &&Cell| cell.method == Method::Auto && cell.verdict != Verdict::Solved;
     let unsolved: Vec<&Cell> = cells.iter().filter(ours).collect();
     if !unsolved.is_empty() {

@@ -1,11 +1,10 @@
 //! `squeezefilm startup`: the transient from rest.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::fall::{self, Dropped};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::Staged;
@@ -128,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
         arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Exit::of(&ended.status))
 }
@@ -147,8 +146,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         }
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };
-    let mut text = paragraph(&format!("{}, start-up from rest: {how}", show_text(&scene.name)), "", "");
-    text.push('\n');
+    let mut text = heading(&format!("{}, start-up from rest: {how}", show_text(&scene.name)));
     let motor = scene.scene() == "motor";
     let unit = force_unit(problem);
     let mut columns = Columns::new();
@@ -177,7 +175,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
             format!("{:.1e}", row.change),
         ]);
     }
-    text.push_str(&columns.text("  ", &[0, 1, 2, 3, 4, 5, 6]));
+    text.push_str(&columns.text(&[0, 1, 2, 3, 4, 5, 6]));
     if let Some(found) = steady {
         let mut told = format!("The periodic solve, which does not march there: {main} = {found}.");
         let off = |last: Estimate| (last.value - found.value).abs() > last.error + found.error;

@@ -33,18 +33,18 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
         Scenario::Motor(motor) => motor_rows(&mut columns, motor, summary),
         Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
     }
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     if let (Some(torque), Scenario::Motor(motor)) = (&summary.torque, &problem.scenario) {
         text.push('\n');
         let mut columns = Columns::new();
         torque_rows(&mut columns, motor, torque);
-        text.push_str(&columns.text("  ", &[]));
+        text.push_str(&columns.text(&[]));
     }
     text.push('\n');
     let mut columns = Columns::new();
     gas_row(&mut columns, problem);
     number_rows(&mut columns, problem, outcome);
-    text.push_str(&columns.text("  ", &[]));
+    text.push_str(&columns.text(&[]));
     text.push_str(&limits(&summary.validity));
     let model = &summary.model;
     // Writing to a String cannot fail.

@@ -3,7 +3,6 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{FigureOptions, OutputOptions, whole};
-use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{signed, significant};
@@ -71,15 +70,14 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
             arguments.figures.stage(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
         }
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(Exit::Solved)
 }
 
 fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
-    let fault = |reason: String| CliError::Answers(format!("{}: {reason}", file.display()));
-    let text = read_text(file, LARGEST).map_err(|error| fault(error.to_string()))?;
-    measured(&text, usize::from(degree)).map_err(|error| fault(error.to_string()))
+    let text = read_text(file, LARGEST).map_err(|source| CliError::File { path: file.to_owned(), source })?;
+    measured(&text, usize::from(degree)).map_err(|error| CliError::Answers(format!("{}: {error}", file.display())))
 }
 
 fn text(object: &Object) -> String {
@@ -114,7 +112,7 @@ fn text(object: &Object) -> String {
         &|face| face.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
         "along x over across",
     );
-    let mut text = columns.text("  ", &[]);
+    let mut text = columns.text(&[]);
     let (number, same) = (object.faces.len(), "Both faces are taken to be like it. ");
     text.push_str(&paragraph(
         &format!(
@@ -133,5 +131,5 @@ fn text(object: &Object) -> String {
     row("h/σ", 2, |at| at.gap_over_rms);
     row("φ along x", 3, |at| at.along);
     row("φ along y", 3, |at| at.across);
-    text + &factors.text("  ", &[1, 2, 3, 4]) + "\n" + &object.preset
+    text + &factors.text(&[1, 2, 3, 4]) + "\n" + &object.preset
 }

@@ -1,10 +1,9 @@
 //! `squeezefilm sweep`: up to three keys of a scene varied.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
@@ -94,11 +93,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
     }
-    for axis in sweep.axes() {
-        let key = axis.parameter.key;
-        if arguments.common.scene.changes.iter().any(|(changed, _)| changed == key) {
-            return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
-        }
+    if arguments.common.scene.changes.iter().any(|(key, _)| varies(key)) {
+        return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
     }
     for (vary, axis) in arguments.vary.iter().zip(sweep.axes()) {
         if let Values::Range { count, .. } = vary.values
@@ -150,7 +146,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let exit = tell(&sweep, &rows, budget, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, &arguments.common.figures)?));
+        terminal::wrote(folder.path, &folder.save(&rows, &arguments.common.figures)?);
     }
     Ok(exit)
 }
@@ -273,8 +269,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
     let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
     let how = effort(sweep.settings(), budget);
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
-    let mut text = paragraph(&title, "", "");
-    text.push('\n');
+    let mut text = heading(&title);
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
     let mut columns = Columns::new();
     let labels = |quantities: &[Quantity]| {
@@ -297,7 +292,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
         columns.row(cells);
     }
     let numbers: Vec<usize> = (0..keys.len() + shown.len()).collect();
-    text.push_str(&columns.text("  ", &numbers));
+    text.push_str(&columns.text(&numbers));
     let published = sweep.published();
     if !published.is_empty() {
         text.push_str("\nPublished there (Table I):\n\n");
@@ -308,7 +303,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
             cells.extend([format!("{:.3}", point.alpha), format!("{:.3}", point.film_load), point.row.clone()]);
             columns.row(cells);
         }
-        text.push_str(&columns.text("  ", &numbers[..keys.len() + 2]));
+        text.push_str(&columns.text(&numbers[..keys.len() + 2]));
     }
     text
 }

@@ -2,10 +2,8 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
@@ -50,8 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }
     let folder = arguments.output.folder()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
-    let settings = arguments.solve.prepare(Fidelity::Fine, method)?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
+    let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, method)?;
 
     let (solved, wall_s) = Bar::rows(published().len())
         .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.row_done(&row.published.row)));
@@ -79,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("table1.csv", |out| csv::rows(&objects, out))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     Ok(exit)
 }
@@ -127,7 +124,7 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
             _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),
         }
     }
-    text.push_str(&columns.text("  ", &[1, 3, 5]));
+    text.push_str(&columns.text(&[1, 3, 5]));
     // What is known about the differences holds for the scenes as they are.
     if changes.is_empty() {
         text.push('\n');

@@ -3,6 +3,7 @@
 use super::exit::CliError;
 use crate::scene::escaped;
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -68,6 +69,12 @@ pub(super) fn note(text: &str) {
     if !is_quiet() {
         say(text);
     }
+}
+
+/// A note on files: `wrote to results: summary.json, scene.toml, …`
+pub(super) fn wrote(folder: &Path, paths: &[PathBuf]) {
+    let names: Vec<_> = paths.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy()).collect();
+    note(&format!("wrote to {}: {}", folder.display(), names.join(", ")));
 }
 
 /// Writes a question to standard error; the answer comes behind it.

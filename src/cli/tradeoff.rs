@@ -1,11 +1,10 @@
 //! `squeezefilm tradeoff`: error against time, measured now, on this machine.
 
-use super::columns::{Columns, paragraph};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, whole};
 use super::progress::Bar;
-use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
@@ -107,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
-        terminal::note(&written(folder, &staged.commit()?));
+        terminal::wrote(folder, &staged.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());
@@ -150,14 +149,10 @@ fn advice(tradeoff: &Tradeoff, target: Target, alone: &str) -> String {
 /// The table for people.
 fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     let judged = tradeoff.judged.label(problem);
-    let mut text = paragraph(
-        &format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)),
-        "",
-        "",
-    );
-    text.push('\n');
+    let mut text =
+        heading(&format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)));
     let mut columns = Columns::new();
-    let head = [
+    columns.row([
         "setting",
         "time",
         "quartiles",
@@ -170,12 +165,11 @@ fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
         "rounds",
         "contacts",
         "",
-    ];
-    columns.row(head);
+    ]);
     for (i, point) in tradeoff.points.iter().enumerate() {
         columns.row(cells(point, tradeoff.judged, tradeoff.reference == Some(i)));
     }
-    text.push_str(&columns.text("  ", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+    text.push_str(&columns.text(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
     text.push('\n');
     text.push_str(&paragraph(
         "measured: distance from the reference plus the reference's own stated error, a share of the value; stated: what \

@@ -189,14 +189,10 @@ fn slow_motion(recording: &Recording, seconds: f64) -> String {
     // Two digits are enough to know what one sees.
     let size = 10f64.powf(factor.log10().floor() - 1.0);
     let rounded = (factor / size).round() * size;
-    if rounded < 1e4 {
-        return format!("slowed down {rounded:.0} times");
-    }
-    let thousands = rounded / 1e3;
-    if thousands < 1e3 {
-        format!("slowed down {thousands:.0} 000 times")
-    } else {
-        format!("slowed down {rounded:.1e} times")
+    match rounded {
+        ..1e4 => format!("slowed down {rounded:.0} times"),
+        ..1e6 => format!("slowed down {:.0} 000 times", rounded / 1e3),
+        _ => format!("slowed down {rounded:.1e} times"),
     }
 }
 
@@ -236,13 +232,8 @@ impl Movie {
     }
 
     /// How many frames there are.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.frames.len()
-    }
-
-    /// Never: a movie has frames.
-    pub fn is_empty(&self) -> bool {
-        self.frames.is_empty()
     }
 
     /// Writes the movie in the format of its path. A file has its name only when it is complete. Of an MP4
@@ -315,7 +306,7 @@ impl Movie {
 
     /// How long a frame stays, in hundredths of a second: together they last as long as they should.
     fn delay(&self, frame: usize) -> u16 {
-        let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.len() as f64).round();
+        let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.count() as f64).round();
         (until(frame + 1) - until(frame)).clamp(2.0, 60_000.0) as u16
     }
 
@@ -324,7 +315,7 @@ impl Movie {
     /// # Errors
     /// Those of the writer; an interruption if it was cancelled.
     pub fn apng(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
-        let count = u32::try_from(self.len()).map_err(io::Error::other)?;
+        let count = u32::try_from(self.count()).map_err(io::Error::other)?;
         let mut encoder = png::Encoder::new(out, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
@@ -358,7 +349,7 @@ impl Movie {
     /// # Errors
     /// Those of the encoder and of the writer; an interruption if it was cancelled.
     pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
-        let video = Mp4Cycle { size: [self.width, self.height], count: self.len(), seconds: self.seconds };
+        let video = Mp4Cycle { size: [self.width, self.height], count: self.count(), seconds: self.seconds };
         video.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
     }
 

@@ -213,11 +213,10 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
         Some(format!("{name} = {found}"))
     };
     Provenance {
-        preset: runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
         fidelity: fidelity.unwrap_or_default(),
         error: runs.iter().filter_map(main).collect::<Vec<_>>().join(", "),
         note: if unsolved == 0 { String::new() } else { format!("{unsolved} NOT CONVERGED") },
+        ..Provenance::named(&runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -374,13 +373,7 @@ pub fn report(
                 "All runs at the same phase of their own cycle, whatever its frequency; the cycle repeats.",
             ]
         };
-        page.picture(
-            "image/gif",
-            gif,
-            alternative,
-            if name == "cycle" { "One cycle." } else { "One cycle, plates." },
-            caption,
-        );
+        page.picture(gif, alternative, if name == "cycle" { "One cycle." } else { "One cycle, plates." }, caption);
     }
     let figures = all_figures(runs);
     page.figures(figures.iter().map(|(_, figure)| ("", figure)));
@@ -434,7 +427,7 @@ const BESIDE: usize = 3;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
-    let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
+    let mut table = Table::default().heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
         // What differs from the first run is marked.
         let values = row.values.iter().map(|value| match value {
@@ -456,7 +449,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
             heads.push((Kind::Number, "difference".to_owned()));
         }
     }
-    let mut table = Table::new("").heads(heads);
+    let mut table = Table::default().heads(heads);
     for row in results(runs) {
         let mut cells = vec![(Kind::Words, row.label())];
         let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);

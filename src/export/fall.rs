@@ -1,6 +1,5 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
-use super::csv;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -9,7 +8,6 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Status;
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// The plate at the end of a cycle of the vibration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -85,11 +83,6 @@ impl<'a> Object<'a> {
 /// The mean gap \[µm\] at which it floats; `None` if it does not.
 pub fn floats(ended: &Fall) -> Option<Estimate> {
     ended.floats.as_ref().ok().map(|gap| *gap * 1e6)
-}
-
-/// Writes the rows as CSV, the header first.
-pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    csv::rows(rows, out)
 }
 
 /// Height over time, and where the periodic solve says that it ends, in µm.

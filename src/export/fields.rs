@@ -26,12 +26,6 @@ pub struct Field<'a> {
     pub values: Box<dyn Iterator<Item = f64> + 'a>,
 }
 
-impl std::fmt::Debug for Field<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Field").field("name", &self.name).field("shape", &self.shape).finish()
-    }
-}
-
 /// All fields of a solve.
 pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'a>> {
     const FRAMES: &[&str] = &["frame"];

@@ -63,19 +63,12 @@ pub struct Solved<'a> {
 /// # Errors
 /// [`WriteError`], also of what cannot be drawn.
 pub fn stage_figure(staged: &mut Staged, name: &str, figure: &Figure, formats: &[Format]) -> Result<(), WriteError> {
-    for format in each(formats) {
+    for format in formats {
         staged.add(format!("{name}.{}", format.name()), |out| {
-            out.write_all(&to_bytes(figure, format).map_err(io::Error::other)?)
+            out.write_all(&to_bytes(figure, *format).map_err(io::Error::other)?)
         })?;
     }
     Ok(())
-}
-
-fn each(formats: &[Format]) -> Vec<Format> {
-    let mut formats = formats.to_vec();
-    formats.sort_unstable();
-    formats.dedup();
-    formats
 }
 
 /// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
@@ -99,7 +92,7 @@ pub fn solve(
 ) -> Result<Vec<PathBuf>, ExportError> {
     let Solved { scene, problem, solution, .. } = *solved;
     let mut staged = Staged::new(folder)?;
-    staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
+    staged.add("summary.json", |out| out.write_all(json::text(summary).as_bytes()))?;
     staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
     staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
@@ -145,15 +138,13 @@ fn add_figures(
     formats: &[Format],
     control: &Control<'_>,
 ) -> Result<(), ExportError> {
-    let formats = each(formats);
+    let mut formats = formats.to_vec();
+    formats.sort_unstable();
+    formats.dedup();
     if formats.is_empty() {
         return Ok(());
     }
-    let mut figures = figures::of(solved.problem, solved.solution, solved.history);
-    if let Some(curves) = solved.torque {
-        let torque = figures::torque::torque(curves);
-        figures.push(("torque", figures::dressed(solved.problem, solved.solution, torque)));
-    }
+    let figures = figures::of(solved.problem, solved.solution, solved.history, solved.torque);
     let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(files.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {
@@ -204,6 +195,16 @@ pub fn animated_frames(solution: &Solution, options: &Options, format: super::an
     }
 }
 
+/// A movie as GIF. `path`: of the file, for a fault.
+pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
+    let mut gif = Vec::new();
+    match movie.gif(&mut gif, cancel) {
+        Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
+        Err(source) => Err(WriteError { path: path.to_owned(), source }.into()),
+        Ok(()) => Ok(gif),
+    }
+}
+
 /// Animations of several runs as GIF, each with its name.
 fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
     if !cfg!(feature = "render") {
@@ -212,15 +213,11 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
     let options = Options::default();
     let all = compare::frames(runs, options.frames);
     let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
-    let gif = |(name, movie): (&str, Movie)| {
-        let mut gif = Vec::new();
-        match movie.gif(&mut gif, control.cancel) {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
-            Err(source) => Err(WriteError { path: folder.join(format!("{name}.gif")), source }.into()),
-            Ok(()) => Ok((name.to_owned(), gif)),
-        }
+    let named = |(name, movie): (&str, Movie)| {
+        let bytes = gif(&movie, &folder.join(format!("{name}.gif")), control.cancel)?;
+        Ok((name.to_owned(), bytes))
     };
-    drawn.into_iter().map(gif).collect()
+    drawn.into_iter().map(named).collect()
 }
 
 /// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.

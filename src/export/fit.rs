@@ -207,7 +207,6 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
     if let Observable::Torque { .. } = first.what {
         let mut panel = Panel::new("", Axis::new("speed of the rotor", "rpm"), Axis::new(label, unit).including([0.0]));
-        panel.legend = Legend::Above;
         for condition in 0..measured.conditions.len() {
             let speed =
                 |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
@@ -222,7 +221,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
             dots.errors = points.iter().map(|point| point.2).collect();
             panel = panel.layer(Line::new(named[1], points.iter().map(|point| [point.0, point.3]), style)).layer(dots);
         }
-        return panel;
+        return panel.legend(Legend::Above);
     }
     let ends = all().flat_map(|(one, _, computed)| [one.value, computed]);
     let [least, most] = extent(ends);
@@ -409,8 +408,7 @@ pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     for line in &found.lines {
         let parameter = line.unknown.parameter;
         let curve = line.points.iter().map(|(value, computed)| [*value, computed.unwrap_or(f64::NAN)]);
-        let x = Axis::new(parameter.words(), parameter.unit);
-        let x = if line.unknown.scale == crate::scene::Scale::Log { x.log() } else { x };
+        let x = Axis { scale: line.unknown.scale, ..Axis::new(parameter.words(), parameter.unit) };
         let panel = Panel::new("", x, Axis::new(label, unit))
             .layer(Line::new("", curve, Style::solid(Colour::FILM)))
             .layer(Points::new("", [[line.value, found.value.value]], Colour::CONTACT, Marker::solid(Shape::Diamond)));

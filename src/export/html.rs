@@ -22,10 +22,9 @@ pub struct Page {
 }
 
 /// Where a cell's words stand, and how they look.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Words, on the left.
-    #[default]
     Words,
     /// A number, on the right, digits below digits.
     Number,
@@ -52,18 +51,12 @@ impl Kind {
 /// A table: heads, then rows of cells.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    caption: String,
     groups: Vec<(usize, String)>,
     heads: Vec<(Kind, String)>,
     rows: Vec<Vec<(Kind, String)>>,
 }
 
 impl Table {
-    /// A table with a line above it; may be empty.
-    pub fn new(caption: impl Into<String>) -> Self {
-        Self { caption: caption.into(), ..Self::default() }
-    }
-
     /// With heads above several columns: how many, and the words.
     #[must_use]
     pub fn groups<S: Into<String>>(mut self, groups: impl IntoIterator<Item = (usize, S)>) -> Self {
@@ -88,9 +81,7 @@ impl Table {
 impl Page {
     /// A page with its title, a line above it that says what kind of page it is, and a few sentences below.
     pub fn new(kicker: &str, title: &str, lead: &str) -> Self {
-        let mut head = String::new();
-        let _ = write!(
-            head,
+        let head = format!(
             "<header>\n<p class=\"kicker\">{}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
             escaped(kicker),
             escaped(title),
@@ -189,9 +180,6 @@ impl Page {
     pub fn table(&mut self, table: &Table) {
         // With the keyboard, too, a wide table can be moved.
         self.body.push_str("<div class=\"table\" tabindex=\"0\"><table>\n");
-        if !table.caption.is_empty() {
-            let _ = writeln!(self.body, "<caption>{}</caption>", escaped(&table.caption));
-        }
         self.body.push_str("<thead>\n");
         if !table.groups.is_empty() {
             self.body.push_str("<tr class=\"groups\">");
@@ -221,16 +209,12 @@ impl Page {
     pub fn figures<'a>(&mut self, figures: impl IntoIterator<Item = (&'a str, &'a Figure)>) {
         self.body.push_str("<div class=\"figures\">\n");
         for (name, figure) in figures {
-            self.figure(name, figure);
+            let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
+            let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
+            self.caption(name, &figure.caption);
+            self.body.push_str("</figure>\n");
         }
         self.body.push_str("</div>\n");
-    }
-
-    fn figure(&mut self, name: &str, figure: &Figure) {
-        let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
-        let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
-        self.caption(name, &figure.caption);
-        self.body.push_str("</figure>\n");
     }
 
     fn caption(&mut self, name: &str, caption: &str) {
@@ -240,13 +224,12 @@ impl Page {
         }
     }
 
-    /// A picture of a media type (`image/gif`, `image/apng`), kept in the page.
-    pub fn picture(&mut self, media: &str, bytes: &[u8], alternative: &str, name: &str, caption: &str) {
+    /// A GIF, kept in the page.
+    pub fn picture(&mut self, gif: &[u8], alternative: &str, name: &str, caption: &str) {
         let _ = write!(
             self.body,
-            "<figure class=\"wide\">\n<img src=\"data:{};base64,{}\" alt=\"{}\"/>\n",
-            escaped(media),
-            STANDARD.encode(bytes),
+            "<figure class=\"wide\">\n<img src=\"data:image/gif;base64,{}\" alt=\"{}\"/>\n",
+            STANDARD.encode(gif),
             escaped(alternative)
         );
         self.caption(name, caption);
@@ -324,11 +307,11 @@ mod tests {
             page.section(section);
             page.text("words");
         }
-        let mut table = Table::new("t").groups([(1, ""), (1, "g")]).heads([(Kind::Words, "h"), (Kind::Number, "n")]);
+        let mut table = Table::default().groups([(1, ""), (1, "g")]).heads([(Kind::Words, "h"), (Kind::Number, "n")]);
         table.row([(Kind::Words, "<b>"), (Kind::Strong, "1")]);
         page.table(&table);
         page.figures([("Fig. 1", &Figure::new("f").panel(panel))]);
-        page.picture("image/gif", b"GIF89a", "\"a\"", "", "c");
+        page.picture(b"GIF89a", "\"a\"", "", "c");
         page.folded("line", "text\n");
         page.code("a\tb");
         let html = page.finish("foot");

@@ -3,8 +3,7 @@
 use super::estimates::{self, finite};
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
-use crate::analysis::quantity::force_unit;
-use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
@@ -250,20 +249,18 @@ impl Summary {
             command: command.to_vec(),
             ..Self::default()
         };
-        match &problem.scenario {
-            Scenario::Motor(motor) => {
+        match (&problem.scenario, &solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.scene = "motor";
                 summary.dry_torque_nm = finite(motor.friction_torque(motor.load));
+                summary.levitated = Some(result.levitated);
             }
-            Scenario::Plate(_) => summary.scene = "plate",
-        }
-        match (&problem.scenario, &solution.outcome) {
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                summary.scene = "plate";
                 summary.exact = Some(Comparison::of(plate, result.film_load, &solution.recording));
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }
-            (Scenario::Motor(_), Outcome::Motor(result)) => summary.levitated = Some(result.levitated),
             _ => {}
         }
         summary.tell_unknown(problem, solution);
@@ -291,11 +288,6 @@ impl Summary {
         if !unknown.is_empty() {
             self.warnings.push(format!("not known, hence null: {}", unknown.join(", ")));
         }
-    }
-
-    /// As text, indented, with a line break at the end.
-    pub fn to_text(&self) -> String {
-        text(self)
     }
 }
 
@@ -379,7 +371,7 @@ mod tests {
         for name in ["stats.wall_s", "film_load_error_n", "mean_load_ratio_error"] {
             assert!(warning.contains(name), "{warning}");
         }
-        let value: serde_json::Value = serde_json::from_str(&summary.to_text()).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text(&summary)).unwrap();
         assert!(value["film_load_error_n"].is_null() && value["film_load_n"].is_f64());
     }
 }

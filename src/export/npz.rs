@@ -12,7 +12,6 @@ use super::fields::{Field, fields};
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Solution;
-use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
 use zip::write::{SimpleFileOptions, StreamWriter};
 use zip::{CompressionMethod, ZipWriter};
@@ -63,21 +62,14 @@ impl Archive<'_> {
 /// Magic string, version, length, and a dictionary of Python, padded so that the numbers begin at a multiple of 64.
 fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     const BEFORE: usize = 10;
-    let mut words = String::new();
-    // A tuple of one has a comma in Python. Writing to a String cannot fail.
-    let shape: String = shape.iter().fold(String::new(), |mut all, length| {
-        let _ = write!(all, "{length}, ");
-        all
-    });
-    let _ = write!(words, "{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
+    // A tuple of one has a comma in Python.
+    let shape: Vec<String> = shape.iter().map(|length| format!("{length},")).collect();
+    let words = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", shape.join(" "));
     let length = (BEFORE + words.len() + 1).next_multiple_of(64) - BEFORE;
-    while words.len() + 1 < length {
-        words.push(' ');
-    }
-    words.push('\n');
+    let padded = length - 1;
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     bytes.extend(u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes());
-    bytes.extend(words.as_bytes());
+    bytes.extend(format!("{words:<padded$}\n").as_bytes());
     bytes
 }
 

@@ -182,23 +182,15 @@ pub struct Joined {
 }
 
 /// Why parts are not joined.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JoinError {
-    /// A text that is no part, or of another sweep than the first.
-    #[error("{name}: {source}")]
-    Read {
+    /// A text that is no part of the sweep of the first, was given before, or is not solved to its end.
+    #[error("{name}: {fault}")]
+    Part {
         /// Its name.
         name: String,
         /// What is wrong with it.
-        source: ReadError,
-    },
-    /// The sweep of the first part cannot be made.
-    #[error("{name}: {source}")]
-    Sweep {
-        /// Its name.
-        name: String,
-        /// Why.
-        source: SweepError,
+        fault: String,
     },
     /// More points than one sweep can have.
     #[error(
@@ -207,36 +199,6 @@ pub enum JoinError {
     Large {
         /// How many.
         found: usize,
-    },
-    /// Parts of as many, and parts of another number.
-    #[error("{name}: it is part {found}, and the parts before it are of {of}")]
-    Count {
-        /// Its name.
-        name: String,
-        /// Which part it is.
-        found: Part,
-        /// How many there are of the first.
-        of: usize,
-    },
-    /// A part twice.
-    #[error("{name}: part {part} was given before")]
-    Twice {
-        /// Its name.
-        name: String,
-        /// Which part.
-        part: Part,
-    },
-    /// A part that is not solved to its end.
-    #[error("{name}: {solved} of the {points} points of part {part} are solved; the command that began it goes on")]
-    Incomplete {
-        /// Its name.
-        name: String,
-        /// Which part.
-        part: Part,
-        /// Points that are solved.
-        solved: usize,
-        /// Points that it has.
-        points: usize,
     },
     /// Parts that were not given.
     #[error("parts are missing: {parts}")]
@@ -254,35 +216,37 @@ const NAMED: usize = 8;
 /// # Errors
 /// [`JoinError`].
 pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
-    let fault = |name: &str, source| JoinError::Read { name: name.to_owned(), source };
+    fn fault(name: &str, fault: impl ToString) -> JoinError {
+        JoinError::Part { name: name.to_owned(), fault: fault.to_string() }
+    }
     let Some((first, text)) = parts.first() else { return Err(JoinError::Missing { parts: "all".to_owned() }) };
-    let begun = head(text).map_err(|source| fault(first, source))?;
-    let sweep = begun.sweep().map_err(|source| match source {
+    let begun = head(text).map_err(|error| fault(first, error))?;
+    let sweep = begun.sweep().map_err(|error| match error {
         SweepError::Points { found, .. } => JoinError::Large { found },
-        source => JoinError::Sweep { name: first.clone(), source },
+        error => fault(first, error),
     })?;
     let fingerprint = sweep.fingerprint();
     let part_of = |name: &str, head: &Head| head.part.parse::<Part>().map_err(|error| fault(name, damaged(1, error)));
     let of = part_of(first, &begun)?.of();
     let mut found: Vec<Option<Vec<Row>>> = vec![None; of];
     for (name, text) in parts {
-        let head = head(text).map_err(|source| fault(name, source))?;
+        let head = head(text).map_err(|error| fault(name, error))?;
         if head.sweep != fingerprint {
             return Err(fault(name, ReadError::Another));
         }
         let part = part_of(name, &head)?;
         if part.of() != of {
-            return Err(JoinError::Count { name: name.clone(), found: part, of });
+            return Err(fault(name, format!("it is part {part}, and the parts before it are of {of}")));
         }
         let points = sweep.points_of(part);
-        let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|source| fault(name, source))?;
+        let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|error| fault(name, error))?;
         if rows.len() < points.len() {
-            let (solved, points) = (rows.len(), points.len());
-            return Err(JoinError::Incomplete { name: name.clone(), part, solved, points });
+            let solved = format!("{} of the {} points of part {part} are solved", rows.len(), points.len());
+            return Err(fault(name, format!("{solved}; the command that began it goes on")));
         }
         rows.sort_by_key(|row| row.point);
         if found[part.number() - 1].replace(rows).is_some() {
-            return Err(JoinError::Twice { name: name.clone(), part });
+            return Err(fault(name, format!("part {part} was given before")));
         }
     }
     let missing: Vec<Part> =

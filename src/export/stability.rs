@@ -116,11 +116,9 @@ const COLOURS: [Colour; VERDICTS.len()] = [
 
 /// The maps below each other, each method's beside the other's.
 pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
-    let mut methods: Vec<Method> = cells.iter().map(|cell| cell.method).collect();
-    methods.dedup();
-    let columns = if methods.iter().any(|method| *method != methods[0]) { 2 } else { 1 };
+    let several = cells.iter().any(|cell| cell.method != cells[0].method);
+    let (columns, width) = if several { (2, Width::Page) } else { (1, Width::Column) };
     let provenance = Provenance { fidelity: fidelity.to_string(), ..Provenance::named(preset) };
-    let width = if columns == 2 { Width::Page } else { Width::Column };
     let mut figure = Figure { provenance, columns, width, ..Figure::default() };
     // Cells come map by map and method by method.
     for of_one in cells.chunk_by(|a, b| a.map.name == b.map.name && a.method == b.method) {
@@ -139,9 +137,8 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
             Method::Paper => "the paper's method",
         };
         let title = format!("{}, {method}", first.map.name.replace('-', " and "));
-        let mut panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
-        panel.legend = Legend::Above;
-        figure.panels.push(panel);
+        let panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
+        figure.panels.push(panel.legend(Legend::Above));
     }
     figure
 }

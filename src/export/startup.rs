@@ -151,7 +151,7 @@ impl<'a> Object<'a> {
             scene: scene.scene(),
             fidelity: settings.fidelity.to_string(),
             force_unit: force_unit(problem),
-            converged: converged(ended),
+            converged: ended.status == Status::Converged,
             remaining: finite(ended.remaining),
             tolerance: settings.tolerance,
             accuracy_asked: (asked > 0.0).then_some(asked),
@@ -165,7 +165,7 @@ impl<'a> Object<'a> {
             unsettled_steps: ended.stats.unsettled_steps,
             wall_s,
             rows,
-            warnings: warnings(ended),
+            warnings: ended.warnings.iter().cloned().chain(unsettled(ended)).collect(),
         }
     }
 }
@@ -184,16 +184,6 @@ pub fn steady(problem: &Problem, startup: &Startup) -> Option<Estimate> {
         Scenario::Motor(_) => found,
         Scenario::Plate(plate) => found * PlateResult::ratio(1.0, plate),
     })
-}
-
-/// What the user should know: of the scene, and of steps that did not settle.
-pub fn warnings(startup: &Startup) -> Vec<String> {
-    startup.warnings.iter().cloned().chain(unsettled(startup)).collect()
-}
-
-/// Whether it ended because the cycle repeats.
-pub fn converged(startup: &Startup) -> bool {
-    startup.status == Status::Converged
 }
 
 /// In words, what was taken although film and contact did not agree; `None` if every step settled.

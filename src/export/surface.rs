@@ -127,16 +127,15 @@ pub fn preset(pair: &Pair) -> String {
         let leaf = key.split_once('.').map_or(key, |(_, leaf)| leaf);
         format!("{leaf} = {value:?}{note}\n")
     };
-    let commented = |lines: String| lines.lines().map(|line| format!("# {line}\n")).collect::<String>();
-    let mut text = "[film]\n".to_owned() + &line("film.min_spacing_nm", pair.min_spacing * 1e9);
-    text += "\n# or, in place of that:\n# [surface]\n# model = \"asperities\"\n";
+    let spacing = line("film.min_spacing_nm", pair.min_spacing * 1e9);
     let [rms, radius, density, lay] = keys_of(pair).map(|(key, value)| line(key, value));
-    let mut lines = rms + &radius + &density;
-    lines += "elastic_modulus_gpa = 60.0  # of the materials: no height tells it\n";
-    lines += "flow_factors = \"patir-cheng\"\n";
-    lines += &lay;
-    lines += &line("surface.stator_share", pair.stator_share);
-    text + &commented(lines)
+    let share = line("surface.stator_share", pair.stator_share);
+    let other = format!(
+        "or, in place of that:\n[surface]\nmodel = \"asperities\"\n{rms}{radius}{density}\
+         elastic_modulus_gpa = 60.0  # of the materials: no height tells it\nflow_factors = \"patir-cheng\"\n{lay}{share}"
+    );
+    let commented: String = other.lines().map(|line| format!("# {line}\n")).collect();
+    format!("[film]\n{spacing}\n{commented}")
 }
 
 #[cfg(test)]

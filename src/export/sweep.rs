@@ -10,8 +10,8 @@ use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
-    Shading, Shape, Style, Width, extent,
+    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading,
+    Shape, Style, Width, extent,
 };
 use crate::scene::{Scale, show_text};
 use crate::solution::StoppedBy;
@@ -174,18 +174,17 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
     let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
     let provenance = Provenance {
-        preset: show_text(&sweep.scene().name),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
         error: format!("errors up to {worst:.1e}"),
         note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
+        ..Provenance::named(&show_text(&sweep.scene().name))
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     match sweep.axes() {
-        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity)),
+        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity, Range::Auto)),
         [first, x, y] => {
             // A map for each value of the first key, with one scale of colours.
             let found = rows
@@ -193,34 +192,28 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
                 .filter(|row| row.status == RunStatus::Converged)
                 .filter_map(|row| row.numbers.get(quantity));
             let [least, most] = extent(found);
+            let range = if least < most { Range::Fixed(least, most) } else { Range::Auto };
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
                 let of_value: Vec<Row> =
                     of_value.map(|row| Row { values: row.values[1..].to_vec(), ..row.clone() }).collect();
-                let mut panel = map_panel(sweep, &of_value, [x, y], quantity);
+                let mut panel = map_panel(sweep, &of_value, [x, y], quantity, range.clone());
                 panel.title = format!("{} = {} {}", first.parameter.words(), first.text(*value), first.parameter.unit);
-                for layer in &mut panel.layers {
-                    if let Layer::Map(map) = layer
-                        && least < most
-                    {
-                        map.range = Range::Fixed(least, most);
-                    }
-                }
                 figure.panels.push(panel.height(46.0));
             }
             (figure.columns, figure.width) = (first.values.len().clamp(1, 2), Width::Page);
         }
-        [x, ..] if quantity != primary(sweep) => figure.panels.push(curve_panel(sweep, rows, x, quantity)),
         [x, ..] => {
             figure.panels.push(curve_panel(sweep, rows, x, quantity));
+            if quantity != primary(sweep) {
+                return figure;
+            }
             let below = if sweep.quantities().contains(&Quantity::StallTorque) {
                 Quantity::StallTorque
             } else {
                 Quantity::MaxPressure
             };
-            let mut lower = curve_panel(sweep, rows, x, below).height(30.0);
-            lower.legend = Legend::None;
-            figure.panels.push(lower);
+            figure.panels.push(curve_panel(sweep, rows, x, below).height(30.0).legend(Legend::None));
         }
         [] => {}
     }
@@ -240,7 +233,7 @@ fn primary(sweep: &Sweep) -> Quantity {
 fn figure_axis(axis: &SweepAxis) -> Axis {
     let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
     if axis.words.is_empty() {
-        return if axis.scale == Scale::Log { drawn.log() } else { drawn };
+        return Axis { scale: axis.scale, ..drawn };
     }
     let names = axis.values.iter().map(|value| (*value, axis.text(*value))).collect();
     Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
@@ -253,7 +246,6 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     // In ascending order, with a gap where there is no value.
     let mut rows: Vec<&Row> = rows.iter().collect();
     rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    let sound = |row: &&&Row| row.status == RunStatus::Converged;
     let value = |row: &Row| match row.status {
         RunStatus::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
         _ => f64::NAN,
@@ -282,7 +274,7 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     }
     let unsound: Vec<[f64; 2]> = rows
         .iter()
-        .filter(|row| !sound(row))
+        .filter(|row| row.status != RunStatus::Converged)
         .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
         .collect();
     panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
@@ -312,7 +304,7 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
-fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity) -> Panel {
+fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity, range: Range) -> Panel {
     let ascending = |values: &[f64]| {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);
@@ -331,12 +323,12 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
         }
     }
     let grid = Grid { x: xs, y: ys, values };
-    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0);
-    let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
-    panel = panel.layer(map);
+    let label = quantity.words().to_owned();
+    let map = Map { label, grid: grid.clone(), range, shading: Shading::Cells, ..Map::default() };
+    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
     if x.words.is_empty() && y.words.is_empty() {
         let error = typical_error(rows, quantity);
-        panel = panel.layer(Contours { grid, error, labels: true });
+        panel = panel.layer(Contours { grid, error });
     }
     panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();

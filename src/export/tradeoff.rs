@@ -119,10 +119,6 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<SettingObject> {
 /// names at the accuracies, and rings round the settings in `chosen`.
 pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
     let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
-    let of = |family: Family| {
-        let points = tradeoff.points.iter().filter(move |point| point.run.candidate.family == family);
-        points.filter_map(place).collect::<Vec<_>>()
-    };
     let label = format!("error of {}", tradeoff.of_what());
     // Room for points and names at the ends.
     let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());
@@ -137,7 +133,8 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
         (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
     ] {
-        let points = of(family);
+        let of_family = tradeoff.points.iter().filter(|point| point.run.candidate.family == family);
+        let points: Vec<[f64; 2]> = of_family.filter_map(place).collect();
         if !points.is_empty() {
             panel = panel.layer(Points::new(name, points, colour, Marker::solid(shape)));
         }

@@ -18,7 +18,7 @@ use std::io::{self, Write};
 const ROUND: usize = 96;
 
 /// A line of points across, with the same film thickness.
-struct Across<'a> {
+struct Across {
     /// Where they are, in the plane of the faces \[m\].
     places: Vec<[f64; 2]>,
     /// Absolute pressure \[Pa\] at each.
@@ -28,7 +28,7 @@ struct Across<'a> {
     /// Height of the upper face \[m\].
     top: f64,
     /// \[m\].
-    thickness: &'a f64,
+    thickness: f64,
 }
 
 /// Points and the faces between them.
@@ -44,7 +44,7 @@ struct Mesh {
 
 impl Mesh {
     /// Adds both faces of a piece, from lines of as many points each.
-    fn add(&mut self, lines: &[Across<'_>]) {
+    fn add(&mut self, lines: &[Across]) {
         for face in [0.0, 1.0] {
             let first = self.points.len();
             for line in lines {
@@ -110,12 +110,12 @@ pub fn write(problem: &Problem, recording: &Recording, frame: usize, out: &mut d
 }
 
 /// The lines of a piece: over the length that was solved and its mirror image, and across likewise, or round.
-fn piece<'a>(
-    recording: &'a Recording,
+fn piece(
+    recording: &Recording,
     (tooth, frame): (usize, usize),
     place: &dyn Fn(f64, f64) -> [f64; 2],
     heights: &dyn Fn(usize) -> (f64, f64),
-) -> Vec<Across<'a>> {
+) -> Vec<Across> {
     let mut stored = vec![0.0; recording.map_y.len()];
     let nodes = &recording.x;
     let half = recording.half_length && !recording.radial && nodes.first().is_some_and(|x| *x >= 0.0);
@@ -137,7 +137,7 @@ fn piece<'a>(
             };
             let (bottom, top) = heights(i);
             let places = ys.into_iter().map(|y| place(x, y)).collect();
-            Some(Across { places, pressure, bottom, top, thickness: &recording.film_thickness[line + i] })
+            Some(Across { places, pressure, bottom, top, thickness: recording.film_thickness[line + i] })
         })
         .collect()
 }
@@ -172,15 +172,17 @@ impl Vtk<'_> {
     }
 
     fn numbers<'a>(&mut self, values: impl IntoIterator<Item = &'a f64>) -> io::Result<()> {
-        let bytes: Vec<u8> = values.into_iter().flat_map(|value| (*value as f32).to_be_bytes()).collect();
-        self.0.write_all(&bytes)?;
-        self.0.write_all(b"\n")
+        self.bytes(values.into_iter().map(|value| (*value as f32).to_be_bytes()))
     }
 
     fn whole<'a>(&mut self, values: impl IntoIterator<Item = &'a usize>) -> io::Result<()> {
-        let bytes: Vec<u8> = values.into_iter().flat_map(|value| (*value as u32).to_be_bytes()).collect();
-        self.0.write_all(&bytes)?;
-        self.0.write_all(b"\n")
+        self.bytes(values.into_iter().map(|value| (*value as u32).to_be_bytes()))
+    }
+
+    fn bytes(&mut self, numbers: impl Iterator<Item = [u8; 4]>) -> io::Result<()> {
+        let mut bytes: Vec<u8> = numbers.flatten().collect();
+        bytes.push(b'\n');
+        self.0.write_all(&bytes)
     }
 }
 
@@ -207,7 +209,7 @@ mod tests {
             thickness,
         };
         let (mut mesh, mut file) = (Mesh::default(), Vec::new());
-        mesh.add(&[line(0.0, &1e-6), line(1e-3, &2e-6)]);
+        mesh.add(&[line(0.0, 1e-6), line(1e-3, 2e-6)]);
         assert_eq!((mesh.points.len(), mesh.quads.len()), (8, 2));
         Vtk(&mut file).write("Name\nwith a line", &mesh).unwrap();
         let text = String::from_utf8_lossy(&file);

@@ -159,7 +159,7 @@ pub fn summary(class: &[Vec<Record>]) -> String {
     for (lesson, rows) in lessons {
         page.section(lesson);
         let heads = ["Step", "", "Answers", "Right", "Skipped", "Most frequent wrong answers"];
-        let mut table = Table::new("").heads(heads.map(|head| (Cell::Words, head)));
+        let mut table = Table::default().heads(heads.map(|head| (Cell::Words, head)));
         for ((step, kind), records) in rows {
             let count = |holds: &dyn Fn(&Record) -> bool| records.iter().filter(|record| holds(record)).count();
             let judged = count(&|record| record.success.is_some());

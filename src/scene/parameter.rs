@@ -31,10 +31,11 @@ impl fmt::Display for Range {
     }
 }
 
-/// The spacing of the values of a slider or a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The spacing of the values of a slider, a sweep or an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal steps.
+    #[default]
     Linear,
     /// Equal ratios.
     Log,

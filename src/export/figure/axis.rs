@@ -1,5 +1,7 @@
 //! Axes: what they show, and over which range.
 
+pub use crate::scene::Scale;
+
 /// One axis.
 ///
 /// Labels may raise and lower: `m^{2}`, `p_{a}`; raised and lowered characters of Unicode are set alike.
@@ -9,7 +11,7 @@ pub struct Axis {
     pub label: String,
     /// Its unit; empty for none.
     pub unit: String,
-    /// Linear or logarithmic.
+    /// Linear, or logarithmic: values that are not positive are then left out.
     pub scale: Scale,
     /// What it covers.
     pub range: Range,
@@ -58,16 +60,6 @@ impl Axis {
 pub(in crate::export) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     values.into_iter().fold(ends, |[low, high], value| [low.min(value), high.max(value)])
-}
-
-/// How values are spread along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scale {
-    /// Evenly.
-    #[default]
-    Linear,
-    /// By their logarithm; values that are not positive are left out.
-    Log,
 }
 
 /// What an axis or a colour bar covers.

@@ -118,6 +118,13 @@ impl Panel {
         self.height = millimetres;
         self
     }
+
+    /// With the names of its layers elsewhere.
+    #[must_use]
+    pub fn legend(mut self, legend: Legend) -> Self {
+        self.legend = legend;
+        self
+    }
 }
 
 /// Where the names of the layers stand.

@@ -4,6 +4,7 @@ use super::description::Figure;
 use super::drawing::Drawing;
 use super::error::{FigureError, MOST, Pixels};
 use super::placed::MM;
+use super::plane::PRINT;
 use super::render;
 use super::svg::{Picture, Rect, coordinate, escaped};
 use super::text::{FAMILIES, plain};
@@ -12,9 +13,6 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// Pixels of a point in print: 300 to the inch.
-pub const PRINT: f64 = 300.0 / 72.0;
 
 /// A format of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -45,7 +45,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
@@ -69,14 +69,10 @@ fn clipped_segment(a: [f64; 2], b: [f64; 2], rect: &Rect) -> Option<([f64; 2], [
     if enter > leave {
         return None;
     }
-    let at = |t: f64| {
-        if t == 0.0 {
-            a
-        } else if t == 1.0 {
-            b
-        } else {
-            [a[0] + t * dx, a[1] + t * dy]
-        }
+    let at = |t: f64| match t {
+        0.0 => a,
+        1.0 => b,
+        t => [a[0] + t * dx, a[1] + t * dy],
     };
     Some((at(enter), at(leave)))
 }

@@ -1,5 +1,6 @@
 //! Lines of equal value with their values written into them.
 
+use super::geometry::distance;
 use super::svg::{Pen, Svg, Type};
 use super::text;
 
@@ -21,11 +22,11 @@ pub(super) struct Isoline {
 }
 
 impl Isoline {
-    /// A line that carries a value; an empty one is not written.
+    /// A line that carries a value.
     pub(super) fn new(line: Vec<[f64; 2]>, label: &str, pen: Pen) -> Self {
         let mut points = Vec::new();
         for pair in line.windows(2) {
-            let steps = (far(pair[0], pair[1]) / STEP).ceil().max(1.0);
+            let steps = (distance(pair[0], pair[1]) / STEP).ceil().max(1.0);
             for i in 0..steps as usize {
                 let t = i as f64 / steps;
                 points.push(([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])), i == 0));
@@ -40,7 +41,7 @@ impl Isoline {
         let need = text::width(&self.label, SIZE) + 4.0;
         let length = |from: usize, to: usize| (to - from) as f64 * STEP;
         let count = self.points.len();
-        if self.label.is_empty() || length(0, count) < LONGER * need {
+        if length(0, count) < LONGER * need {
             return None;
         }
         let span = (need / STEP).ceil() as usize;
@@ -48,10 +49,10 @@ impl Isoline {
             .step_by(3)
             .filter_map(|from| {
                 let (a, b) = (self.points[from].0, self.points[from + span].0);
-                let bent = 1.0 - far(a, b) / length(from, from + span);
+                let bent = 1.0 - distance(a, b) / length(from, from + span);
                 let off = ((from as f64 + 0.5 * span as f64) / count as f64 - 0.5).abs();
                 // Across the page rather than up it: values are read without turning the head.
-                let steep = (b[1] - a[1]).abs() / far(a, b).max(1e-9);
+                let steep = (b[1] - a[1]).abs() / distance(a, b).max(1e-9);
                 (bent < 0.15).then_some((4.0 * bent + 0.3 * off + 0.3 * steep, from))
             })
             .collect();
@@ -60,7 +61,7 @@ impl Isoline {
             let (a, b) = (self.points[from].0, self.points[from + span].0);
             let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             let others = lines.iter().enumerate().filter(|(other, _)| *other != index);
-            values.iter().all(|value| far(*value, middle) > 1.3 * need)
+            values.iter().all(|value| distance(*value, middle) > 1.3 * need)
                 && others.flat_map(|(_, line)| &line.points).all(|(p, _)| off_segment(*p, a, b) > CLEAR * SIZE)
         };
         places.into_iter().map(|(_, from)| from).take(150).find(|from| free(*from)).map(|from| (from, from + span))
@@ -73,16 +74,12 @@ impl Isoline {
     }
 }
 
-fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
 /// Distance of a point from a segment.
 fn off_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let square = dx * dx + dy * dy;
     let t = if square > 0.0 { (((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    far(p, [a[0] + t * dx, a[1] + t * dy])
+    distance(p, [a[0] + t * dx, a[1] + t * dy])
 }
 
 /// Draws lines, each with its value in a gap where there is room for it.

@@ -173,15 +173,13 @@ pub enum Shading {
     Cells,
 }
 
-/// Lines of equal value, up to ten round ones, black or white as the map below asks.
+/// Lines of equal value, up to ten round ones, each with its value, black or white as the map below asks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contours {
     /// Where the values are.
     pub grid: Grid,
     /// What the values are told apart by: a typical error. Where round values would be nearer to each other there are no lines.
     pub error: f64,
-    /// Whether each line carries its value.
-    pub labels: bool,
 }
 
 /// Kinds over a plane, each node's cell in the colour of its kind.

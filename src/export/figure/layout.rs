@@ -6,7 +6,7 @@ use super::layers::{Layer, Shading};
 use super::legend;
 use super::placed::{
     BAR, Bar, FOOT, GAP, HEAD, LABEL, LEADING, MAJOR, MM, NOTE, Placed, TICK, TITLE, axis_label, fills, first_map,
-    map_range,
+    map_range, widest,
 };
 use super::plane;
 use super::scale::{Scaled, Tick, Ticks};
@@ -189,11 +189,6 @@ fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
     false
 }
 
-/// The widest label.
-fn widest(ticks: &Ticks) -> f64 {
-    ticks.ticks.iter().filter_map(|tick| tick.label.as_deref()).map(|l| text::width(l, TICK)).fold(0.0, f64::max)
-}
-
 impl Placed {
     /// What is known before the width is: ranges, and what stands beside the axes.
     fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
@@ -254,7 +249,7 @@ impl Placed {
     fn above(&self, panel: &Panel) -> f64 {
         let text = legend::height(self, panel);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
-        let title = if self.title_line(panel) { HEAD * LEADING + 2.0 } else { 0.0 };
+        let title = if panel.title.trim().is_empty() { 0.0 } else { HEAD * LEADING + 2.0 };
         // A title and a colour bar share their line if there is room for both.
         let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
         text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
@@ -263,11 +258,6 @@ impl Placed {
     /// Width of a colour bar above the axes, its label included.
     fn bar_above(&self) -> f64 {
         self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.label, NOTE))
-    }
-
-    /// Whether there is a line for the title.
-    fn title_line(&self, panel: &Panel) -> bool {
-        !panel.title.trim().is_empty()
     }
 
     /// What stands below it.
@@ -284,7 +274,7 @@ impl Placed {
         self.rect.y = top;
         let rect = self.rect;
         let legend = legend::height(self, panel);
-        if self.title_line(panel) {
+        if !panel.title.trim().is_empty() {
             self.title = Some([rect.x, row + HEAD]);
         }
         legend::place(self, panel);

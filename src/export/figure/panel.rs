@@ -3,13 +3,13 @@
 use super::axis::{Range, Scale};
 use super::colour::Colour;
 use super::description::Panel;
-use super::geometry::{clipped_area, clipped_line, contour, is_contour};
+use super::geometry::{clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
 use super::layers::{Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
 use super::legend::{covered, drawn};
 use super::placed::{
     BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, SPACE, Sign, TICK, axis_label, fills, first_map, map_range,
-    mark_ends,
+    mark_ends, widest,
 };
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
@@ -272,7 +272,7 @@ impl On<'_> {
         let mut lines = Vec::new();
         for level in levels {
             let pen = Pen::solid(contrast(map, level), 0.7);
-            let label = if contours.labels { on_contour(level, step) } else { String::new() };
+            let label = on_contour(level, step);
             for line in contour(&px, &py, values, level) {
                 for part in clipped_line(line.into_iter(), &self.placed.rect) {
                     lines.push(Isoline::new(part, &label, pen));
@@ -294,7 +294,7 @@ impl On<'_> {
             if right.is_some() {
                 spines.push([rect.right(), rect.bottom(), rect.right(), rect.y]);
             }
-            svg.segments(&spines, &Pen { width: THIN, ..pen });
+            svg.segments(&spines, &pen);
         }
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
@@ -376,7 +376,7 @@ fn sparse(points: &[[f64; 2]], curve: usize) -> Vec<[f64; 2]> {
     let length: Vec<f64> = points
         .iter()
         .scan((points[0], 0.0), |(last, sum), point| {
-            *sum += (point[0] - last[0]).hypot(point[1] - last[1]);
+            *sum += distance(*point, *last);
             *last = *point;
             Some(*sum)
         })
@@ -410,9 +410,7 @@ fn colour_bar(svg: &mut Svg, bar: &Bar) {
     let mut strokes = Vec::new();
     if *is_upright {
         upright(svg, &mut strokes, rect.right(), 1.0, rect, range, ticks);
-        let labels = ticks.ticks.iter().filter_map(|tick| tick.label.as_deref());
-        let widest = labels.map(|label| text::width(label, TICK)).fold(0.0, f64::max);
-        let x = rect.x + BAR + MAJOR + GAP + widest + GAP + 0.8 * LABEL;
+        let x = rect.x + BAR + MAJOR + GAP + widest(ticks) + GAP + 0.8 * LABEL;
         let style = Type { angle: -90.0, ..Type::new(LABEL, "middle") };
         svg.text([x, rect.y + 0.5 * rect.height], label, &style);
     } else {
@@ -470,7 +468,7 @@ mod tests {
         assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
         // One that nowhere carries anything.
         let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![-6.7e-9, 2.2e-9, 1e-9, -3e-9] };
-        let noise = Contours { grid, error: 1.25e-5, ..Contours::default() };
+        let noise = Contours { grid, error: 1.25e-5 };
         assert!(levels(&noise).0.is_empty() && levels(&Contours { error: 0.0, ..noise }).0.len() >= 4);
     }
 

@@ -116,6 +116,11 @@ pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2];
     }
 }
 
+/// Width of the widest label.
+pub(super) fn widest(ticks: &Ticks) -> f64 {
+    ticks.ticks.iter().filter_map(|tick| tick.label.as_deref()).map(|l| text::width(l, TICK)).fold(0.0, f64::max)
+}
+
 /// `gap (10^{−9} m)`
 pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
     let factor = if exponent == 0 { String::new() } else { power(exponent) };

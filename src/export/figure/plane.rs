@@ -5,8 +5,8 @@ use super::layers::{Categories, Grid, Map, Shading};
 use super::scale::Scaled;
 use super::svg::{Picture, Rect};
 
-/// Pixels to a point: 300 to the inch.
-const PIXELS: f64 = 300.0 / 72.0;
+/// Pixels of a point in print: 300 to the inch.
+pub const PRINT: f64 = 300.0 / 72.0;
 /// More pixels along a side than this are not drawn.
 const MOST: f64 = 4000.0;
 
@@ -65,7 +65,7 @@ fn paint(
     shading: Shading,
     colour: impl Fn((usize, f64), (usize, f64)) -> Option<Colour>,
 ) -> Picture {
-    let size = [rect.width, rect.height].map(|length| (length * PIXELS).round().clamp(1.0, MOST) as usize);
+    let size = [rect.width, rect.height].map(|length| (length * PRINT).round().clamp(1.0, MOST) as usize);
     let [(x, x_axis), (y, y_axis)] = axes;
     let columns = places(x, x_axis, size[0], shading, false);
     let rows = places(y, y_axis, size[1], shading, true);

@@ -53,15 +53,8 @@ pub enum Piece {
 pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
     let mut pages = Vec::new();
     for sheet in sheets {
-        let mut set = SIZES.iter().map(|size| set(sheet, *size));
-        let mut last = Vec::new();
-        for pages in set.by_ref() {
-            last = pages;
-            if last.len() < 2 {
-                break;
-            }
-        }
-        pages.append(&mut last);
+        let fitting = SIZES.iter().map(|size| set(sheet, *size)).find(|pages| pages.len() < 2);
+        pages.extend(fitting.unwrap_or_else(|| set(sheet, SIZES[SIZES.len() - 1])));
     }
     svg_pages(title, PAGE, &pages)
 }

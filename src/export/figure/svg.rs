@@ -214,7 +214,10 @@ impl Svg {
                 return self.segments(&strokes, &Pen::solid(colour, 0.9));
             }
         };
-        let fill = if marker.hollow { Colour::WHITE } else { colour };
+        let (fill, outline) = match marker.hollow {
+            true => (Colour::WHITE, Pen::solid(colour, 0.8)),
+            false => (colour, Pen::solid(Colour::WHITE, 0.3)),
+        };
         if shape.is_empty() {
             let [x, y, r] = [x, y, r].map(coordinate);
             let _ = write!(self.body, r#"<circle cx="{x}" cy="{y}" r="{r}" fill="{}""#, fill.hex());
@@ -224,10 +227,7 @@ impl Svg {
             self.points(&placed);
             let _ = write!(self.body, r#"" fill="{}""#, fill.hex());
         }
-        self.stroke(&Pen::solid(
-            if marker.hollow { colour } else { Colour::WHITE },
-            if marker.hollow { 0.8 } else { 0.3 },
-        ));
+        self.stroke(&outline);
         self.body.push_str("/>\n");
     }
 

@@ -3,9 +3,11 @@
 
 use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, pressure_unit};
 use super::plate;
-use super::series::{mirrored, over_cycle, phase as phase_of, rest, span, tooth_map, with_margin};
+use super::series::{
+    along, along_where_not_zero, mirrored, over_cycle, phase as phase_of, rest, span, tooth_map, with_margin,
+};
 use super::unit::prefixed;
-use crate::export::figure::{Axis, Figure, Layer, Legend, Line, Map, Panel, Range, Style, Width, extent};
+use crate::export::figure::{Axis, Figure, Legend, Line, Map, Marker, Panel, Points, Range, Style, Width, extent};
 use crate::problem::{Motor, Plate};
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
@@ -80,18 +82,6 @@ fn wave_axis(runs: &[MotorRun<'_>]) -> (Axis, impl Fn(&Recording) -> f64) {
     (axis.fixed(low, high), scale)
 }
 
-/// A value at every node of every tooth at a frame, with gaps at the grooves.
-fn along(recording: &Recording, frame: usize, x: f64, value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
-    let mut points = Vec::new();
-    for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, frame);
-        let middle = tooth as f64 * recording.pitch;
-        points.extend(recording.x.iter().enumerate().map(|(i, xi)| [(middle + xi) * x, value(line + i)]));
-        points.push([f64::NAN; 2]);
-    }
-    points
-}
-
 /// Surfaces, contact pressure and film pressure along one wavelength at a phase of the cycle, all runs in each panel.
 pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let mut figure = Figure::new(format!("t/T = {phase:.3}"));
@@ -130,8 +120,7 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
         let rotor = rotor.into_iter().map(|[x, height]| [x * metre, height * scale]);
         panel = panel.layer(Line::new(run.name, rotor, Style { width: 1.3, ..run.style }));
     }
-    panel.legend = Legend::Above;
-    panel
+    panel.legend(Legend::Above)
 }
 
 /// Contact pressure, averaged over the contact width, of all runs.
@@ -154,14 +143,11 @@ fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: impl Fn(&Record
     for run in runs {
         let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
         let values = of(run.recording);
-        let mut points = along(run.recording, frame, metre, |i| values[i] / run.scene.contact_width * scale);
-        // Nothing rather than a line at zero where a tooth does not touch.
-        let teeth = points.split_mut(|[x, _]| !x.is_finite());
-        teeth.filter(|tooth| tooth.iter().all(|[_, y]| *y == 0.0)).for_each(|tooth| tooth.fill([f64::NAN; 2]));
+        let pressure = |i: usize| values[i] / run.scene.contact_width * scale;
+        let points = along_where_not_zero(run.recording, frame, metre, pressure);
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
-    panel.legend = Legend::None;
-    panel
+    panel.legend(Legend::None)
 }
 
 /// Film load and contact load over the cycle.
@@ -176,11 +162,10 @@ pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
         }
         panel
     };
-    let mut film = panel("(a) load of the air film on one wavelength", |recording| &recording.film_load);
-    film.legend = Legend::Above;
-    let mut contact = panel("(b) contact load", |recording| &recording.contact_load);
-    contact.legend = Legend::None;
-    let mut figure = Figure::new("loads over the cycle").panel(film).panel(contact);
+    let film = panel("(a) load of the air film on one wavelength", |recording| &recording.film_load);
+    let contact = panel("(b) contact load", |recording| &recording.contact_load);
+    let mut figure =
+        Figure::new("loads over the cycle").panel(film.legend(Legend::Above)).panel(contact.legend(Legend::None));
     figure.share_x = true;
     figure.width = Width::Millimetres(110.0);
     figure.caption =
@@ -275,10 +260,8 @@ fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
 
 /// Pressure along every plate, at y = 0, at the greatest and the least gap.
 pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
-    let mut wide = profile_panel(runs, 0.0, "(a) greatest gap, t = 0").height(34.0);
-    wide.legend = Legend::Above;
-    let mut narrow = profile_panel(runs, 0.5, "(b) least gap, t = T/2").height(34.0);
-    narrow.legend = Legend::None;
+    let wide = profile_panel(runs, 0.0, "(a) greatest gap, t = 0").height(34.0).legend(Legend::Above);
+    let narrow = profile_panel(runs, 0.5, "(b) least gap, t = T/2").height(34.0).legend(Legend::None);
     let mut figure = Figure::new("pressure along the plate").panel(wide).panel(narrow);
     figure.share_x = true;
     figure.width = Width::Millimetres(110.0);
@@ -302,8 +285,7 @@ pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
         let points = over_cycle(&run.recording.film_load, scale / run.scene.area());
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
-    panel.legend = Legend::Above;
-    let mut figure = Figure::new("load over the cycle").panel(panel);
+    let mut figure = Figure::new("load over the cycle").panel(panel.legend(Legend::Above));
     figure.width = Width::Millimetres(110.0);
     figure.caption = "Load of the film above ambient, over the area, over one cycle of every run.".to_owned();
     figure
@@ -323,8 +305,7 @@ pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
         let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
         panel = panel.layer(Line::new(run.name, closed.filter_map(at), run.style));
     }
-    panel.legend = Legend::Above;
-    let mut figure = Figure::new("pressure against gap").panel(panel);
+    let mut figure = Figure::new("pressure against gap").panel(panel.legend(Legend::Above));
     figure.width = Width::Millimetres(110.0);
     figure.caption = "Mean gauge pressure of the film against the gap, once round the cycle of every run.".to_owned();
     figure
@@ -343,7 +324,7 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
             ..Map::default()
         };
         let panel = Panel::new(run.name, plate_axis(), Axis::new("t/T", "").fixed(0.0, 1.0));
-        figure.panels.push(panel.layer(Layer::Map(map)).height(40.0));
+        figure.panels.push(panel.layer(map).height(40.0));
     }
     figure.columns = runs.len().clamp(1, 2);
     figure.width = Width::Page;
@@ -355,18 +336,16 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
 
 /// Profiles and loops at a phase of the cycle, for moving pictures.
 pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
-    let mut profile = profile_panel(runs, phase, "(a) pressure along the plate");
-    profile.legend = Legend::Above;
-    let mut round = loops(runs).panels.remove(0);
+    let profile = profile_panel(runs, phase, "(a) pressure along the plate").legend(Legend::Above);
+    let mut round = loops(runs).panels.remove(0).legend(Legend::None);
     round.title = "(b) once round the cycle".to_owned();
-    round.legend = Legend::None;
     let unit = mean_pressure(runs).1;
     for run in runs {
         let m = nearest_frame(run.recording, phase);
         if let (Some(gap), Some(load)) = (run.recording.min_film_thickness.get(m), run.recording.film_load.get(m)) {
             let at = [gap / run.scene.mean_gap, load / run.scene.area() * unit];
-            let marker = crate::export::figure::Marker { size: 5.0, ..Default::default() };
-            round = round.layer(crate::export::figure::Points::new("", [at], run.style.colour, marker));
+            let marker = Marker { size: 5.0, ..Marker::default() };
+            round = round.layer(Points::new("", [at], run.style.colour, marker));
         }
     }
     let mut figure = Figure::new("").panel(profile.height(46.0)).panel(round.height(46.0));

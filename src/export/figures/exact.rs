@@ -55,8 +55,7 @@ fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
         let errors = if part.error.is_finite() { vec![part.error] } else { Vec::new() };
         panel = panel.layer(Points { errors, ..Points::new(name, [[present, part.value]], colour, marker) });
     }
-    panel.legend = Legend::Above;
-    panel
+    panel.legend(Legend::Above)
 }
 
 fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
@@ -72,7 +71,7 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
     let (unit, scale) = prefixed(range[1].max(-range[0]), force(plate));
     let [low, high] = with_margin(range, 0.08);
     let y = Axis::new("film load", unit).fixed(low * scale, high * scale);
-    let mut panel = Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)
+    Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)
         .layer(rest(0.0, ""))
         .layer(Line::new(
             "trapped (Boyle)",
@@ -84,7 +83,6 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
             over_cycle(&found.limits.viscous, scale),
             Style::solid(Colour::ROTOR).dash(Dash::DashDot),
         ))
-        .layer(Line::new("computed", over_cycle(load, scale), Style::solid(Colour::FILM)));
-    panel.legend = Legend::Above;
-    panel
+        .layer(Line::new("computed", over_cycle(load, scale), Style::solid(Colour::FILM)))
+        .legend(Legend::Above)
 }

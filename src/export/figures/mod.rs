@@ -28,13 +28,20 @@ pub(super) use series::mirrored;
 
 use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
 use crate::analysis::exact::Comparison;
+use crate::analysis::torque::TorqueCurves;
 use crate::control::Progress;
 use crate::problem::{Problem, Scenario};
 use crate::scene::show_text;
 use crate::solution::{Outcome, Solution};
 
-/// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept.
-pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(&'static str, Figure)> {
+/// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept; `curves`: torque over
+/// speed, if it is known.
+pub fn of(
+    problem: &Problem,
+    solution: &Solution,
+    history: &[Progress],
+    curves: Option<&TorqueCurves>,
+) -> Vec<(&'static str, Figure)> {
     let recording = &solution.recording;
     let mut figures = Vec::new();
     match &problem.scenario {
@@ -59,11 +66,12 @@ pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(
     if !history.is_empty() {
         figures.push(("convergence", convergence(history)));
     }
+    figures.extend(curves.map(|curves| ("torque", torque::torque(curves))));
     figures.into_iter().map(|(name, figure)| (name, dressed(problem, solution, figure))).collect()
 }
 
 /// With the scene's name above, and where its numbers come from below.
-pub fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
+fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
     figure.title = match figure.title.as_str() {
         "" => show_text(&problem.name),
         title => format!("{}: {title}", show_text(&problem.name)),

@@ -1,7 +1,8 @@
 //! Figures of a motor. Axes cover the whole cycle, so that figures of several instants can be laid side by side.
 
-use super::series::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
+use super::series::{along, along_where_not_zero, mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
 use super::unit::prefixed;
+use crate::digits::significant;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
 };
@@ -54,22 +55,11 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let (unit, scale) = prefixed(high.max(-low), "m");
     let y = Axis::new("displacement", &unit)
         .fixed((low - 0.06 * (high - low)) * scale, (high + 0.06 * (high - low)) * scale);
-    let nodes = recording.x.len();
-    let (mut teeth, mut outline, mut touching) = (Vec::new(), Vec::new(), Vec::new());
-    let gap = [f64::NAN; 2];
-    for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, frame);
-        let middle = tooth as f64 * recording.pitch;
-        for i in 0..nodes {
-            let (x, top) = ((middle + recording.x[i]) * 1e3, recording.stator[line + i] * scale);
-            teeth.push([x, f64::MIN / 2.0, top]);
-            outline.push([x, top]);
-            touching.push(if recording.contact[line + i] > motor.touching_from() { [x, top] } else { gap });
-        }
-        teeth.push([f64::NAN; 3]);
-        outline.push(gap);
-        touching.push(gap);
-    }
+    let touches = |load: f64| load > motor.touching_from();
+    let top = |i: usize| recording.stator[i] * scale;
+    let outline = along(recording, frame, 1e3, top);
+    let touching = along(recording, frame, 1e3, |i| if touches(recording.contact[i]) { top(i) } else { f64::NAN });
+    let teeth: Vec<[f64; 3]> = outline.iter().map(|[x, top]| [*x, f64::MIN / 2.0, *top]).collect();
     let rotor = Lines::at(recording, frame as f64).underside(recording);
     let rotor: Vec<[f64; 2]> = rotor.iter().map(|[x, height]| [x * 1e3, height * scale]).collect();
     let above = rotor.iter().map(|[x, y]| [*x, *y, f64::MAX / 2.0]);
@@ -82,11 +72,10 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
         .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
         .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }));
     // Wherever in the cycle: the legend is the same at every instant.
-    if recording.contact.iter().any(|load| *load > motor.touching_from()) {
+    if recording.contact.iter().any(|load| touches(*load)) {
         panel = panel.layer(Line::new("in contact", touching, thick));
     }
-    panel.legend = Legend::Above;
-    panel
+    panel.legend(Legend::Above)
 }
 
 /// A line load of all teeth as a pressure.
@@ -103,38 +92,22 @@ struct Loads<'a> {
 impl Loads<'_> {
     /// One curve for each tooth, with a pale area below.
     fn layers(&self, name: &str, colour: Colour, dash: Dash) -> (Band, Line) {
-        let (mut area, mut curve) = (Vec::new(), Vec::new());
         let per_width = self.scale / self.motor.contact_width;
-        for tooth in 0..self.recording.teeth {
-            let line = self.recording.line_offset(tooth, self.frame);
-            let middle = tooth as f64 * self.recording.pitch;
-            let loads = &self.values[line..line + self.recording.x.len()];
-            // Nothing rather than a line at zero where a tooth does not touch.
-            if loads.iter().all(|load| *load == 0.0) {
-                continue;
-            }
-            for (xi, load) in self.recording.x.iter().zip(loads) {
-                let (x, pressure) = ((middle + xi) * 1e3, load * per_width);
-                area.push([x, 0.0, pressure]);
-                curve.push([x, pressure]);
-            }
-            area.push([f64::NAN; 3]);
-            curve.push([f64::NAN; 2]);
-        }
+        let curve = along_where_not_zero(self.recording, self.frame, 1e3, |i| self.values[i] * per_width);
+        let area: Vec<[f64; 3]> = curve.iter().map(|[x, pressure]| [*x, 0.0, *pressure]).collect();
         (Band::new("", area, colour), Line::new(name, curve, Style::solid(colour).dash(dash)))
     }
 
-    fn axis(&self, label: &str, also: &[f64]) -> Axis {
+    fn axis(&self, also: &[f64]) -> Axis {
         let per_width = self.scale / self.motor.contact_width;
         let all = self.values.iter().chain(also).map(|load| load * per_width);
         let [low, high] = with_margin(span(all, 0.0), 0.06);
-        Axis::new(label, self.unit).fixed(low, high)
+        Axis::new("pressure", self.unit).fixed(low, high)
     }
 
     fn panel(&self, title: &str, colour: Colour) -> Panel {
         let (area, curve) = self.layers("", colour, Dash::Solid);
-        let y = self.axis("pressure", &[]);
-        Panel::new(title, x_axis(self.recording), y).layer(area).layer(rest(0.0, "")).layer(curve)
+        Panel::new(title, x_axis(self.recording), self.axis(&[])).layer(area).layer(rest(0.0, "")).layer(curve)
     }
 }
 
@@ -146,15 +119,14 @@ pub fn pressures(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let film = Loads { values: &recording.film, ..contact };
     let (contact_area, contact_line) = contact.layers("contact", Colour::CONTACT, Dash::Dashed);
     let (film_area, film_line) = film.layers("air film, gauge", Colour::FILM, Dash::Solid);
-    let y = contact.axis("pressure", &recording.film);
-    let mut panel = Panel::new("(b) pressure on the teeth", x_axis(recording), y)
+    let y = contact.axis(&recording.film);
+    Panel::new("(b) pressure on the teeth", x_axis(recording), y)
         .layer(contact_area)
         .layer(film_area)
         .layer(rest(0.0, ""))
         .layer(contact_line)
-        .layer(film_line);
-    panel.legend = Legend::Above;
-    panel
+        .layer(film_line)
+        .legend(Legend::Above)
 }
 
 /// Film load, contact load and teeth in contact over the cycle.
@@ -182,18 +154,14 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
     let mut figure = Figure::new("loads over the cycle").panel(load.height(38.0)).panel(teeth.height(16.0));
     figure.panels[0].x.range = Range::Fixed(0.0, 1.0);
     figure.share_x = true;
+    let (unit, seconds) = prefixed(recording.period, "s");
     figure.caption = format!(
-        "Contact load and load of the air film on one wavelength over one cycle of {}; together they carry the axial load, the thin \
+        "Contact load and load of the air film on one wavelength over one cycle of {} {unit}; together they carry the axial load, the thin \
          line. Below, how many of the {} teeth touch the rotor.",
-        period(recording),
+        significant(recording.period * seconds, 4),
         recording.teeth
     );
     figure
-}
-
-fn period(recording: &Recording) -> String {
-    let (unit, scale) = prefixed(recording.period, "s");
-    format!("{} {unit}", crate::digits::significant(recording.period * scale, 4))
 }
 
 /// The film's pressure under all teeth, absolute.
@@ -264,7 +232,7 @@ pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit
         values: (0..recording.map_x.len()).flat_map(|i| y.iter().map(move |(_, j)| value(i, *j))).collect(),
     };
     let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), range, ..Map::default() };
-    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let lines = Contours { grid, ..Contours::default() };
     let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
     Panel::new("", axes.0, axes.1).layer(colours).layer(lines).height(38.0)
 }
@@ -283,7 +251,7 @@ pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
          crest is (b); colours of (a) cover the whole cycle. Teeth are {} mm wide along x.",
         phase(recording, frame),
         recording.teeth,
-        crate::digits::significant(motor.tooth_width * 1e3, 4)
+        significant(motor.tooth_width * 1e3, 4)
     );
     figure
 }

@@ -19,8 +19,7 @@ pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
         let frame = quarter * recording.frames / 4;
         let line = middle_line(recording, frame);
         let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x * 1e3, p * scale]));
-        let mut style = Style::nth(quarter);
-        style.marker = None;
+        let style = Style { marker: None, ..Style::nth(quarter) };
         panel = panel.layer(Line::new(["t = 0", "T/4", "T/2", "3T/4"][quarter], points, style));
     }
     let mut figure = Figure::new("pressure along the plate").panel(panel);
@@ -168,7 +167,7 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
         (title, Axis::new("y", "mm"), Grid { x: millimetres(&x), y: millimetres(&y), values })
     };
     let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), ..Map::default() };
-    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let lines = Contours { grid, ..Contours::default() };
     let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(colours).layer(lines).height(60.0);
     let mut figure = Figure::new(title).panel(panel);
     figure.width = Width::Millimetres(110.0);

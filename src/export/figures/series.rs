@@ -35,6 +35,31 @@ pub(super) fn over_cycle<'a>(series: &'a [f64], scale: f64) -> impl Iterator<Ite
     (0..if count == 0 { 0 } else { count + 1 }).map(at)
 }
 
+/// A value at every node of every tooth at a frame, with gaps at the grooves; a metre is `metre` on the axis.
+pub(super) fn along(recording: &Recording, frame: usize, metre: f64, value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for tooth in 0..recording.teeth {
+        let line = recording.line_offset(tooth, frame);
+        let middle = tooth as f64 * recording.pitch;
+        points.extend(recording.x.iter().enumerate().map(|(i, xi)| [(middle + xi) * metre, value(line + i)]));
+        points.push([f64::NAN; 2]);
+    }
+    points
+}
+
+/// The same of a load, with nothing rather than a line at zero where a tooth does not touch.
+pub(super) fn along_where_not_zero(
+    recording: &Recording,
+    frame: usize,
+    metre: f64,
+    value: impl Fn(usize) -> f64,
+) -> Vec<[f64; 2]> {
+    let mut points = along(recording, frame, metre, value);
+    let teeth = points.split_mut(|[x, _]| !x.is_finite());
+    teeth.filter(|tooth| tooth.iter().all(|[_, y]| *y == 0.0)).for_each(|tooth| tooth.fill([f64::NAN; 2]));
+    points
+}
+
 /// The pressure map of tooth `tooth` at a frame, `[ix][iy]` as stored: with lag symmetry that of the first tooth, when it
 /// was where this one is now, between frames if need be.
 pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Vec<f64> {

@@ -7,7 +7,7 @@ use crate::export::figure::{
 };
 use crate::export::figures::compare::{MotorRun, contact_pressures, film_pressures};
 use crate::export::figures::motor::{crest_in_the_middle, surfaces};
-use crate::problem::{Motor, RotorCompliance, Scenario};
+use crate::problem::{RotorCompliance, Scenario};
 use crate::recording::Recording;
 use crate::solution::Solution;
 
@@ -23,9 +23,6 @@ pub fn figures(all: &Reproduction) -> Vec<(u32, Figure)> {
     }));
     figures.push((10, frequencies(all)));
     figures.sort_by_key(|(number, _)| *number);
-    for (_, figure) in &mut figures {
-        figure.provenance.version = env!("CARGO_PKG_VERSION").to_owned();
-    }
     figures
 }
 
@@ -50,52 +47,47 @@ fn green(both: &Both) -> Option<Figure> {
     )
     .layer(Points::new("on the 181 nodes, with the local compliance", nodes, Colour::BLACK, marker))
     .layer(Line::new("beam on an elastic foundation", points, Style::solid(Colour::FILM)))
-    .height(44.0);
+    .height(44.0)
+    .legend(Legend::Above);
     let mut figure = Figure::new("Fig. 3: deflection of the rotor under a unit point load").panel(panel);
-    figure.panels[0].legend = Legend::Above;
     figure.width = Width::Millimetres(110.0);
     figure.caption = "The paper took this Green's function from a finite element model of the rotor (2162 elements) and shows it as a curve, \
                       which is not known to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
                       compliance, spread over one contact spacing."
         .to_owned();
-    figure.provenance.preset = both.problem.name.clone();
+    figure.provenance = Provenance::named(&both.problem.name);
     Some(figure)
 }
 
 const PAPER: &str = "paper's algorithm";
 const OURS: &str = "converged";
 
-fn recording(solved: &Result<Solution, String>) -> Option<&Recording> {
-    let recording = &solved.as_ref().ok()?.recording;
-    (recording.frames > 0).then_some(recording)
+fn recording(solution: &Solution) -> Option<&Recording> {
+    Some(&solution.recording).filter(|recording| recording.frames > 0)
 }
 
 /// Surfaces, contact pressure and film pressure at the crest in the middle, as the paper's figures, by both methods.
 fn fields(both: &Both, title: &str) -> Option<Figure> {
     let Scenario::Motor(motor) = &both.problem.scenario else { return None };
-    let motor: &Motor = motor;
-    let ours = recording(&both.ours)?;
+    let solution = both.ours.as_ref().ok()?;
+    let ours = recording(solution)?;
     let frame = crest_in_the_middle(ours);
     let phase = frame as f64 / ours.frames as f64;
     let run = |name, recording, style| MotorRun { name, scene: motor, recording, style };
     let mut contact = vec![run(OURS, ours, Style::solid(Colour::CONTACT))];
     let mut film = vec![run(OURS, ours, Style::solid(Colour::FILM))];
-    if let Some(paper) = recording(&both.paper) {
+    if let Some(paper) = both.paper.as_ref().ok().and_then(recording) {
         let style = Style { width: 0.8, ..Style::solid(Colour::BLACK).dash(Dash::Dotted) };
         contact.push(run(PAPER, paper, style));
         film.push(run(PAPER, paper, style));
     }
-    let legend = |panel: Panel| Panel { legend: Legend::Above, ..panel };
     let mut figure = Figure::new(title)
         .panel(surfaces(motor, ours, frame).height(36.0))
-        .panel(legend(contact_pressures(&contact, phase, "(b) contact pressure").height(28.0)))
-        .panel(legend(film_pressures(&film, phase, "(c) film pressure, gauge").height(28.0)));
+        .panel(contact_pressures(&contact, phase, "(b) contact pressure").height(28.0).legend(Legend::Above))
+        .panel(film_pressures(&film, phase, "(c) film pressure, gauge").height(28.0).legend(Legend::Above));
     figure.share_x = true;
     figure.width = Width::Millimetres(115.0);
-    figure.provenance = match &both.ours {
-        Ok(solution) => Provenance::of(&both.problem, solution),
-        Err(_) => Provenance::default(),
-    };
+    figure.provenance = Provenance::of(&both.problem, solution);
     Some(figure)
 }
 
@@ -137,6 +129,6 @@ fn frequencies(all: &Reproduction) -> Figure {
     figure.caption = "The ratio α over the frequency, all else as in the fundamental case. Published: the rows of Table I, whose points \
                       Fig. 10 shows. The stated error is narrower than the line nearly everywhere."
         .to_owned();
-    figure.provenance.preset = "Fundamental case".to_owned();
+    figure.provenance = Provenance::named("Fundamental case");
     figure
 }

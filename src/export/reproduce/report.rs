@@ -2,7 +2,7 @@
 
 use super::figures::figures;
 use super::objects::RowObject;
-use super::statements::statements;
+use super::statements::{share, statements};
 use crate::analysis::decision::{effort, sentences};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::analysis::validity::outside;
@@ -31,16 +31,13 @@ const LEFT_OUT: [&str; 3] = [
 pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) -> String {
     let mut page = Page::new(KICKER, TITLE, LEAD);
     let fundamental = all.row("fundamental");
-    let alpha = |solved: &Result<Solution, String>| {
-        Both::result(solved).map_or("–".to_owned(), |result| result.alpha.to_string())
-    };
     if let Some(row) = fundamental {
         let short =
             Both::result(&row.both.paper).map_or("–".to_owned(), |result| format!("{:.3}", result.alpha.value));
         page.highlights([
             (row.published.published_alpha.to_string(), "α of the fundamental case as published".to_owned()),
             (short, "the paper's algorithm on the paper's meshes, computed here".to_owned()),
-            (alpha(&row.both.ours), "converged, with the estimated numerical error".to_owned()),
+            (share(Both::result(&row.both.ours)), "converged, with the estimated numerical error".to_owned()),
         ]);
     }
     if all.unsolved() > 0 {
@@ -56,7 +53,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     );
 
     page.section("What the text says, checked");
-    let mut table = Table::new("").heads([
+    let mut table = Table::default().heads([
         (Kind::Words, "the paper says"),
         (Kind::Words, "published"),
         (Kind::Words, "paper's algorithm"),
@@ -77,7 +74,6 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     page.section("The figures");
     if let Some(gif) = animation {
         page.picture(
-            "image/gif",
             gif,
             "One cycle of the fundamental case, animated",
             "The fundamental case, moving.",
@@ -158,15 +154,14 @@ fn row_name(row: &Row) -> String {
         "min-spacing-100nm" => "Hm = 100 nm".to_owned(),
         preset => {
             let names = [
-                ("rotor-width-", "Rotor width = ", "mm"),
-                ("tooth-width-", "Teeth width = ", "mm"),
-                ("frequency-", "Stator frequency = ", "khz"),
-                ("tooth-radius-", "Teeth radius = ", "m"),
+                ("rotor-width-", "mm", "Rotor width", "mm"),
+                ("tooth-width-", "mm", "Teeth width", "mm"),
+                ("frequency-", "khz", "Stator frequency", "kHz"),
+                ("tooth-radius-", "m", "Teeth radius", "m"),
             ];
-            let unit = |unit: &str| if unit == "khz" { "kHz".to_owned() } else { unit.to_owned() };
-            let found = names.iter().find_map(|(begins, words, ends)| {
+            let found = names.iter().find_map(|(begins, ends, words, unit)| {
                 let value = preset.strip_prefix(begins)?.strip_suffix(ends)?;
-                Some(format!("{words}{value} {}", unit(ends)))
+                Some(format!("{words} = {value} {unit}"))
             });
             found.unwrap_or_else(|| preset.to_owned())
         }
@@ -174,7 +169,7 @@ fn row_name(row: &Row) -> String {
 }
 
 fn table1(all: &Reproduction) -> Table {
-    let mut table = Table::new("")
+    let mut table = Table::default()
         .groups([(1, ""), (2, "published"), (3, "paper's algorithm, paper's meshes"), (3, "converged")])
         .heads([
             (Kind::Words, "changed"),

@@ -30,7 +30,7 @@ fn result(both: Option<&Both>, paper: bool) -> Option<&MotorResult> {
 const UNKNOWN: &str = "–";
 
 /// α, with its error.
-fn share(result: Option<&MotorResult>) -> String {
+pub(super) fn share(result: Option<&MotorResult>) -> String {
     result.map_or(UNKNOWN.to_owned(), |result| result.alpha.to_string())
 }
 
