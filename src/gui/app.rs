@@ -38,15 +38,7 @@ pub struct App {
 }
 
 impl App {
-    /// The application on `scene`, or where the last window was left, or on the fundamental case.
-    pub fn new(
-        context: &eframe::CreationContext<'_>,
-        opened: Option<Document>,
-    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
-        Self::on_platform(context, opened, Platform::default())
-    }
-
-    /// As [`Self::new`], with a clock and file dialogs of the caller's.
+    /// The application on the scene that was `opened`, or where the last window was left, or on the fundamental case.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,

@@ -1,5 +1,6 @@
 //! A solved plate beside what is known exactly: the curves that its tab draws, computed once for a run.
 
+use super::scales::span;
 use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
 use crate::analysis::quantity::force_unit;
 use crate::estimate::Estimate;
@@ -50,9 +51,7 @@ impl ExactCurves {
             let count = series.len();
             (0..=count).filter(|_| count > 0).map(|m| [m as f64 / frames as f64, series[m % count] / size]).collect()
         };
-        let range = |series: &[[f64; 2]]| {
-            series.iter().fold([0.0f64, 0.0f64], |[low, high], [_, y]| [low.min(*y), high.max(*y)])
-        };
+        let range = |series: &[[f64; 2]]| span(series.iter().map(|[_, y]| *y).chain([0.0]));
         let load = over(&recording.film_load);
         let (boyle, viscous) = (over(&comparison.limits.boyle), over(&comparison.limits.viscous));
         let mut bounds = range(&load);

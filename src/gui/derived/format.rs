@@ -54,19 +54,11 @@ pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
 
 /// `10⁻⁶`, with the digits that the fonts have.
 pub fn power_of_ten(exponent: f64) -> String {
-    let raised = |c: char| match c {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        other => other,
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| match (c, c.to_digit(10)) {
+        ('-', _) => '⁻',
+        (_, Some(digit)) => RAISED[digit as usize],
+        (other, None) => other,
     };
     let exponent: String = format!("{exponent:.0}").chars().map(raised).collect();
     format!("10{exponent}")

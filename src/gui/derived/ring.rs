@@ -12,9 +12,9 @@
 //! Faces that are turned away are left out, and the others are in the order in which they are painted: far ones first. Between
 //! stator and rotor lies a plane, so that all of one comes before all of the other.
 
-use super::sample::{self, Lines};
 use crate::problem::Motor;
 use crate::recording::Recording;
+use crate::recording::sample::{self, Lines};
 use std::f64::consts::TAU;
 
 /// Strips of a tooth top, along the ring, at most.

@@ -57,11 +57,6 @@ impl FaceState {
         None
     }
 
-    /// Forgets it.
-    pub fn forget(&mut self) {
-        self.found = None;
-    }
-
     /// Whether one is being read.
     pub fn running(&self) -> bool {
         self.task.is_some()

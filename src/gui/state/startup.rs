@@ -1,5 +1,7 @@
 //! A start-up as the window has it: of which scene, every cycle's numbers, the recordings that are kept, and the cycle looked at.
 
+use super::document::solved_alike;
+use super::followed::news;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::Ranges;
 use crate::job::SolvedScene;
@@ -69,8 +71,9 @@ pub type StartupTask = Task<Cycle, Result<Startup, String>>;
 #[derive(Debug)]
 pub struct StartupState {
     job: Option<StartupTask>,
-    scene: Scene,
-    /// What was started.
+    /// The scene that was started.
+    pub scene: Scene,
+    /// What it poses.
     pub problem: Problem,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
@@ -108,12 +111,10 @@ impl StartupState {
 
     /// Takes what has been computed since the last time.
     pub fn drain(&mut self) {
-        let Some(job) = &self.job else { return };
-        let News { messages, end } = job.drain();
+        let News { messages, end } = news(&mut self.job);
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
-            self.job = None;
         }
     }
 
@@ -197,12 +198,7 @@ impl StartupState {
 
     /// Whether `scene` is another one than was started.
     pub fn stale(&self, scene: &Scene) -> bool {
-        !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
-    }
-
-    /// Name of the scene that was started.
-    pub fn name(&self) -> &str {
-        &self.scene.name
+        !solved_alike(&self.scene, scene)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::activity::Activity;
 use super::dialogs::{Export, Purpose};
-use super::document::{Document, absolute};
+use super::document::{Document, absolute, solved_alike};
 use super::dropped::Dropped;
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
@@ -166,8 +166,7 @@ impl State {
 
     /// Whether `run` is of another scene than the present one.
     pub fn stale(&self, run: &SolvedScene) -> bool {
-        let scene = self.document.scene();
-        !run.scene.same_model(scene) || run.scene.numerics() != scene.numerics()
+        !solved_alike(&run.scene, self.document.scene())
     }
 
     /// Whether the newest scene is still without a result, and without a reason why.
@@ -205,14 +204,11 @@ impl State {
 
     /// What a new file of the scene is called at first.
     pub fn suggested_name(&self) -> String {
-        self.document.path().map_or_else(
-            || {
-                let stem: String =
-                    self.document.scene().name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
-                format!("{}.toml", stem.to_lowercase())
-            },
-            |path| path.display().to_string(),
-        )
+        if let Some(path) = self.document.path() {
+            return path.display().to_string();
+        }
+        let stem = self.document.scene().name.replace(|c: char| !c.is_alphanumeric(), "-");
+        format!("{}.toml", stem.to_lowercase())
     }
 
     /// Lets the lesson look at what is on screen; whether it needs another frame soon.

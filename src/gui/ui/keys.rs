@@ -130,7 +130,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "File",
         &[
             window(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
-            window(key(CTRL, Key::S), "Save", || Command::Save),
+            window(key(CTRL, Key::S), "Save", || Command::Save(None)),
             window(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
             window(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
         ],

@@ -1,14 +1,10 @@
 //! What is asked of the sweep, carried out.
 
-use super::updater::Updater;
+use super::updater::{REDRAW, Updater};
 use crate::gui::command::SweepCommand;
 use crate::job;
 use crate::job::sweep::SweepTask;
 use crate::solve::Settings;
-use std::time::Duration;
-
-/// Points are drawn as they come, but at most this often.
-const REDRAW: Duration = Duration::from_millis(100);
 
 impl Updater {
     pub(super) fn sweep(&mut self, command: SweepCommand) {

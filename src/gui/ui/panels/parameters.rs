@@ -26,8 +26,8 @@ const MAIN: &[&str] = &[
     "plate.frequency_khz",
 ];
 
-/// The other groups: table, heading, whether it starts open.
-const GROUPS: &[(&str, &str, bool)] = &[
+/// The groups: table, heading, whether it starts open.
+pub const GROUPS: &[(&str, &str, bool)] = &[
     ("motor", "Motor", true),
     ("stator", "Stator", true),
     ("plate", "Plate", true),

@@ -179,9 +179,9 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
     number(ui, cx, "Fidelity", &run.fidelity.to_string(), "");
     match &run.solution.outcome {
-        Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha.error), ""),
+        Outcome::Motor(result) => number(ui, cx, "Error of α", &significant(result.alpha.error, 2), ""),
         Outcome::Plate(result) => {
-            number(ui, cx, "Error of the load", &rough(result.film_load.error), force_unit(&run.problem));
+            number(ui, cx, "Error of the load", &significant(result.film_load.error, 2), force_unit(&run.problem));
         }
     }
     match run.solution.accuracy.stopped_by {
@@ -371,11 +371,6 @@ fn text_height(ui: &egui::Ui) -> f32 {
 
 pub(super) fn shown(value: f64) -> String {
     significant(value, DIGITS)
-}
-
-/// An error, to two digits.
-fn rough(error: f64) -> String {
-    significant(error, 2)
 }
 
 pub(super) fn span(least: f64, most: f64) -> String {

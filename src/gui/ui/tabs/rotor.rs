@@ -51,14 +51,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             Some(Err(_)) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
             Some(_) => {}
         }
-        let found = match known {
-            Some(Ok(found)) => Some(found),
-            Some(Err(why)) => {
-                cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
-                None
-            }
-            None => None,
-        };
+        if let Some(Err(why)) = known {
+            cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
+        }
+        let found = known.and_then(|known| known.as_ref().ok());
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         if let Some(found) = found {

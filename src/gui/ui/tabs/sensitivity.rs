@@ -83,8 +83,8 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
                 cx.push(SensitivityCommand::Start);
             }
         }
-        if state.found.is_some() && ui.button("Export…").hint(Export::Sensitivity.about()).clicked() {
-            cx.push(Command::Export(Export::Sensitivity));
+        if state.found.is_some() {
+            cx.button(ui, "Export…", Export::Sensitivity.about(), Command::Export(Export::Sensitivity));
         }
     });
 }
@@ -161,7 +161,7 @@ fn tornado(ui: &mut Ui, shown: Shown<'_>) {
     let gutter = names.iter().map(|name| text_width(ui, name)).fold(0.0, f32::max) + 0.8 * em;
     let height = BAR * em * count as f32 + 1.6 * em;
     let ends = bars.iter().flat_map(|(_, bar)| [bar.value - bar.error, bar.value + bar.error]);
-    let [low, high] = ends.fold([0.0_f64; 2], |[low, high], end| [low.min(end), high.max(end)]);
+    let [low, high] = span(ends.chain([0.0]));
     let room = MARGIN * (high - low);
     let name = "Tornado chart";
     let rows: Vec<GridMark> = (0..bars.len()).map(|row| GridMark { value: -(row as f64), step_size: 1.0 }).collect();

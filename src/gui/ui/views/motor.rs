@@ -1,18 +1,18 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
 use super::motor_frame::{FirstMotor, MotorFrame};
-use super::pointer::{Readout, named};
+use super::pointer::{named, read_out, readout_height};
 use super::scales::{FirstRun, scales_of};
 use super::velocity::Place;
 use super::{loads, map, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
-use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
+use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, CursorIcon, Pos2, Rect, pos2};
 
 /// Where the parts go.
@@ -90,8 +90,7 @@ pub(super) fn show(
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
     let gutter = style.width(&painter, "−0.000") + 6.0;
-    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
-    let layout = Layout::new(area, style.row, gutter, longest.height(&painter, &style, area.width()));
+    let layout = Layout::new(area, style.row, gutter, readout_height(&LONGEST, &painter, &style, area.width()));
 
     let axes = wave::draw(&painter, &style, layout.wave, &shown);
     let charted = loads::draw(ui, &style, (layout.loads, layout.gutter), &shown);
@@ -108,7 +107,7 @@ pub(super) fn show(
         cx.mark(ui, "tooth", rect);
     }
     wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, &shown);
-    readout(&shown).draw(&painter, &style, layout.readout);
+    read_out(&readout(&shown), &painter, &style, layout.readout);
 
     let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
     let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
@@ -163,17 +162,17 @@ const LONGEST: [&str; 7] = [
     "p at y = 0 0000 kPa absolute",
 ];
 
-fn readout(shown: &MotorFrame<'_>) -> Readout {
+fn readout(shown: &MotorFrame<'_>) -> Vec<String> {
     let recording = shown.recording;
     let [left, right] = shown.x_range();
     let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
-        return Readout { values: vec!["Point at a view to read its values, click a tooth to follow it".to_owned()] };
+        return vec!["Point at a view to read its values, click a tooth to follow it".to_owned()];
     };
     let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth);
     let mut values = vec![format!("x {} mm", number(x * 1e3))];
     let Some(node) = sample::locate(&recording.x, xi) else {
         values.push("groove".to_owned());
-        return Readout { values };
+        return values;
     };
     let lines = &shown.lines;
     let at = |field: &[f64]| sample::between(&field[lines.of(tooth)], node);
@@ -187,7 +186,7 @@ fn readout(shown: &MotorFrame<'_>) -> Readout {
     if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
         values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
     }
-    Readout { values }
+    values
 }
 
 #[cfg(test)]

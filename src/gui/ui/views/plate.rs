@@ -2,13 +2,12 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::pointer::{Readout, named};
+use super::pointer::{named, read_out, readout_height};
 use super::scales::{FirstRun, scales_of};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -16,6 +15,7 @@ use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
 use crate::job::SolvedScene;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
@@ -67,9 +67,7 @@ pub(super) fn show(
     let gutter = style.width(&painter, "−0.000") + 6.0;
 
     let (title, axis) = (style.row + 7.0, style.row + 3.0);
-    let readout = readout(&shown);
-    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
-    let reserved = longest.height(&painter, &style, area.width());
+    let reserved = readout_height(&LONGEST, &painter, &style, area.width());
     let with_map = plate.width.is_some();
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
@@ -87,11 +85,9 @@ pub(super) fn show(
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
-        let half = sample::half_width(recording);
-        let axes = Axes::new(last, shown.x_range(), [-half, half]);
         let range = scales.pressure;
-        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &style, &painter, &axes, recording, "plate", stamp);
+        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: shown.x_range(), range };
+        let axes = field::draw(ui, &style, &painter, last, recording, "plate", stamp);
         title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &style, &axes);
         axes.cursor(&painter, &style, shown.cursor);
@@ -115,7 +111,7 @@ pub(super) fn show(
         draw_velocity(ui, &style, (*rect, gutter), &shown, (run.number, run.fidelity));
     }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
-    readout.draw(&painter, &style, place);
+    read_out(&readout(&shown), &painter, &style, place);
 
     let wall_response = named(ui, wall, "Plate along its length: point to read values");
     let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
@@ -321,10 +317,10 @@ pub(super) fn show_loops(
 
 const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];
 
-fn readout(shown: &PlateFrame<'_>) -> Readout {
+fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     let [left, right] = shown.x_range();
     let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
-        return Readout { values: vec!["Point at a view to read its values".to_owned()] };
+        return vec!["Point at a view to read its values".to_owned()];
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
@@ -337,5 +333,5 @@ fn readout(shown: &PlateFrame<'_>) -> Readout {
         let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
         values.push(format!("load {} {name}", number(load / unit)));
     }
-    Readout { values }
+    values
 }

@@ -4,9 +4,9 @@ use super::field::{self, Stamp};
 use super::map::y_labels;
 use super::motor_frame::MotorFrame;
 use super::series::{Series, Trace};
-use crate::gui::derived::sample;
+use crate::gui::derived::scales::common;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle};
+use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{Rect, Ui, pos2};
 
 /// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
@@ -29,11 +29,9 @@ pub(super) fn draw(
         )
     });
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
-    let half = sample::half_width(recording);
-    let axes = Axes::new(places[0], [-reach, reach], [-half, half]);
-    let stamp =
-        Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
-    field::draw(ui, style, painter, &axes, recording, "followed tooth", stamp);
+    let (x, range) = ([-reach, reach], shown.scales.pressure);
+    let stamp = Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x, range };
+    let axes = field::draw(ui, style, painter, places[0], recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
     style.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, style, &axes);
@@ -57,10 +55,8 @@ pub(super) fn draw(
         behind: true,
     });
     let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text, behind: false };
-    let [low, high] = before.iter().chain([&present]).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], trace| {
-        let [least, most] = trace.curve.range().map(|value| value + trace.offset);
-        [low.min(least), high.max(most)]
-    });
+    let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
+    let [low, high] = common(ranges);
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
     let series = Series {
         name: "Least gap over the cycle",
