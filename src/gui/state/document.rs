@@ -47,6 +47,13 @@ pub struct Document {
     practice: bool,
 }
 
+impl Default for Document {
+    /// A motor with the default of every key.
+    fn default() -> Self {
+        Self::opened(Scene::motor(), None)
+    }
+}
+
 impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {

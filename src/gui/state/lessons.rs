@@ -63,7 +63,7 @@ impl Highlights {
 }
 
 /// Lessons, tour and glossary.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct LessonState {
     lessons: Vec<Lesson>,
     faults: Vec<LessonError>,
@@ -84,16 +84,7 @@ impl LessonState {
     pub fn new(progress: Option<String>) -> Self {
         let (lessons, faults) = window_names(lessons::built_in);
         let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self {
-            lessons,
-            faults,
-            folders: Vec::new(),
-            running: None,
-            progress,
-            tour: None,
-            glossary: None,
-            highlights: Highlights::default(),
-        }
+        Self { lessons, faults, progress, ..Self::default() }
     }
 
     /// All lessons.

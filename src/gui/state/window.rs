@@ -32,7 +32,7 @@ use std::time::Duration;
 const RECENT: usize = 10;
 
 /// All that is drawn, and all that commands change.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct State {
     /// The scene being edited.
     pub document: Document,
@@ -93,35 +93,7 @@ pub struct State {
 impl State {
     /// A window on `document`, with nothing solved yet.
     pub fn new(document: Document) -> Self {
-        Self {
-            document,
-            budget: None,
-            rejected: RejectedEdits::default(),
-            run: None,
-            activity: Activity::default(),
-            view: View::default(),
-            switches: SwitchHistory::default(),
-            tradeoff: None,
-            exports: ExportState::default(),
-            pins: Pins::default(),
-            sweep: SweepState::default(),
-            fit: FitState::default(),
-            face: FaceState::default(),
-            torque: TorqueState::default(),
-            rotor: RotorState::default(),
-            sensitivity: SensitivityState::default(),
-            lessons: LessonState::new(None),
-            startup: None,
-            dropped: None,
-            hold: None,
-            failed_path: None,
-            modal: None,
-            shortcuts: false,
-            recent: Vec::new(),
-            dark: true,
-            lecture: false,
-            quitting: false,
-        }
+        Self { document, lessons: LessonState::new(None), dark: true, ..Self::default() }
     }
 
     /// Says that something did not work.

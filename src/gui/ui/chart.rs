@@ -276,16 +276,9 @@ pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) 
             key(ui, text, SAMPLE + 0.35, 0.5, |painter, left, em| {
                 let ends = [left, left + egui::vec2(SAMPLE * em, 0.0)];
                 let stroke = egui::Stroke::new(2.0, *colour);
-                match style {
-                    LineStyle::Solid => drop(painter.line_segment(ends, stroke)),
-                    LineStyle::Dashed { length } => {
-                        // A solid one is one dash.
-                        painter.extend(egui::Shape::dashed_line(&ends, stroke, *length, 0.6 * length));
-                    }
-                    LineStyle::Dotted { spacing } => {
-                        painter.extend(egui::Shape::dotted_line(&ends, *colour, *spacing, 1.2));
-                    }
-                }
+                // A solid one is one dash.
+                let length = if let LineStyle::Dashed { length } = style { *length } else { 1e6 };
+                painter.extend(egui::Shape::dashed_line(&ends, stroke, length, 0.6 * length));
             });
         }
     });

@@ -211,7 +211,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     }
                     let (colour, ground) = match style {
                         Style::Plain | Style::Slanted => (look.colour, None),
-                        Style::Strong => (emphasis(ui), None),
+                        // The fonts have one weight: what is strong has a colour.
+                        Style::Strong => (palette(ui.visuals().dark_mode).film, None),
                         Style::Code => (look.colour, Some(ui.visuals().extreme_bg_color)),
                     };
                     let (galley, baseline) = galley(painter, word, look.size, colour, *style == Style::Slanted);
@@ -232,9 +233,4 @@ fn is_unit(word: &str) -> bool {
     const UNITS: &str = "nm µm mm cm m mm/s g kg N N/m N·m N·s/m mN·s/m Pa kPa W Hz kHz µs ms s rpm %";
     let word = word.trim_end_matches(['.', ',', ':', ';', '?', ')']);
     UNITS.split(' ').any(|unit| unit == word)
-}
-
-/// The fonts have one weight: what is strong has a colour.
-fn emphasis(ui: &Ui) -> Color32 {
-    palette(ui.visuals().dark_mode).film
 }

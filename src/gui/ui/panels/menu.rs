@@ -17,7 +17,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let document = &cx.state.document;
     egui::MenuBar::new().ui(ui, |ui| {
         menu(ui, "File", &mut |ui| file(ui, cx));
-        menu(ui, "Presets", &mut |ui| built_in(ui, cx));
+        menu(ui, "Presets", &mut |ui| presets_menu(ui, |name| Next::Preset(name).into(), cx));
         menu(ui, "Edit", &mut |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, cx);
             item(ui, "Redo", document.can_redo(), Command::Redo, cx);
@@ -185,10 +185,6 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }
-}
-
-fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
-    presets_menu(ui, |name| Next::Preset(name).into(), cx);
 }
 
 /// All built-in presets; `command` is asked with the one that is clicked.

@@ -85,7 +85,8 @@ impl Panel<'_> {
         let line = ui.visuals().widgets.noninteractive.bg_stroke;
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
-            heading(ui, "Main");
+            ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false));
+            ui.add_space(2.0);
             for parameter in main {
                 self.row(ui, parameter);
             }
@@ -441,11 +442,6 @@ impl Panel<'_> {
 /// Whether the parameter is among those that the eye meets first. A plate has no minimum spacing.
 fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
     MAIN.contains(&parameter.key) && words::unused(scene, parameter).is_none()
-}
-
-fn heading(ui: &mut egui::Ui, text: &str) {
-    ui.add(egui::Label::new(RichText::new(text).strong()).selectable(false));
-    ui.add_space(2.0);
 }
 
 /// A round arrow in `area`.

@@ -167,21 +167,18 @@ fn key(ui: &mut Ui, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
 }
 
 fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
+    let agreement = state.form().sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.running() {
             cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
             ui.spinner();
-            let told = state.told.map_or_else(
-                || "Solving the starts…".to_owned(),
-                |(points, best)| {
-                    let what = if state.form().sought == Sought::Agreement { "χ²" } else { "best" };
-                    format!("{points} points tried, {what} {}", significant(best, 3))
-                },
-            );
-            ui.label(told);
+            let what = if agreement { "χ²" } else { "best" };
+            ui.label(match state.told {
+                Some((points, best)) => format!("{points} points tried, {what} {}", significant(best, 3)),
+                None => "Solving the starts…".to_owned(),
+            });
             return;
         }
-        let agreement = state.form().sought == Sought::Agreement;
         let good = state.faults().iter().all(Option::is_none) && !state.form().axes.is_empty();
         let good = good && (agreement || state.goal_fault().is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";

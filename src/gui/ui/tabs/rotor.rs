@@ -210,7 +210,9 @@ fn section(
     if let Some(bent) = bent {
         elements(&painter, ui, bent, scale, [wide, tall], cx);
     }
-    contact(&painter, [1e3 * radius, 1e3 * width], now[2], scale, cx);
+    // Where the stator touches.
+    let touching = [-0.5, 0.5].map(|part| scale.at(1e3 * radius + part * (1e3 * width), now[2]));
+    painter.line_segment(touching, Stroke::new(4.0, cx.colours.contact));
     supports(&painter, scale, cx);
     let mut dragging = false;
     for (number, (part, lengths)) in parts.iter().zip(&boxes).enumerate() {
@@ -302,12 +304,6 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, 
     );
     let at = painter.clip_rect().left_bottom() + vec2(4.0, -4.0);
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
-}
-
-/// Where the stator touches.
-fn contact(painter: &egui::Painter, [radius, width]: [f64; 2], height: f64, scale: Scale, cx: &DrawContext<'_>) {
-    let ends = [scale.at(radius - 0.5 * width, height), scale.at(radius + 0.5 * width, height)];
-    painter.line_segment(ends, Stroke::new(4.0, cx.colours.contact));
 }
 
 /// Where it is held.

@@ -26,7 +26,6 @@ struct Layout {
     /// The followed tooth, titles and axes included.
     tooth: Option<Rect>,
     readout: Rect,
-    gutter: f32,
 }
 
 impl Layout {
@@ -56,7 +55,7 @@ impl Layout {
         let tooth =
             with_tooth.then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(end, under + 2.0 + below)));
         let readout = Rect::from_min_max(pos2(area.left(), area.bottom() - readout), area.right_bottom());
-        Self { wave, loads, map, side, tooth, readout, gutter }
+        Self { wave, loads, map, side, tooth, readout }
     }
 }
 
@@ -93,14 +92,14 @@ pub(super) fn show(
     let layout = Layout::new(area, style.row, gutter, readout_height(&LONGEST, &painter, &style, area.width()));
 
     let axes = wave::draw(&painter, &style, layout.wave, &shown);
-    let charted = loads::draw(ui, &style, (layout.loads, layout.gutter), &shown);
+    let charted = loads::draw(ui, &style, (layout.loads, gutter), &shown);
     map::draw(ui, &painter, &style, layout.map, &shown);
     if let Some([rect, profile]) = layout.side {
         ring::draw(ui, &style, rect, (&shown, &axes), cx);
-        velocity(ui, &style, (profile, layout.gutter), &shown);
+        velocity(ui, &style, (profile, gutter), &shown);
     }
     if let Some(rect) = layout.tooth {
-        let charts = tooth::draw(ui, &style, (rect, layout.gutter), &shown, cx);
+        let charts = tooth::draw(ui, &style, (rect, gutter), &shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
             cx.mark_plot(ui, place, chart);
         }

@@ -225,16 +225,11 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
     let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
+    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
     let first = shown.first.and_then(|first| first.scales.tooth(0));
-    let first = first.map(|(curves, lag)| Trace {
-        curve: &curves.film,
-        lag,
-        offset: 0.0,
-        colour: style.palette.quiet,
-        behind: true,
-    });
+    let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, true));
     let legend = style.at_first(first.as_ref());
-    let present = Trace { curve, lag, offset: 0.0, colour: style.palette.film, behind: false };
+    let present = trace(curve, lag, style.palette.film, false);
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],

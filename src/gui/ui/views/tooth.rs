@@ -41,20 +41,13 @@ pub(super) fn draw(
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
-    let minimum = shown.motor.spacing();
-    let text = style.text;
     // The same tooth of the run that this one is compared with, behind it.
     let quiet = style.palette.quiet;
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
     let behind = style.at_first(first);
-    let before = first.map(|(first, (curves, lag))| Trace {
-        curve: &curves.thickness,
-        lag,
-        offset: -first.motor.spacing(),
-        colour: quiet,
-        behind: true,
-    });
-    let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text, behind: false };
+    let trace = |curve, lag, offset, colour, behind| Trace { curve, lag, offset, colour, behind };
+    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.motor.spacing(), quiet, true));
+    let present = trace(&curves.thickness, lag, -shown.motor.spacing(), style.text, false);
     let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
     let [low, high] = common(ranges);
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
@@ -70,11 +63,10 @@ pub(super) fn draw(
         phase: shown.phase(),
     };
     series.show(ui, style, (gap_chart, gutter), cx);
-    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
-    let before =
-        first.map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, quiet, true)));
+    let before = first
+        .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, true)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
-    let present = present.map(|(curve, colour)| trace(curve, lag, colour, false));
+    let present = present.map(|(curve, colour)| trace(curve, lag, 0.0, colour, false));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
     let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
