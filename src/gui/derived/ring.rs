@@ -225,7 +225,7 @@ impl Ring<'_> {
         stator.add(&stations, |station| [z(self.heights[0]), z(station.height)], Part::Stator);
         let mut rotor = Slab::new(self, seen);
         rotor.add(&self.rotor(&stations), |station| [z(station.height) + LIFT, top], Part::Rotor);
-        let (mut stator, mut rotor) = (stator.painted(), rotor.painted());
+        let (stator, mut rotor) = (stator.painted(), rotor.painted());
         let motor = self.motor;
         if motor.rotor_speed != 0.0 {
             let along = motor.rotor_speed / motor.frequency * (self.cycles + self.phase());
@@ -233,12 +233,7 @@ impl Ring<'_> {
             marks.marks(along * self.scale(), top);
             rotor.append(&mut marks.faces);
         }
-        if seen.elevation >= 0.0 {
-            stator.append(&mut rotor);
-            return stator;
-        }
-        rotor.append(&mut stator);
-        rotor
+        if seen.elevation >= 0.0 { [stator, rotor].concat() } else { [rotor, stator].concat() }
     }
 }
 

@@ -94,19 +94,16 @@ impl FitState {
     /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
     /// measured with other values of some keys.
     pub fn torques(&self) -> (Vec<[f64; 2]>, usize) {
-        let Some(measured) = &self.measured else { return (Vec::new(), 0) };
-        let mut others = 0;
-        let torques = measured.measurements.iter().filter_map(|one| match one.what {
-            Observable::Torque { speed_rpm } if measured.conditions[one.condition].is_empty() => {
-                Some([speed_rpm, one.value])
+        let (mut torques, mut others) = (Vec::new(), 0);
+        let Some(measured) = &self.measured else { return (torques, others) };
+        for one in &measured.measurements {
+            match one.what {
+                Observable::Torque { .. } if !measured.conditions[one.condition].is_empty() => others += 1,
+                Observable::Torque { speed_rpm } => torques.push([speed_rpm, one.value]),
+                Observable::Number(_) => {}
             }
-            Observable::Torque { .. } => {
-                others += 1;
-                None
-            }
-            Observable::Number(_) => None,
-        });
-        (torques.collect(), others)
+        }
+        (torques, others)
     }
 
     /// Looks whether the form is one of `scene`, and what is wrong with it; only if one of them has changed.
@@ -120,13 +117,11 @@ impl FitState {
         if axes.is_empty() {
             axes.extend(FIRST.iter().find(|key| has(key)).map(|key| AxisForm::around(scene, key, 2)));
         }
-        let bounds: Vec<Result<Bounds, String>> = axes.iter().map(|axis| bounds(scene, axis)).collect();
-        let twice = |i: usize| axes[..i].iter().any(|other| other.key == axes[i].key);
-        self.faults = bounds
-            .into_iter()
-            .enumerate()
-            .map(|(i, bounds)| if twice(i) { Some("Chosen twice: take another key".to_owned()) } else { bounds.err() })
-            .collect();
+        let fault = |(i, axis): (usize, &AxisForm)| {
+            let twice = axes[..i].iter().any(|other| other.key == axis.key);
+            if twice { Some("Chosen twice: take another key".to_owned()) } else { bounds(scene, axis).err() }
+        };
+        self.faults = axes.iter().enumerate().map(fault).collect();
         let known = quantities(scene);
         let present = quantity.filter(|name| known.iter().any(|(other, _)| other == name));
         *quantity = present.or_else(|| known.first().map(|(name, _)| *name));

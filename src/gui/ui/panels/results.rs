@@ -297,7 +297,7 @@ pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str,
 
 /// Air and contact as parts of one bar, and what the colours mean.
 fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
-    let height = 0.6 * text_height(ui);
+    let height = 0.6 * ui.text_style_height(&TextStyle::Body);
     let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
     // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
     let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
@@ -326,7 +326,7 @@ fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
 }
 
 fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
-    let side = 0.6 * text_height(ui);
+    let side = 0.6 * ui.text_style_height(&TextStyle::Body);
     // Swatch and text stay on one line.
     ui.horizontal(|ui| {
         let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
@@ -363,10 +363,6 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
         glossary::hover(ui, label, term);
         ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
     }
-}
-
-fn text_height(ui: &egui::Ui) -> f32 {
-    ui.text_style_height(&TextStyle::Body)
 }
 
 pub(super) fn shown(value: f64) -> String {

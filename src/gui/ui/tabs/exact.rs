@@ -15,7 +15,7 @@ use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Scenario};
-use eframe::egui::{Color32, RichText, TextStyle, Ui};
+use eframe::egui::{RichText, TextStyle, Ui};
 use egui_plot::LineStyle;
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
@@ -126,13 +126,8 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-/// Where spring and damping are drawn in.
-fn pair(cx: &DrawContext<'_>) -> [(&'static str, Color32); 2] {
-    [("spring S", cx.colours.film), ("damping D", cx.colours.contact)]
-}
-
 fn coefficients(ui: &mut Ui, known: &ExactCurves, outline: Outline, height: f32, cx: &DrawContext<'_>) {
-    let [spring, damping] = pair(cx);
+    let (spring, damping) = (("spring S", cx.colours.film), ("damping D", cx.colours.contact));
     // They stay as long as the outline and the window do.
     let curves = once(ui, "small amplitude", (outline, known.window), || small_amplitude(outline, known.window));
     legend(

@@ -72,14 +72,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// The models in the order of the legend, each with its colour and line.
-fn styles(cx: &DrawContext<'_>) -> [(Color32, LineStyle); 3] {
-    let colours = &cx.colours;
-    [(colours.film, SOLID), (colours.contact, LineStyle::dashed_loose()), (colours.rotor, LineStyle::dashed_dense())]
-}
-
 fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<'_>) {
-    let styled: Vec<_> = found.curves.iter().zip(styles(cx)).collect();
+    let (film, contact, rotor) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
+    let styles = [(film, SOLID), (contact, LineStyle::dashed_loose()), (rotor, LineStyle::dashed_dense())];
+    let styled: Vec<_> = found.curves.iter().zip(styles).collect();
     let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (curve.name, *colour, *style)).collect();
     legend(ui, &entries);
     let em = ui.text_style_height(&TextStyle::Body);

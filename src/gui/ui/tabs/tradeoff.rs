@@ -110,7 +110,8 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if let Some(failure) = &measured.failure {
         cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
     }
-    let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(&point.run.status)).count();
+    let usable = |point: &&Point| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
+    let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(point)).count();
     if unconverged > 0 {
         let text = format!("{unconverged} of the settings did not converge: they are in the table only");
         cx.note(ui, text);
@@ -120,10 +121,6 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
 /// Whether the window solves with just this setting.
 fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
     is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
-}
-
-fn usable(ended: &RunStatus) -> bool {
-    matches!(ended, RunStatus::Waiting | RunStatus::Converged)
 }
 
 /// Where the families stand, in colour and shape.

@@ -118,10 +118,6 @@ impl Along {
         if self.alike { 1.0 } else { 1.0 / length }
     }
 
-    fn labels(&self, painter: &Painter, style: &PlotStyle, axes: &Axes, length: &str) {
-        axes.x_labels(painter, style, self.unit(), if self.alike { "x, mm" } else { length });
-    }
-
     /// Size of the unit that is written.
     fn unit(&self) -> f64 {
         if self.alike { 1e-3 } else { 1.0 }
@@ -204,7 +200,8 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         map_name(ui, *rect, &run.of.run.label, range);
     }
     if let Some(last) = maps.last() {
-        along.labels(&painter, &style, &Axes::new(*last, x, [0.0, 1.0]), "x/λ");
+        let name = if along.alike { "x, mm" } else { "x/λ" };
+        Axes::new(*last, x, [0.0, 1.0]).x_labels(&painter, &style, along.unit(), name);
     }
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
