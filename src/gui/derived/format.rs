@@ -116,6 +116,16 @@ pub fn rough(seconds: f64) -> String {
     if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
 }
 
+/// The unit that suits loads up to `greatest` \[N, of a `strip` N/m\]: its name and its size.
+pub fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
+    match (greatest < 0.5, strip) {
+        (true, false) => ("mN", 1e-3),
+        (true, true) => ("mN/m", 1e-3),
+        (false, false) => ("N", 1.0),
+        (false, true) => ("N/m", 1.0),
+    }
+}
+
 /// A value to the digit that its error leaves known, at most three decimals.
 pub fn with_known_digits(value: f64, error: f64) -> String {
     let decimals = if error > 0.0 { (-error.log10().floor()).clamp(0.0, 3.0) } else { 3.0 };

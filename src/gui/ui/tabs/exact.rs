@@ -115,7 +115,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         title(ui, "Spring and damping against the squeeze number", "Squeeze number");
         coefficients(ui, &known, plate.outline(), tall(0), cx);
         ui.add_space(4.0);
-        title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
+        title(ui, &format!("Load over the cycle, {}", known.unit), "Film load");
         cycle(ui, &known, tall(1), cx);
         ui.add_space(4.0);
         table(ui, &known, units(plate), cx);

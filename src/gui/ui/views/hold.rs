@@ -3,10 +3,10 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::plate::{load_unit, wall_and_plate};
+use super::plate::wall_and_plate;
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
-use crate::gui::derived::format::{number, times, with_known_digits};
+use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;

@@ -7,7 +7,7 @@ use super::scales::{FirstRun, scales_of};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::format::{number, times};
+use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -208,16 +208,6 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
     let at = |x: f64| Some([x * 1e3, sample::middle_pressure(recording, 0, x, place)? * 1e-3]);
     let mirrored = recording.map_x.iter().rev().filter(|x| recording.half_length && **x > 0.0).map(|x| -x);
     mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect()
-}
-
-/// Unit of a load: its name and its size.
-pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
-    match (greatest < 0.5, strip) {
-        (true, false) => ("mN", 1e-3),
-        (true, true) => ("mN/m", 1e-3),
-        (false, false) => ("N", 1.0),
-        (false, true) => ("N/m", 1.0),
-    }
 }
 
 fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
