@@ -38,15 +38,7 @@ pub struct App {
 }
 
 impl App {
-    /// The application on `scene`, or where the last window was left, or on the fundamental case.
-    pub fn new(
-        context: &eframe::CreationContext<'_>,
-        opened: Option<Document>,
-    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
-        Self::on_platform(context, opened, Platform::default())
-    }
-
-    /// As [`Self::new`], with a clock and file dialogs of the caller's.
+    /// The application on the scene that was `opened`, or where the last window was left, or on the fundamental case.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,
@@ -233,13 +225,8 @@ fn restored(
         faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
     }
     let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
-    let document = match opened {
-        Some(document) => document,
-        None => match last_document(&stored, &mut faults) {
-            Some(document) => document,
-            None => Document::fundamental()?,
-        },
-    };
+    let document = opened.or_else(|| last_document(&stored, &mut faults));
+    let document = document.map_or_else(Document::fundamental, Ok)?;
     let target = stored("fidelity").and_then(|name| name.parse().map_err(|fault| faults.push(fault)).ok());
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
     state.budget = stored("budget").and_then(|text| parse_duration(&text).ok());

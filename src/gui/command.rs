@@ -71,14 +71,12 @@ pub enum Command {
     MakeNewMotor(Answers),
     /// Asks for a file to open.
     OpenDialog,
-    /// Saves to the scene's file, or asks for one.
-    Save,
+    /// Saves to the scene's file, or asks for one; then does this.
+    Save(Option<Next>),
     /// Asks for a file and saves there.
     SaveAs,
     /// Saves to this file, then does this.
     SavePath(PathBuf, Option<Next>),
-    /// Saves, asking for a file if there is none, then does this.
-    SaveThen(Next),
     /// Closes the window although work goes on; asks about unsaved changes.
     QuitAnyway,
     /// Gives unsaved changes up, then does this.
@@ -306,10 +304,8 @@ pub enum HoldCommand {
 /// About lessons.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LessonCommand {
-    /// Begins a lesson, by its place in the list, at the step where it was left.
-    Open(usize),
-    /// Begins a lesson at a step.
-    OpenAt(usize, usize),
+    /// Begins a lesson, by its place in the list, at a step or where it was left.
+    Open(usize, Option<usize>),
     /// Begins the lesson that is followed once more, with nothing answered.
     Again,
     /// The step after this one; after the last comes the recap, and then the lesson ends.

@@ -1,7 +1,8 @@
 //! A solved plate beside what is known exactly: the curves that its tab draws, computed once for a run.
 
+use super::format::load_unit;
+use super::scales::span;
 use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
-use crate::analysis::quantity::force_unit;
 use crate::estimate::Estimate;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Plate};
@@ -27,8 +28,8 @@ pub struct ExactCurves {
     pub boyle: Vec<[f64; 2]>,
     /// The same of an incompressible film.
     pub viscous: Vec<[f64; 2]>,
-    /// Unit of the load: its name, and its size \[N or N/m\].
-    pub unit: (String, f64),
+    /// Unit of the load.
+    pub unit: &'static str,
     /// Range of the axis of the load, in the unit.
     pub bounds: [f64; 2],
 }
@@ -45,14 +46,12 @@ impl ExactCurves {
         let window = window(comparison.effective_squeeze_number, plate.outline());
         let frames = recording.frames.max(1);
         let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));
-        let (prefix, size) = if greatest < 0.5 { ("m", 1e-3) } else { ("", 1.0) };
+        let (unit, size) = load_unit(greatest, plate.is_strip());
         let over = |series: &[f64]| -> Vec<[f64; 2]> {
             let count = series.len();
             (0..=count).filter(|_| count > 0).map(|m| [m as f64 / frames as f64, series[m % count] / size]).collect()
         };
-        let range = |series: &[[f64; 2]]| {
-            series.iter().fold([0.0f64, 0.0f64], |[low, high], [_, y]| [low.min(*y), high.max(*y)])
-        };
+        let range = |series: &[[f64; 2]]| span(series.iter().map(|[_, y]| *y).chain([0.0]));
         let load = over(&recording.film_load);
         let (boyle, viscous) = (over(&comparison.limits.boyle), over(&comparison.limits.viscous));
         let mut bounds = range(&load);
@@ -64,15 +63,7 @@ impl ExactCurves {
             }
         }
         let margin = 0.08 * (bounds[1] - bounds[0]).max(f64::MIN_POSITIVE);
-        Self {
-            comparison,
-            window,
-            load,
-            boyle,
-            viscous,
-            unit: (format!("{prefix}{}", force_unit(&run.problem)), size),
-            bounds: [bounds[0] - margin, bounds[1] + margin],
-        }
+        Self { comparison, window, load, boyle, viscous, unit, bounds: [bounds[0] - margin, bounds[1] + margin] }
     }
 }
 

@@ -54,19 +54,11 @@ pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
 
 /// `10⁻⁶`, with the digits that the fonts have.
 pub fn power_of_ten(exponent: f64) -> String {
-    let raised = |c: char| match c {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        other => other,
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| match (c, c.to_digit(10)) {
+        ('-', _) => '⁻',
+        (_, Some(digit)) => RAISED[digit as usize],
+        (other, None) => other,
     };
     let exponent: String = format!("{exponent:.0}").chars().map(raised).collect();
     format!("10{exponent}")
@@ -115,19 +107,23 @@ pub fn thousands(value: f64) -> String {
         return format!("{value:.2}");
     }
     let digits = format!("{value:.0}");
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
+    let groups: Vec<_> = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();
+    groups.join("\u{202f}")
 }
 
 /// A time that is left, in whole seconds or minutes.
 pub fn rough(seconds: f64) -> String {
     if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
+}
+
+/// The unit that suits loads up to `greatest` \[N, of a `strip` N/m\]: its name and its size.
+pub fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
+    match (greatest < 0.5, strip) {
+        (true, false) => ("mN", 1e-3),
+        (true, true) => ("mN/m", 1e-3),
+        (false, false) => ("N", 1.0),
+        (false, true) => ("N/m", 1.0),
+    }
 }
 
 /// A value to the digit that its error leaves known, at most three decimals.

@@ -6,5 +6,3 @@ pub mod ring;
 pub mod scales;
 pub mod sliders;
 pub mod words;
-
-pub use crate::recording::sample;

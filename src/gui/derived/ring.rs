@@ -12,9 +12,9 @@
 //! Faces that are turned away are left out, and the others are in the order in which they are painted: far ones first. Between
 //! stator and rotor lies a plane, so that all of one comes before all of the other.
 
-use super::sample::{self, Lines};
 use crate::problem::Motor;
 use crate::recording::Recording;
+use crate::recording::sample::{self, Lines};
 use std::f64::consts::TAU;
 
 /// Strips of a tooth top, along the ring, at most.
@@ -225,7 +225,7 @@ impl Ring<'_> {
         stator.add(&stations, |station| [z(self.heights[0]), z(station.height)], Part::Stator);
         let mut rotor = Slab::new(self, seen);
         rotor.add(&self.rotor(&stations), |station| [z(station.height) + LIFT, top], Part::Rotor);
-        let (mut stator, mut rotor) = (stator.painted(), rotor.painted());
+        let (stator, mut rotor) = (stator.painted(), rotor.painted());
         let motor = self.motor;
         if motor.rotor_speed != 0.0 {
             let along = motor.rotor_speed / motor.frequency * (self.cycles + self.phase());
@@ -233,12 +233,7 @@ impl Ring<'_> {
             marks.marks(along * self.scale(), top);
             rotor.append(&mut marks.faces);
         }
-        if seen.elevation >= 0.0 {
-            stator.append(&mut rotor);
-            return stator;
-        }
-        rotor.append(&mut stator);
-        rotor
+        if seen.elevation >= 0.0 { [stator, rotor].concat() } else { [rotor, stator].concat() }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::document::Next;
 use crate::job::export::Picture;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What can be written to a file, or into a folder, of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,8 +133,11 @@ impl Export {
     }
 }
 
-/// `path` with one of `extensions`, the first if it has none.
-fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
+/// `path` of a `kind` of file with one of `extensions`, the first if it has none.
+///
+/// # Errors
+/// As [`Export::complete`].
+pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         return Err(format!("{}: there is no folder {}", path.display(), folder.display()));
     }
@@ -161,14 +164,6 @@ fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, S
 
 /// What a picture of the window is called at first.
 pub const PICTURE: &str = "squeezefilm.png";
-
-/// `path` of a picture of the window, with the extension of a PNG.
-///
-/// # Errors
-/// As [`Export::complete`].
-pub fn complete_picture(path: &Path) -> Result<PathBuf, String> {
-    complete(path.to_owned(), "picture of the window", &["png"])
-}
 
 /// What a dialog is for, with all that its answer needs.
 #[derive(Clone, Debug, PartialEq)]

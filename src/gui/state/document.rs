@@ -22,6 +22,11 @@ pub enum Next {
     Quit,
 }
 
+/// Whether both scenes are solved alike: the same motor or plate, with the same numerics.
+pub fn solved_alike(one: &Scene, other: &Scene) -> bool {
+    one.same_model(other) && one.numerics() == other.numerics()
+}
+
 /// `path` in full, so that it means the same in another folder.
 pub fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
@@ -40,6 +45,13 @@ pub struct Document {
     dragging: Option<&'static str>,
     /// Whether a lesson has set it up to try things on: it is never saved, and nothing is lost with it.
     practice: bool,
+}
+
+impl Default for Document {
+    /// A motor with the default of every key.
+    fn default() -> Self {
+        Self::opened(Scene::motor(), None)
+    }
 }
 
 impl Document {

@@ -1,5 +1,7 @@
 //! A plate that was dropped on its vibration: of which scene, its way so far, and how it ended.
 
+use super::document::solved_alike;
+use super::followed::news;
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::job::drop::DropTask;
@@ -27,12 +29,10 @@ impl Dropped {
 
     /// Takes what has been computed since the last time.
     pub fn drain(&mut self) {
-        let Some(task) = &self.task else { return };
-        let News { messages, end } = task.drain();
+        let News { messages, end } = news(&mut self.task);
         self.cycles.extend(messages);
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
-            self.task = None;
         }
     }
 
@@ -50,6 +50,6 @@ impl Dropped {
 
     /// Whether `scene` is another one than was dropped.
     pub fn stale(&self, scene: &Scene) -> bool {
-        !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
+        !solved_alike(&self.scene, scene)
     }
 }

@@ -48,11 +48,6 @@ impl ExportState {
         }
     }
 
-    /// What the last one wrote has been read.
-    pub fn close(&mut self) {
-        self.written = None;
-    }
-
     /// Takes what has been told since the last time; an error is to be shown.
     pub fn drain(&mut self) -> Option<String> {
         let running = self.running.as_mut()?;

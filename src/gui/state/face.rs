@@ -19,14 +19,6 @@ pub struct Face {
     pub told: Object,
 }
 
-impl Face {
-    fn new(name: String, map: HeightMap, texture: &Texture) -> Self {
-        let pair = Pair::of(texture, texture);
-        let told = Object::new(vec![surface::Face::of(&name, &map, texture)], &pair);
-        Self { name, map, pair, told }
-    }
-}
-
 /// Reads a face: its heights and what they come to, or why it is none.
 pub type FaceTask = Task<(), Result<(HeightMap, Texture), String>>;
 
@@ -50,16 +42,15 @@ impl FaceState {
         let end = self.task.as_ref()?.1.drain().end?;
         let (name, _) = self.task.take()?;
         match end {
-            Ok(Ok((map, texture))) => self.found = Some(Arc::new(Face::new(name, map, &texture))),
+            Ok(Ok((map, texture))) => {
+                let pair = Pair::of(&texture, &texture);
+                let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
+                self.found = Some(Arc::new(Face { name, map, pair, told }));
+            }
             Ok(Err(why)) => return Some(why),
             Err(panic) => return Some(format!("The heights cannot be read: {panic}")),
         }
         None
-    }
-
-    /// Forgets it.
-    pub fn forget(&mut self) {
-        self.found = None;
     }
 
     /// Whether one is being read.

@@ -1,6 +1,7 @@
 //! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
 
-use super::sweep::{AxisEdit, AxisForm};
+use super::document::solved_alike;
+use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 pub use crate::job::fit::{FitTask, Found};
@@ -24,22 +25,30 @@ pub enum Sought {
     Least,
 }
 
+/// What is asked for.
+#[derive(Debug, Default)]
+pub struct FitForm {
+    /// The keys to be chosen.
+    pub axes: Vec<AxisForm>,
+    /// What is looked for.
+    pub sought: Sought,
+    /// The number whose optimum is sought, by its name.
+    pub quantity: Option<&'static str>,
+    /// Limits on other numbers, as they are typed.
+    pub limits: String,
+}
+
 /// The table, the form, and the fit.
 #[derive(Debug, Default)]
 pub struct FitState {
     /// The table.
     pub measured: Option<Arc<Measured>>,
-    form: Vec<AxisForm>,
-    /// What is wrong with each line of the form.
+    form: FitForm,
+    /// What is wrong with each key of the form.
     faults: Vec<Option<String>>,
     /// Of which scene the form was judged.
     judged: Option<Scene>,
-    sought: Sought,
-    /// The number whose optimum is sought, by its name.
-    quantity: Option<&'static str>,
-    /// Limits on other numbers, as they are typed.
-    limits: String,
-    /// What is wrong with them.
+    /// What is wrong with the limits.
     goal_fault: Option<String>,
     /// The search under way, and the scene that it is of.
     task: Option<(Scene, FitTask)>,
@@ -51,6 +60,20 @@ pub struct FitState {
     pub failure: Option<String>,
     /// Whether the last one was told to end.
     pub cancelled: bool,
+}
+
+impl FitForm {
+    /// Whether one more key can be chosen.
+    pub fn has_room(&self) -> bool {
+        self.axes.len() < MOST_UNKNOWNS
+    }
+
+    /// Chooses one more key: the first that is not there.
+    pub fn add(&mut self, scene: &Scene) {
+        let taken = |key: &str| self.axes.iter().any(|axis| axis.key == key);
+        let next = scene.parameters().find(|parameter| chooses(scene, parameter) && !taken(parameter.key));
+        self.axes.extend(next.map(|parameter| AxisForm::around(scene, parameter.key, 2)));
+    }
 }
 
 /// Whether a key can be chosen between two bounds.
@@ -68,73 +91,52 @@ impl FitState {
         (self.failure, self.told) = (None, None);
     }
 
-    /// Forgets the table.
-    pub fn forget(&mut self) {
-        self.measured = None;
-    }
-
     /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
     /// measured with other values of some keys.
     pub fn torques(&self) -> (Vec<[f64; 2]>, usize) {
-        let Some(measured) = &self.measured else { return (Vec::new(), 0) };
-        let mut others = 0;
-        let torques = measured.measurements.iter().filter_map(|one| match one.what {
-            Observable::Torque { speed_rpm } if measured.conditions[one.condition].is_empty() => {
-                Some([speed_rpm, one.value])
+        let (mut torques, mut others) = (Vec::new(), 0);
+        let Some(measured) = &self.measured else { return (torques, others) };
+        for one in &measured.measurements {
+            match one.what {
+                Observable::Torque { .. } if !measured.conditions[one.condition].is_empty() => others += 1,
+                Observable::Torque { speed_rpm } => torques.push([speed_rpm, one.value]),
+                Observable::Number(_) => {}
             }
-            Observable::Torque { .. } => {
-                others += 1;
-                None
-            }
-            Observable::Number(_) => None,
-        });
-        (torques.collect(), others)
+        }
+        (torques, others)
     }
 
     /// Looks whether the form is one of `scene`, and what is wrong with it; only if one of them has changed.
     pub fn review(&mut self, scene: &Scene) {
-        if self.judged.as_ref() == Some(scene) && self.faults.len() == self.form.len() {
+        let Self { form: FitForm { axes, quantity, .. }, .. } = self;
+        if self.judged.as_ref() == Some(scene) && self.faults.len() == axes.len() {
             return;
         }
         let has = |key: &str| Parameter::find(key).is_some_and(|parameter| chooses(scene, parameter));
-        self.form.retain(|axis| has(axis.key));
-        if self.form.is_empty() {
-            self.form.extend(FIRST.iter().find(|key| has(key)).map(|key| AxisForm::around(scene, key, 2)));
+        axes.retain(|axis| has(axis.key));
+        if axes.is_empty() {
+            axes.extend(FIRST.iter().find(|key| has(key)).map(|key| AxisForm::around(scene, key, 2)));
         }
-        let bounds: Vec<Result<Bounds, String>> = self.form.iter().map(|axis| bounds(scene, axis)).collect();
-        let twice = |i: usize| self.form[..i].iter().any(|other| other.key == self.form[i].key);
-        self.faults = bounds
-            .into_iter()
-            .enumerate()
-            .map(|(i, bounds)| if twice(i) { Some("Chosen twice: take another key".to_owned()) } else { bounds.err() })
-            .collect();
+        let fault = |(i, axis): (usize, &AxisForm)| {
+            let twice = axes[..i].iter().any(|other| other.key == axis.key);
+            if twice { Some("Chosen twice: take another key".to_owned()) } else { bounds(scene, axis).err() }
+        };
+        self.faults = axes.iter().enumerate().map(fault).collect();
         let known = quantities(scene);
-        let present = self.quantity.filter(|name| known.iter().any(|(other, _)| other == name));
-        self.quantity = present.or_else(|| known.first().map(|(name, _)| *name));
+        let present = quantity.filter(|name| known.iter().any(|(other, _)| other == name));
+        *quantity = present.or_else(|| known.first().map(|(name, _)| *name));
         self.goal_fault = self.goal(scene).err();
         self.judged = Some(scene.clone());
     }
 
-    /// What is looked for, the name of the number if it is an optimum, and limits on others as they are typed.
-    pub fn sought(&self) -> (Sought, Option<&'static str>, &str) {
-        (self.sought, self.quantity, &self.limits)
+    /// What is asked for.
+    pub fn form(&self) -> &FitForm {
+        &self.form
     }
 
-    /// Looks for something else.
-    pub fn seek(&mut self, sought: Sought) {
-        self.sought = sought;
-        self.judged = None;
-    }
-
-    /// Looks for the optimum of the number of this name.
-    pub fn seek_of(&mut self, name: &'static str) {
-        self.quantity = Some(name);
-        self.judged = None;
-    }
-
-    /// Within these limits on other numbers.
-    pub fn limit(&mut self, limits: String) {
-        self.limits = limits;
+    /// Changes what is asked for.
+    pub fn edit(&mut self, change: impl FnOnce(&mut FitForm)) {
+        change(&mut self.form);
         self.judged = None;
     }
 
@@ -148,49 +150,16 @@ impl FitState {
     /// # Errors
     /// What is wrong with the limits.
     pub fn goal(&self, scene: &Scene) -> Result<Option<Goal>, String> {
-        let (Some(name), true) = (self.quantity, self.sought != Sought::Agreement) else { return Ok(None) };
-        let limits = self.limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
+        let FitForm { sought, quantity, limits, .. } = &self.form;
+        let (Some(name), true) = (*quantity, *sought != Sought::Agreement) else { return Ok(None) };
+        let limits = limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
         let limits = limits.map(str::parse).collect::<Result<Vec<Limit>, _>>().map_err(|error| error.to_string())?;
-        Goal::new(scene, name, self.sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
+        Goal::new(scene, name, *sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
     }
 
-    /// The keys to be chosen.
-    pub fn form(&self) -> &[AxisForm] {
-        &self.form
-    }
-
-    /// What is wrong with each.
+    /// What is wrong with each key of the form.
     pub fn faults(&self) -> &[Option<String>] {
         &self.faults
-    }
-
-    /// Whether one more key can be chosen.
-    pub fn has_room(&self) -> bool {
-        self.form.len() < MOST_UNKNOWNS
-    }
-
-    /// Changes a line of the form.
-    pub fn edit(&mut self, scene: &Scene, line: usize, edit: AxisEdit) {
-        if let Some(axis) = self.form.get_mut(line) {
-            axis.edit(scene, edit, 2);
-        }
-        self.judged = None;
-    }
-
-    /// One more line: the first key that is not there.
-    pub fn add(&mut self, scene: &Scene) {
-        let taken = |key: &str| self.form.iter().any(|axis| axis.key == key);
-        let next = scene.parameters().find(|parameter| chooses(scene, parameter) && !taken(parameter.key));
-        self.form.extend(next.map(|parameter| AxisForm::around(scene, parameter.key, 2)));
-        self.judged = None;
-    }
-
-    /// One line less.
-    pub fn remove(&mut self, line: usize) {
-        if line < self.form.len() {
-            self.form.remove(line);
-        }
-        self.judged = None;
     }
 
     /// The bounds that the form says.
@@ -201,7 +170,7 @@ impl FitState {
         if let Some(fault) = self.faults.iter().flatten().chain(&self.goal_fault).next() {
             return Err(fault.clone());
         }
-        self.form.iter().map(|axis| bounds(scene, axis)).collect()
+        self.form.axes.iter().map(|axis| bounds(scene, axis)).collect()
     }
 
     /// `task` searches for `scene`.
@@ -241,8 +210,8 @@ impl FitState {
 
     /// Whether `scene` is another one than was fitted: neither that nor the one that came out.
     pub fn stale(&self, scene: &Scene) -> bool {
-        let same = |other: &Scene| other.same_model(scene) && other.numerics() == scene.numerics();
-        self.found.as_ref().is_some_and(|(asked, found)| !same(asked) && !same(found.scene()))
+        let found = self.found.as_ref();
+        found.is_some_and(|(asked, found)| !solved_alike(asked, scene) && !solved_alike(found.scene(), scene))
     }
 }
 

@@ -1,6 +1,15 @@
 //! What is computed in the background of what is on screen while its tab is shown, and kept until something else is on screen.
 
-use crate::job::task::Task;
+use crate::job::task::{News, Task};
+
+/// What `task` has told since the last time; one that has ended is taken away.
+pub(super) fn news<M: Send + 'static, R: Send + 'static>(task: &mut Option<Task<M, R>>) -> News<M, R> {
+    let news = task.as_ref().map_or(News { messages: Vec::new(), end: None }, Task::drain);
+    if news.end.is_some() {
+        *task = None;
+    }
+    news
+}
 
 /// What is known of one `K`, and what is being computed; a task finds an `F`, of which a `T` is kept.
 #[derive(Debug)]
@@ -28,8 +37,7 @@ impl<K: Clone, F: Into<T> + Send + 'static, T> Followed<K, F, T> {
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        if let (Some(end), Some(of)) = (self.task.as_ref().and_then(|task| task.drain().end), self.asked.clone()) {
-            self.task = None;
+        if let (Some(end), Some(of)) = (news(&mut self.task).end, self.asked.clone()) {
             match end {
                 Ok(Some(found)) => self.known = Some((of, found.map(Into::into))),
                 Ok(None) => {}

@@ -1,5 +1,6 @@
 //! The held plate as the window has it: where it is held, how it was lately, which of that is shown, and the ranges of its axes.
 
+use crate::gui::derived::scales::span;
 use crate::hold::{Hold, Reading, leak_time};
 use crate::job::hold::{HeldPlate, SNAPSHOTS, Snapshot, slowed};
 use crate::problem::Plate;
@@ -38,16 +39,19 @@ pub struct HoldState {
     job: HeldPlate,
     scene: Scene,
     plate: Plate,
-    seconds: f64,
+    /// Seconds that the leak time takes.
+    pub seconds: f64,
     /// Where it is held \[m\].
     target: f64,
-    /// It is let go, and whether the face below it vibrates.
-    free: Option<bool>,
+    /// Whether it is let go, and if so, whether the face below it vibrates.
+    pub free: Option<bool>,
     now: Arc<Snapshot>,
     trail: VecDeque<Arc<Snapshot>>,
     shown: Shown,
-    pressure: [f64; 2],
-    force: [f64; 2],
+    /// Least and greatest pressure since it was reset \[Pa\].
+    pub pressure_range: [f64; 2],
+    /// Least and greatest force since it was reset \[N or N/m\], zero included.
+    pub force_range: [f64; 2],
 }
 
 impl HoldState {
@@ -63,8 +67,8 @@ impl HoldState {
             now,
             trail: VecDeque::new(),
             shown: Shown::Now,
-            pressure: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
-            force: [0.0; 2],
+            pressure_range: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
+            force_range: [0.0; 2],
             plate,
         }
     }
@@ -85,12 +89,8 @@ impl HoldState {
         if taken.front().zip(self.trail.back()).is_some_and(|(first, last)| time(first) < time(last)) {
             self.trail.clear();
         }
-        for pressure in &now.pressure {
-            self.pressure = [self.pressure[0].min(*pressure), self.pressure[1].max(*pressure)];
-        }
-        for Snapshot { reading, .. } in taken.iter().map(AsRef::as_ref) {
-            self.force = [self.force[0].min(reading.force), self.force[1].max(reading.force)];
-        }
+        self.pressure_range = span(now.pressure.iter().copied().chain(self.pressure_range));
+        self.force_range = span(taken.iter().map(|snapshot| snapshot.reading.force).chain(self.force_range));
         self.trail.extend(taken);
         let begin = now.reading.time - self.window();
         while self.trail.len() > SNAPSHOTS || self.trail.front().is_some_and(|first| time(first) < begin) {
@@ -103,8 +103,8 @@ impl HoldState {
     pub fn reset(&mut self) {
         (self.target, self.free, self.shown) = (self.plate.mean_gap, None, Shown::Now);
         self.trail.clear();
-        self.pressure = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
-        self.force = [0.0; 2];
+        self.pressure_range = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
+        self.force_range = [0.0; 2];
         self.job.reset();
     }
 
@@ -193,11 +193,6 @@ impl HoldState {
         }
     }
 
-    /// Whether it is let go, and if so, whether the face below it vibrates.
-    pub fn free(&self) -> Option<bool> {
-        self.free
-    }
-
     /// Whether `scene` has another plate.
     pub fn stale(&self, scene: &Scene) -> bool {
         !self.scene.same_model(scene)
@@ -244,23 +239,8 @@ impl HoldState {
         leak_time(&self.plate, self.plate.mean_gap)
     }
 
-    /// Seconds that the leak time takes.
-    pub fn seconds(&self) -> f64 {
-        self.seconds
-    }
-
     /// Seconds for a second of the film.
     pub fn slowed(&self) -> f64 {
         slowed(&self.plate, self.seconds)
-    }
-
-    /// Least and greatest pressure since it was reset \[Pa\].
-    pub fn pressure_range(&self) -> [f64; 2] {
-        self.pressure
-    }
-
-    /// Least and greatest force since it was reset \[N or N/m\], zero included.
-    pub fn force_range(&self) -> [f64; 2] {
-        self.force
     }
 }

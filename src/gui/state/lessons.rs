@@ -63,7 +63,7 @@ impl Highlights {
 }
 
 /// Lessons, tour and glossary.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct LessonState {
     lessons: Vec<Lesson>,
     faults: Vec<LessonError>,
@@ -84,16 +84,7 @@ impl LessonState {
     pub fn new(progress: Option<String>) -> Self {
         let (lessons, faults) = window_names(lessons::built_in);
         let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self {
-            lessons,
-            faults,
-            folders: Vec::new(),
-            running: None,
-            progress,
-            tour: None,
-            glossary: None,
-            highlights: Highlights::default(),
-        }
+        Self { lessons, faults, progress, ..Self::default() }
     }
 
     /// All lessons.
@@ -167,12 +158,6 @@ impl LessonState {
         replaced
     }
 
-    /// What was wrong, a line each.
-    pub fn fault_text(&self) -> String {
-        let lines: Vec<String> = self.faults.iter().map(ToString::to_string).collect();
-        lines.join("\n")
-    }
-
     /// Progress and answers of all lessons, as text.
     pub fn progress_text(&self) -> String {
         let mut all = self.progress.clone();
@@ -218,12 +203,6 @@ impl LessonState {
     pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
         let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
         value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
-    }
-
-    /// The student's work on the step on screen.
-    pub fn work(&mut self) -> Option<&mut StepWork> {
-        let running = self.running.as_mut()?;
-        running.work.get_mut(running.step)
     }
 
     /// The step on screen, and the student's work on it.
@@ -370,7 +349,7 @@ impl LessonState {
 
     /// Makes the changes that fulfil the task; whether the scene has to be solved anew.
     pub fn show_me(&mut self, document: &mut Document) -> bool {
-        if let Some(work) = self.work() {
+        if let Some((_, work)) = self.step_and_work() {
             work.shown |= !work.fulfilled;
         }
         let Some(task) = self.step().and_then(|(_, step)| step.task.as_ref()) else { return false };

@@ -33,24 +33,15 @@ pub enum Link {
 /// What is wrong with a link.
 #[derive(Debug, thiserror::Error)]
 pub enum LinkError {
-    /// It begins with no built-in preset.
-    #[error("a link begins with a built-in preset or with lesson=: {found:?} is neither; the presets are {}", names())]
-    Preset {
-        /// What it begins with.
-        found: String,
-    },
+    /// What it begins with is no built-in preset.
+    #[error("a link begins with a built-in preset or with lesson=: {0:?} is neither; the presets are {names}", names = names())]
+    Preset(String),
     /// A part that is no `key=value`.
-    #[error("{found:?} in a link: allowed is key=value")]
-    Pair {
-        /// The part.
-        found: String,
-    },
-    /// No tab.
-    #[error("tab={found} in a link: allowed is {}", tabs())]
-    Tab {
-        /// What was asked for.
-        found: String,
-    },
+    #[error("{0:?} in a link: allowed is key=value")]
+    Pair(String),
+    /// What was asked for as a tab is none.
+    #[error("tab={0} in a link: allowed is {tabs}", tabs = tabs())]
+    Tab(String),
     /// No number of a lesson or of a step.
     #[error("{key}={found} in a link: allowed is a whole number from 1 on")]
     Number {
@@ -59,12 +50,9 @@ pub enum LinkError {
         /// What was asked for.
         found: String,
     },
-    /// A lesson has nothing else than a step.
-    #[error("{found:?} in a link to a lesson: allowed is step=")]
-    Lesson {
-        /// The part.
-        found: String,
-    },
+    /// A part of a link to a lesson that is no step.
+    #[error("{0:?} in a link to a lesson: allowed is step=")]
+    Lesson(String),
     /// A key or its value.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -95,19 +83,19 @@ impl Link {
         if let Some(lesson) = first.strip_prefix("lesson=") {
             let mut link = (counted("lesson", lesson)?, 1);
             for part in parts {
-                let step = part.strip_prefix("step=").ok_or_else(|| LinkError::Lesson { found: part.clone() })?;
+                let step = part.strip_prefix("step=").ok_or_else(|| LinkError::Lesson(part.clone()))?;
                 link.1 = counted("step", step)?;
             }
             return Ok(Self::Lesson { lesson: link.0, step: link.1 });
         }
         let found = BUILT_IN.iter().find(|preset| preset.name == first);
-        let preset = found.ok_or(LinkError::Preset { found: first })?;
+        let preset = found.ok_or(LinkError::Preset(first))?;
         let (mut pairs, mut tab) = (Vec::new(), None);
         for part in parts {
-            let Some((key, value)) = part.split_once('=') else { return Err(LinkError::Pair { found: part }) };
+            let Some((key, value)) = part.split_once('=') else { return Err(LinkError::Pair(part)) };
             if key == "tab" {
                 let named = Tab::ALL.iter().find(|(_, name)| name.to_lowercase() == value);
-                tab = Some(named.ok_or_else(|| LinkError::Tab { found: value.to_owned() })?.0);
+                tab = Some(named.ok_or_else(|| LinkError::Tab(value.to_owned()))?.0);
             } else {
                 pairs.push((key.to_owned(), value.to_owned()));
             }

@@ -38,15 +38,3 @@ pub struct PathPrompt {
     /// Whether it has not been drawn yet.
     pub fresh: bool,
 }
-
-impl PathPrompt {
-    /// A prompt that was asked for.
-    pub fn asked(purposes: &[Purpose], path: String) -> Self {
-        Self { purposes: purposes.to_vec(), path, no_dialog: false, fresh: true }
-    }
-
-    /// A prompt in place of a file dialog that could not be shown.
-    pub fn instead_of_dialog(purpose: Purpose, path: String) -> Self {
-        Self { purposes: vec![purpose], path, no_dialog: true, fresh: true }
-    }
-}

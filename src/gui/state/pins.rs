@@ -85,7 +85,8 @@ pub struct Pins {
     pub page: Page,
     /// Whether parameters are listed that do not differ.
     pub all_parameters: bool,
-    note: Option<Note>,
+    /// What became of the last request, if that cannot be seen.
+    pub note: Option<Note>,
     /// What "Remove all" took away, until there is a new pin.
     cleared: Option<Box<Self>>,
 }
@@ -114,11 +115,6 @@ impl Pins {
     /// Those that are being solved, or will be.
     pub fn waiting(&self) -> &[Waiting] {
         &self.waiting
-    }
-
-    /// What became of the last request, if that cannot be seen.
-    pub fn note(&self) -> Option<&Note> {
-        self.note.as_ref()
     }
 
     /// A pin by its number.
@@ -366,7 +362,7 @@ mod tests {
         let name = &presets::find("plate-crossover").unwrap().name;
         let labels: Vec<&str> = pins.runs().iter().map(|run| run.label.as_str()).collect();
         assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
-        assert!(matches!(pins.note(), Some(Note::Remark(text)) if text.contains("already")));
+        assert!(matches!(&pins.note, Some(Note::Remark(text)) if text.contains("already")));
     }
 
     #[test]

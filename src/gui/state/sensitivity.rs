@@ -1,5 +1,7 @@
 //! What the results depend on, as the window has it: what was found, of which scene, and the uncertainties that were typed.
 
+use super::document::solved_alike;
+use super::followed::news;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
 use crate::fidelity::Fidelity;
 use crate::job::sensitivity::{Derivatives, Draws};
@@ -65,33 +67,22 @@ impl SensitivityState {
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        if let Some(task) = &self.derivatives {
-            let news = task.drain();
-            self.share = news.messages.last().copied().unwrap_or(self.share);
-            if let Some(end) = news.end {
-                self.derivatives = None;
-                match end {
-                    Ok(Some(Ok(found))) => {
-                        (self.found, self.carlo) = (Some(found.into()), None);
-                        self.judge();
-                    }
-                    Ok(Some(Err(why))) | Err(why) => self.failure = Some(why),
-                    Ok(None) => {}
-                }
+        let derivatives = news(&mut self.derivatives);
+        match derivatives.end {
+            Some(Ok(Some(Ok(found)))) => {
+                (self.found, self.carlo) = (Some(found.into()), None);
+                self.judge();
             }
+            Some(Ok(Some(Err(why))) | Err(why)) => self.failure = Some(why),
+            None | Some(Ok(None)) => {}
         }
-        if let Some(task) = &self.drawing {
-            let news = task.drain();
-            self.share = news.messages.last().copied().unwrap_or(self.share);
-            if let Some(end) = news.end {
-                self.drawing = None;
-                match end {
-                    Ok(Some(carlo)) => self.carlo = Some(carlo),
-                    Ok(None) => {}
-                    Err(why) => self.failure = Some(why),
-                }
-            }
+        let drawing = news(&mut self.drawing);
+        match drawing.end {
+            Some(Ok(Some(carlo))) => self.carlo = Some(carlo),
+            Some(Err(why)) => self.failure = Some(why),
+            None | Some(Ok(None)) => {}
         }
+        self.share = derivatives.messages.into_iter().chain(drawing.messages).last().unwrap_or(self.share);
     }
 
     /// Ends what goes on; what was found stays.
@@ -107,8 +98,7 @@ impl SensitivityState {
 
     /// Whether they are of another scene than this.
     pub fn stale(&self, scene: &Scene) -> bool {
-        let other = |of: &Scene| !of.same_model(scene) || of.numerics() != scene.numerics();
-        self.found.as_ref().is_some_and(|found| other(found.scene()))
+        self.found.as_ref().is_some_and(|found| !solved_alike(found.scene(), scene))
     }
 
     /// Takes what is typed as the uncertainty of a key. Random scenes of others are dropped.

@@ -1,5 +1,7 @@
 //! A start-up as the window has it: of which scene, every cycle's numbers, the recordings that are kept, and the cycle looked at.
 
+use super::document::solved_alike;
+use super::followed::news;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::Ranges;
 use crate::job::SolvedScene;
@@ -28,29 +30,15 @@ pub struct Point {
     pub remaining: f64,
 }
 
-/// Recordings that are kept, by the number of their cycle: the first, the newest, and those between that show most of the way.
-#[derive(Debug, Default)]
-struct KeptCycles {
-    runs: BTreeMap<usize, Arc<SolvedScene>>,
-    bytes: usize,
-}
-
-impl KeptCycles {
-    fn insert(&mut self, number: usize, run: Arc<SolvedScene>, most: usize) {
-        self.bytes += bytes(&run.solution.recording);
-        if let Some(coarse) = self.runs.insert(number, run) {
-            self.bytes -= bytes(&coarse.solution.recording);
-        }
-        while self.bytes > most && self.runs.len() > 1 {
-            let numbers: Vec<usize> = self.runs.keys().copied().collect();
-            // What changes, changes less and less: the one whose neighbours are the nearest in proportion.
-            let ratio = |three: &[usize]| three[2] as f64 / three[0] as f64;
-            let least = numbers.windows(3).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-            let dropped = least.map_or(numbers[0], |three| three[1]);
-            if let Some(run) = self.runs.remove(&dropped) {
-                self.bytes -= bytes(&run.solution.recording);
-            }
-        }
+/// Keeps the `run` of cycle `number`. Of more than `most` bytes stay the first, the newest, and those between that show most of the way.
+fn keep(runs: &mut BTreeMap<usize, Arc<SolvedScene>>, number: usize, run: Arc<SolvedScene>, most: usize) {
+    runs.insert(number, run);
+    while runs.len() > 1 && runs.values().map(|run| bytes(&run.solution.recording)).sum::<usize>() > most {
+        let numbers: Vec<usize> = runs.keys().copied().collect();
+        // What changes, changes less and less: the one whose neighbours are the nearest in proportion.
+        let ratio = |three: &[usize]| three[2] as f64 / three[0] as f64;
+        let least = numbers.windows(3).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+        runs.remove(&least.map_or(numbers[0], |three| three[1]));
     }
 }
 
@@ -69,8 +57,9 @@ pub type StartupTask = Task<Cycle, Result<Startup, String>>;
 #[derive(Debug)]
 pub struct StartupState {
     job: Option<StartupTask>,
-    scene: Scene,
-    /// What was started.
+    /// The scene that was started.
+    pub scene: Scene,
+    /// What it poses.
     pub problem: Problem,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
@@ -78,7 +67,8 @@ pub struct StartupState {
     pub count: u64,
     /// All cycles, in order.
     pub points: Vec<Point>,
-    kept: KeptCycles,
+    /// Runs that are kept, by the number of their cycle.
+    kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
     pub ranges: Option<Ranges>,
     /// How it ended.
@@ -98,7 +88,7 @@ impl StartupState {
             fidelity,
             count,
             points: Vec::new(),
-            kept: KeptCycles::default(),
+            kept: BTreeMap::new(),
             ranges: None,
             ended: None,
             chosen: 0,
@@ -108,12 +98,10 @@ impl StartupState {
 
     /// Takes what has been computed since the last time.
     pub fn drain(&mut self) {
-        let Some(job) = &self.job else { return };
-        let News { messages, end } = job.drain();
+        let News { messages, end } = news(&mut self.job);
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
-            self.job = None;
         }
     }
 
@@ -132,7 +120,7 @@ impl StartupState {
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
         let (scene, problem) = (self.scene.clone(), self.problem.clone());
         let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
-        self.kept.insert(number, Arc::new(run), MOST_BYTES);
+        keep(&mut self.kept, number, Arc::new(run), MOST_BYTES);
         if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;
         } else {
@@ -170,7 +158,7 @@ impl StartupState {
 
     /// The cycle looked at has been shown to its end: goes on to the next one that is kept, if there is one.
     pub fn next_cycle(&mut self) {
-        if let Some((next, _)) = self.kept.runs.range(self.chosen + 1..).next() {
+        if let Some((next, _)) = self.kept.range(self.chosen + 1..).next() {
             self.chosen = *next;
         }
     }
@@ -182,12 +170,12 @@ impl StartupState {
 
     /// Cycles whose recordings are kept, ascending.
     pub fn kept(&self) -> impl DoubleEndedIterator<Item = usize> {
-        self.kept.runs.keys().copied()
+        self.kept.keys().copied()
     }
 
     /// The cycle looked at.
     pub fn run(&self) -> Option<&Arc<SolvedScene>> {
-        self.kept.runs.get(&self.chosen)
+        self.kept.get(&self.chosen)
     }
 
     /// Number of the cycle looked at; 0 before the first.
@@ -197,12 +185,7 @@ impl StartupState {
 
     /// Whether `scene` is another one than was started.
     pub fn stale(&self, scene: &Scene) -> bool {
-        !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
-    }
-
-    /// Name of the scene that was started.
-    pub fn name(&self) -> &str {
-        &self.scene.name
+        !solved_alike(&self.scene, scene)
     }
 }
 
@@ -241,16 +224,16 @@ mod tests {
             let outcome = Outcome::Plate(Default::default());
             Arc::new(as_solved(0, Scene::plate(), problem.clone(), Fidelity::Draft, outcome, recording))
         };
-        let mut kept = KeptCycles::default();
+        let mut kept = BTreeMap::new();
         for number in 1..=100 {
-            kept.insert(number, run(100), 8000);
-            assert!(kept.bytes <= 8000);
+            keep(&mut kept, number, run(100), 8000);
+            assert!(kept.len() <= 10, "100 values of 8 bytes each");
         }
-        let numbers: Vec<usize> = kept.runs.keys().copied().collect();
+        let numbers: Vec<usize> = kept.keys().copied().collect();
         assert_eq!(numbers.len(), 10);
         assert!(numbers.starts_with(&[1, 2, 3]) && numbers.ends_with(&[100]), "{numbers:?}");
         // One that is too large by itself is still the newest.
-        kept.insert(101, run(5000), 8000);
-        assert_eq!(kept.runs.keys().copied().collect::<Vec<_>>(), [101]);
+        keep(&mut kept, 101, run(5000), 8000);
+        assert_eq!(kept.keys().copied().collect::<Vec<_>>(), [101]);
     }
 }

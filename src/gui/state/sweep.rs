@@ -276,7 +276,8 @@ pub struct SweepState {
     quantity: Option<Quantity>,
     task: Option<(SweepTask, Instant)>,
     swept: Option<Swept>,
-    refusal: Option<String>,
+    /// Why the last sweep that was asked for could not begin.
+    pub refusal: Option<String>,
 }
 
 impl SweepState {
@@ -303,11 +304,6 @@ impl SweepState {
     /// What was begun.
     pub fn swept(&self) -> Option<&Swept> {
         self.swept.as_ref()
-    }
-
-    /// Why the last sweep that was asked for could not begin.
-    pub fn refusal(&self) -> Option<&str> {
-        self.refusal.as_deref()
     }
 
     /// What is drawn of these.

@@ -1,5 +1,6 @@
 //! Error against time as the window has it: of which scene, how far, and what was found.
 
+use super::followed::news;
 use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
 use crate::job::task::{News, Task};
@@ -19,7 +20,8 @@ pub type MeasurementTask = Task<Progress, Vec<MeasuredSetting>>;
 #[derive(Debug)]
 pub struct TradeoffState {
     job: Option<MeasurementTask>,
-    scene: Scene,
+    /// The scene that is measured.
+    pub scene: Scene,
     started: Instant,
     /// Whether it was told to end before it was done.
     pub cancelled: bool,
@@ -47,19 +49,15 @@ impl TradeoffState {
 
     /// Takes what has been measured since the last time.
     pub fn drain(&mut self) {
-        let Some(job) = &self.job else { return };
-        let News { messages, end } = job.drain();
+        let News { messages, end } = news(&mut self.job);
         if let Some((runs, share)) = messages.into_iter().last() {
             (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
         }
-        if let Some(end) = end {
-            self.job = None;
-            match end {
-                // A worker that was ended returns none.
-                Ok(runs) if runs.is_empty() => {}
-                Ok(runs) => self.tradeoff = Tradeoff::of(&runs),
-                Err(panic) => self.failure = Some(panic),
-            }
+        match end {
+            Some(Ok(runs)) if !runs.is_empty() => self.tradeoff = Tradeoff::of(&runs),
+            // It goes on, or is a worker that was ended, which returns none.
+            None | Some(Ok(_)) => {}
+            Some(Err(panic)) => self.failure = Some(panic),
         }
     }
 
@@ -80,11 +78,6 @@ impl TradeoffState {
     pub fn left(&self, now: Instant) -> Option<f64> {
         let spent = now.saturating_duration_since(self.started).as_secs_f64();
         (self.share > 0.0).then(|| spent * (1.0 - self.share) / self.share)
-    }
-
-    /// Name of the scene that was measured.
-    pub fn name(&self) -> &str {
-        &self.scene.name
     }
 
     /// Whether `scene` is another one than was measured. Its grid does not matter: each setting brings its own.

@@ -2,7 +2,7 @@
 
 use super::activity::Activity;
 use super::dialogs::{Export, Purpose};
-use super::document::{Document, absolute};
+use super::document::{Document, absolute, solved_alike};
 use super::dropped::Dropped;
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
@@ -32,7 +32,7 @@ use std::time::Duration;
 const RECENT: usize = 10;
 
 /// All that is drawn, and all that commands change.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct State {
     /// The scene being edited.
     pub document: Document,
@@ -93,35 +93,7 @@ pub struct State {
 impl State {
     /// A window on `document`, with nothing solved yet.
     pub fn new(document: Document) -> Self {
-        Self {
-            document,
-            budget: None,
-            rejected: RejectedEdits::default(),
-            run: None,
-            activity: Activity::default(),
-            view: View::default(),
-            switches: SwitchHistory::default(),
-            tradeoff: None,
-            exports: ExportState::default(),
-            pins: Pins::default(),
-            sweep: SweepState::default(),
-            fit: FitState::default(),
-            face: FaceState::default(),
-            torque: TorqueState::default(),
-            rotor: RotorState::default(),
-            sensitivity: SensitivityState::default(),
-            lessons: LessonState::new(None),
-            startup: None,
-            dropped: None,
-            hold: None,
-            failed_path: None,
-            modal: None,
-            shortcuts: false,
-            recent: Vec::new(),
-            dark: true,
-            lecture: false,
-            quitting: false,
-        }
+        Self { document, lessons: LessonState::new(None), dark: true, ..Self::default() }
     }
 
     /// Says that something did not work.
@@ -166,8 +138,7 @@ impl State {
 
     /// Whether `run` is of another scene than the present one.
     pub fn stale(&self, run: &SolvedScene) -> bool {
-        let scene = self.document.scene();
-        !run.scene.same_model(scene) || run.scene.numerics() != scene.numerics()
+        !solved_alike(&run.scene, self.document.scene())
     }
 
     /// Whether the newest scene is still without a result, and without a reason why.
@@ -205,14 +176,11 @@ impl State {
 
     /// What a new file of the scene is called at first.
     pub fn suggested_name(&self) -> String {
-        self.document.path().map_or_else(
-            || {
-                let stem: String =
-                    self.document.scene().name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
-                format!("{}.toml", stem.to_lowercase())
-            },
-            |path| path.display().to_string(),
-        )
+        if let Some(path) = self.document.path() {
+            return path.display().to_string();
+        }
+        let stem = self.document.scene().name.replace(|c: char| !c.is_alphanumeric(), "-");
+        format!("{}.toml", stem.to_lowercase())
     }
 
     /// Lets the lesson look at what is on screen; whether it needs another frame soon.

@@ -4,7 +4,7 @@ use super::context::DrawContext;
 use eframe::egui::{Button, Response, RichText, Stroke, Ui};
 
 /// A button, lit if it is what comes next.
-pub(in crate::gui::ui) fn next(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
+pub(super) fn next(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
     let mut button = Button::new(RichText::new(text).strong());
     if lit {
         button = button.fill(ui.visuals().selection.bg_fill).stroke(Stroke::new(1.0, cx.colours.film));
@@ -13,12 +13,7 @@ pub(in crate::gui::ui) fn next(ui: &mut Ui, text: &str, lit: bool, cx: &DrawCont
 }
 
 /// The button that fills a tab: lit while there is nothing to see in it.
-pub(in crate::gui::ui) fn first(
-    ui: &mut Ui,
-    text: &str,
-    (empty, good): (bool, bool),
-    cx: &DrawContext<'_>,
-) -> Response {
+pub(super) fn first(ui: &mut Ui, text: &str, (empty, good): (bool, bool), cx: &DrawContext<'_>) -> Response {
     match empty && good {
         true => next(ui, text, true, cx),
         false => ui.add_enabled(good, Button::new(text)),

@@ -16,13 +16,13 @@ const NUMBER_EVERY: f32 = 2.6;
 /// A number below at most every so many.
 const COLUMN_EVERY: f32 = 4.5;
 /// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
-pub(in crate::gui::ui) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
+pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
 /// A plot: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn with the right button, and back with a
 /// double click. The wheel alone scrolls the tab that it is in.
-pub(in crate::gui::ui) fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
+pub(super) fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
     Plot::new(name.to_owned())
         .id(id(name))
         .height(height)
@@ -54,36 +54,32 @@ fn framed<'a, R>(
 }
 
 /// A line that does not answer to the pointer.
-pub(in crate::gui::ui) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
+pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
     Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
 }
 
 /// A chart of a tab, over its whole width, whose axes are explained on hover. Values are read below it.
-pub(in crate::gui::ui) struct Chart<'n> {
+pub(super) struct Chart<'n> {
     /// What tells it from other charts, and screen readers what it is.
-    pub(in crate::gui::ui) name: &'n str,
+    pub(super) name: &'n str,
     /// Its height, with the axis below.
-    pub(in crate::gui::ui) height: f32,
+    pub(super) height: f32,
     /// Ranges of the axes until they are zoomed.
-    pub(in crate::gui::ui) bounds: [[f64; 2]; 2],
+    pub(super) bounds: [[f64; 2]; 2],
     /// Name of the axis below; empty if there is none.
-    pub(in crate::gui::ui) below: &'n str,
+    pub(super) below: &'n str,
     /// What the glossary explains the axis below under, if it does, and the one at the left.
-    pub(in crate::gui::ui) words: (Option<&'n str>, &'n str),
+    pub(super) words: (Option<&'n str>, &'n str),
 }
 
 impl Chart<'_> {
     /// Shows what `add` draws.
-    pub(in crate::gui::ui) fn show<'a, R>(
-        self,
-        ui: &mut egui::Ui,
-        add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
-    ) -> PlotResponse<R> {
+    pub(super) fn show<'a, R>(self, ui: &mut egui::Ui, add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a) -> PlotResponse<R> {
         self.show_with(ui, |plot| plot, add)
     }
 
     /// As [`Self::show`], with changes to the plot, such as marks of its own.
-    pub(in crate::gui::ui) fn show_with<'a, R>(
+    pub(super) fn show_with<'a, R>(
         self,
         ui: &mut egui::Ui,
         change: impl FnOnce(Plot<'a>) -> Plot<'a>,
@@ -114,7 +110,7 @@ fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
 }
 
 /// A plot with numbers at its axes, and no words at the pointer.
-pub(in crate::gui::ui) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+pub(super) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
     // The spacers leave room for every number: none is to fade because others are near.
     let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
     bare(name, height)
@@ -127,23 +123,23 @@ pub(in crate::gui::ui) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints
 }
 
 /// A chart that stands among drawings of the painter, with the size of its text.
-pub(in crate::gui::ui) struct Inset<'a> {
+pub(super) struct Inset<'a> {
     /// What tells it from other charts, and screen readers what it is.
-    pub(in crate::gui::ui) name: &'a str,
+    pub(super) name: &'a str,
     /// Where its curves are. Its numbers are left of it, and below.
-    pub(in crate::gui::ui) rect: Rect,
+    pub(super) rect: Rect,
     /// Room for the numbers left of it.
-    pub(in crate::gui::ui) gutter: f32,
+    pub(super) gutter: f32,
     /// Ranges of the axes until they are zoomed.
-    pub(in crate::gui::ui) bounds: [[f64; 2]; 2],
+    pub(super) bounds: [[f64; 2]; 2],
     /// Name of the axis below; `None` if its numbers are below another drawing, empty if it is
     /// written elsewhere.
-    pub(in crate::gui::ui) below: Option<&'a str>,
+    pub(super) below: Option<&'a str>,
 }
 
 impl<'a> Inset<'a> {
     /// Shows what `add` draws.
-    pub(in crate::gui::ui) fn show(
+    pub(super) fn show(
         &self,
         ui: &mut egui::Ui,
         style: &PlotStyle,
@@ -153,7 +149,7 @@ impl<'a> Inset<'a> {
     }
 
     /// As [`Self::show`], with changes to the plot, such as marks of its own.
-    pub(in crate::gui::ui) fn show_with(
+    pub(super) fn show_with(
         &self,
         ui: &mut egui::Ui,
         style: &PlotStyle,
@@ -207,7 +203,7 @@ impl<'a> Inset<'a> {
 }
 
 /// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
-pub(in crate::gui::ui) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
+pub(super) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
     let place = pos2(at.position_from_point_x(x), at.frame().center().y);
     let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
     if !strip.is_positive() {
@@ -228,33 +224,33 @@ pub(in crate::gui::ui) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, nam
 }
 
 /// A line across a chart along x, that does not answer to the pointer.
-pub(in crate::gui::ui) fn level(y: f64, colour: Color32, width: f32) -> HLine {
+pub(super) fn level(y: f64, colour: Color32, width: f32) -> HLine {
     HLine::new("", y).color(colour).width(width).allow_hover(false)
 }
 
 /// A line across a chart along y, that does not answer to the pointer.
-pub(in crate::gui::ui) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
+pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
     VLine::new("", x).color(colour).width(width).allow_hover(false)
 }
 
 /// Dots that do not answer to the pointer.
-pub(in crate::gui::ui) fn dots<'a>(points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
+pub(super) fn dots<'a>(points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
     Points::new("", points).color(colour).radius(radius).allow_hover(false)
 }
 
 /// The area between two curves, given as (x, one y, other y).
-pub(in crate::gui::ui) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
+pub(super) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
     let [x, one, other] = [0, 1, 2].map(|k| columns.iter().map(|column| column[k]).collect::<Vec<_>>());
     FilledArea::new("", &x, &one, &other).fill_color(colour).allow_hover(false)
 }
 
 /// The place of the next chart of this height, with its axes.
-pub(in crate::gui::ui) fn place(ui: &egui::Ui, height: f32) -> Rect {
+pub(super) fn place(ui: &egui::Ui, height: f32) -> Rect {
     Rect::from_min_size(ui.cursor().min, egui::vec2(ui.available_width(), height))
 }
 
 /// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
-pub(in crate::gui::ui) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
+pub(super) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
     let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
     let left = Rect::from_x_y_ranges(place.left()..=frame.left(), frame.y_range());
     for (number, (rect, word)) in [(below, x), (left, Some(y))].into_iter().enumerate() {
@@ -268,28 +264,21 @@ pub(in crate::gui::ui) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Optio
 }
 
 /// A title above a chart, with its unit, which the glossary explains under `word`.
-pub(in crate::gui::ui) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
+pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
     let label = ui.add(egui::Label::new(RichText::new(text).strong()).wrap());
     glossary::here(ui, label, word);
 }
 
 /// Entries of a legend, which the glossary knows: name, colour, how the line is drawn.
-pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
+pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
     ui.horizontal_wrapped(|ui| {
         for (text, colour, style) in entries {
             key(ui, text, SAMPLE + 0.35, 0.5, |painter, left, em| {
                 let ends = [left, left + egui::vec2(SAMPLE * em, 0.0)];
                 let stroke = egui::Stroke::new(2.0, *colour);
-                match style {
-                    LineStyle::Solid => drop(painter.line_segment(ends, stroke)),
-                    LineStyle::Dashed { length } => {
-                        // A solid one is one dash.
-                        painter.extend(egui::Shape::dashed_line(&ends, stroke, *length, 0.6 * length));
-                    }
-                    LineStyle::Dotted { spacing } => {
-                        painter.extend(egui::Shape::dotted_line(&ends, *colour, *spacing, 1.2));
-                    }
-                }
+                // A solid one is one dash.
+                let length = if let LineStyle::Dashed { length } = style { *length } else { 1e6 };
+                painter.extend(egui::Shape::dashed_line(&ends, stroke, length, 0.6 * length));
             });
         }
     });
@@ -297,7 +286,7 @@ pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, L
 
 /// An entry of a legend, in one piece, so that it is a whole that goes to the next line. What `draw` draws from a place on, at half the
 /// height of the text, has `indent` before the text, which has `after` behind it, in heights of the text.
-pub(in crate::gui::ui) fn key(
+pub(super) fn key(
     ui: &mut egui::Ui,
     text: &str,
     indent: f32,
@@ -316,13 +305,13 @@ pub(in crate::gui::ui) fn key(
 }
 
 /// Marks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
-pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
+pub(super) fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     decades([from, to], most, between).into_iter().map(|value| GridMark { value, step_size: 1.0 }).collect()
 }
 
 /// As many decimals as the steps between ticks need, with a true minus sign.
-pub(in crate::gui::ui) fn tick(mark: GridMark) -> String {
+pub(super) fn tick(mark: GridMark) -> String {
     Steps::of([mark.value; 2], mark.step_size).format(mark.value)
 }
 
@@ -332,7 +321,7 @@ fn round_ticks(input: &GridInput, most: f64) -> Vec<GridMark> {
 }
 
 /// Marks at 1, 2 or 5 times a power of ten that is at least `least`.
-pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
+pub(super) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     if !(least.is_finite() && least > 0.0) {
         return Vec::new();
@@ -341,7 +330,7 @@ pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> 
 }
 
 /// Marks at whole numbers, at most about `most`.
-pub(in crate::gui::ui) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
+pub(super) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
     apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
 }
 
@@ -351,7 +340,7 @@ fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
 }
 
 /// Marks at these numbers.
-pub(in crate::gui::ui) fn marks(ticks: Steps) -> Vec<GridMark> {
+pub(super) fn marks(ticks: Steps) -> Vec<GridMark> {
     ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 

@@ -14,7 +14,7 @@ const PARAMETERS: f32 = 11.0;
 
 /// A field for a line of text, called `name`, which says `empty` while there is none; what the text was changed to. The width is in heights
 /// of the text.
-pub(in crate::gui::ui) fn field(
+pub(super) fn field(
     ui: &mut Ui,
     (name, about): (&str, &str),
     (text, empty): (&str, &'static str),
@@ -28,7 +28,7 @@ pub(in crate::gui::ui) fn field(
 }
 
 /// A list called `name` that shows what is chosen; `entries` draws what can be. The width of the box is in heights of the text.
-pub(in crate::gui::ui) fn list(
+pub(super) fn list(
     ui: &mut Ui,
     id: &str,
     (name, about): (&str, &str),
@@ -43,26 +43,26 @@ pub(in crate::gui::ui) fn list(
 }
 
 /// A parameter with two values, as they are typed.
-pub(in crate::gui::ui) struct AxisRow<'a> {
+pub(super) struct AxisRow<'a> {
     /// What was typed.
-    pub(in crate::gui::ui) axis: &'a AxisForm,
+    pub(super) axis: &'a AxisForm,
     /// What stands before it, what the parameter is for, and what it is called.
-    pub(in crate::gui::ui) parameter: [&'a str; 3],
+    pub(super) parameter: [&'a str; 3],
     /// What can be chosen, in groups with a title each; one without a title has no line for it.
-    pub(in crate::gui::ui) groups: &'a dyn Fn() -> Vec<(&'static str, Vec<&'static Parameter>)>,
+    pub(super) groups: &'a dyn Fn() -> Vec<(&'static str, Vec<&'static Parameter>)>,
     /// What the fields of both values are called, and what they are for.
-    pub(in crate::gui::ui) values: [(&'a str, &'a str); 2],
+    pub(super) values: [(&'a str, &'a str); 2],
     /// Their width, in heights of the text.
-    pub(in crate::gui::ui) width: f32,
+    pub(super) width: f32,
     /// What the field of their number is called, if there is one.
-    pub(in crate::gui::ui) count: Option<&'a str>,
+    pub(super) count: Option<&'a str>,
     /// What the box for equal ratios is called, and what it is for.
-    pub(in crate::gui::ui) log: (&'a str, &'a str),
+    pub(super) log: (&'a str, &'a str),
 }
 
 impl AxisRow<'_> {
     /// Shows it; `command` is asked for with each change.
-    pub(in crate::gui::ui) fn show(self, ui: &mut Ui, cx: &DrawContext<'_>, command: impl Fn(AxisEdit) -> Command) {
+    pub(super) fn show(self, ui: &mut Ui, cx: &DrawContext<'_>, command: impl Fn(AxisEdit) -> Command) {
         let Self { axis, parameter: [before, what, name], groups, values: [from, to], width, count, log } = self;
         let edit = |edit: AxisEdit| cx.push(command(edit));
         ui.label(before);

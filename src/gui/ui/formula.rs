@@ -11,10 +11,10 @@ const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
 
 /// A formula that is set. Places are relative to its left end on the baseline.
 #[derive(Clone, Debug, Default)]
-pub(in crate::gui) struct Typeset {
-    pub(in crate::gui) width: f32,
-    pub(in crate::gui) ascent: f32,
-    pub(in crate::gui) descent: f32,
+pub(super) struct Typeset {
+    pub(super) width: f32,
+    pub(super) ascent: f32,
+    pub(super) descent: f32,
     pieces: Vec<Piece>,
 }
 
@@ -28,12 +28,12 @@ enum Piece {
 
 /// How a formula is set.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::gui) struct Style {
+pub(super) struct Style {
     /// Height of the text \[points\].
-    pub(in crate::gui) size: f32,
-    pub(in crate::gui) colour: Color32,
+    pub(super) size: f32,
+    pub(super) colour: Color32,
     /// On its own: fractions as large as the rest.
-    pub(in crate::gui) display: bool,
+    pub(super) display: bool,
 }
 
 impl Style {
@@ -43,13 +43,7 @@ impl Style {
 }
 
 /// A text as a galley, with its width and the height of its baseline below its top.
-pub(in crate::gui) fn galley(
-    painter: &Painter,
-    text: &str,
-    size: f32,
-    colour: Color32,
-    slanted: bool,
-) -> (Arc<Galley>, f32) {
+pub(super) fn galley(painter: &Painter, text: &str, size: f32, colour: Color32, slanted: bool) -> (Arc<Galley>, f32) {
     let format =
         TextFormat { font_id: FontId::proportional(size), color: colour, italics: slanted, ..Default::default() };
     let mut job = LayoutJob::single_section(text.to_owned(), format);
@@ -60,14 +54,14 @@ pub(in crate::gui) fn galley(
 }
 
 /// Height of the baseline below the top of a galley.
-pub(in crate::gui) fn baseline(galley: &Galley) -> f32 {
+pub(super) fn baseline(galley: &Galley) -> f32 {
     let row = galley.rows.first();
     row.and_then(|row| row.row.glyphs.first().map(|glyph| row.pos.y + glyph.pos.y)).unwrap_or_default()
 }
 
 impl Typeset {
     /// Sets `nodes` side by side.
-    pub(in crate::gui) fn of(painter: &Painter, nodes: &[Node], style: Style) -> Self {
+    pub(super) fn of(painter: &Painter, nodes: &[Node], style: Style) -> Self {
         let mut row = Self::default();
         for (i, node) in nodes.iter().enumerate() {
             let sign = matches!(node, Node::Sign(_));
@@ -241,7 +235,7 @@ impl Typeset {
     }
 
     /// Draws it with its left end at `at`, on the baseline.
-    pub(in crate::gui) fn paint(&self, painter: &Painter, at: Pos2, colour: Color32) {
+    pub(super) fn paint(&self, painter: &Painter, at: Pos2, colour: Color32) {
         let by = at.to_vec2();
         for piece in &self.pieces {
             match piece {

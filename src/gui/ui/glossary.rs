@@ -50,7 +50,9 @@ fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Re
             describe(&response, || format!("{}: {}", title(term), plain_blocks(&term.text)));
             let add = |ui: &mut Ui| {
                 ui.set_max_width(WIDTH);
-                explanation(ui, term);
+                ui.label(RichText::new(title(term)).strong());
+                let look = Look::usual(ui);
+                rich::blocks(ui, &term.text, look);
             };
             // What a lesson asks to look at is not covered either.
             match panel.or_else(|| ring_round(ui.ctx(), response.rect.expand(RING_NEAR))) {
@@ -68,12 +70,6 @@ fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Re
             response
         }
     }
-}
-
-fn explanation(ui: &mut Ui, term: &Term) {
-    ui.label(RichText::new(title(term)).strong());
-    let look = Look::usual(ui);
-    rich::blocks(ui, &term.text, look);
 }
 
 /// A term with its symbol.

@@ -130,7 +130,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "File",
         &[
             window(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
-            window(key(CTRL, Key::S), "Save", || Command::Save),
+            window(key(CTRL, Key::S), "Save", || Command::Save(None)),
             window(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
             window(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
         ],
@@ -159,7 +159,12 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
 ];
 
 fn all() -> impl Iterator<Item = &'static Shortcut> {
-    GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
+    GROUPS.iter().flat_map(|(_, shortcuts)| *shortcuts)
+}
+
+/// The shortcut that asks for `command`.
+fn asking_for(command: &Command) -> Option<&'static Shortcut> {
+    all().find(|shortcut| (shortcut.command)() == *command)
 }
 
 /// The shortcuts pressed in this frame. `tab`: the keys of the motion are its own, and so are those of a held plate.
@@ -223,13 +228,12 @@ fn name_on(mac: bool, keys: &KeyboardShortcut) -> String {
 
 /// What the keys that ask for `command` do, and the keys: "Undo (Ctrl+Z)".
 pub fn about(command: &Command) -> String {
-    let found = all().find(|shortcut| (shortcut.command)() == *command);
-    found.map(|shortcut| format!("{} ({})", shortcut.about, name(&shortcut.keys))).unwrap_or_default()
+    asking_for(command).map(|found| format!("{} ({})", found.about, name(&found.keys))).unwrap_or_default()
 }
 
 /// The keys that ask for `command`; empty if none do.
 pub fn of(command: &Command) -> String {
-    all().find(|shortcut| (shortcut.command)() == *command).map(|shortcut| name(&shortcut.keys)).unwrap_or_default()
+    asking_for(command).map(|found| name(&found.keys)).unwrap_or_default()
 }
 
 #[cfg(test)]

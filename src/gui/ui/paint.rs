@@ -12,19 +12,19 @@ use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
 /// Colours and text of the drawings.
-pub(in crate::gui::ui) struct PlotStyle {
-    pub(in crate::gui::ui) palette: Palette,
-    pub(in crate::gui::ui) text: Color32,
-    pub(in crate::gui::ui) grid: Color32,
-    pub(in crate::gui::ui) font: FontId,
+pub(super) struct PlotStyle {
+    pub(super) palette: Palette,
+    pub(super) text: Color32,
+    pub(super) grid: Color32,
+    pub(super) font: FontId,
     /// Height of a line of text.
-    pub(in crate::gui::ui) row: f32,
+    pub(super) row: f32,
     /// Terms that were written, and where; and what they mean, if the glossary does not say.
     terms: RefCell<Vec<(Rect, String, Option<String>)>>,
 }
 
 impl PlotStyle {
-    pub(in crate::gui::ui) fn new(ui: &Ui) -> Self {
+    pub(super) fn new(ui: &Ui) -> Self {
         let palette = theme::palette(ui.visuals().dark_mode);
         let body = TextStyle::Body.resolve(ui.style());
         let font = FontId::new((0.85 * body.size).max(9.0), body.family);
@@ -40,35 +40,28 @@ impl PlotStyle {
     }
 
     /// Fill of a solid body: opaque, so that bodies may overlap, and lighter than its outline.
-    pub(in crate::gui::ui) fn solid(&self, outline: Color32) -> Color32 {
+    pub(super) fn solid(&self, outline: Color32) -> Color32 {
         self.palette.canvas.lerp_to_gamma(outline, 0.72)
     }
 
     /// Writes one line.
-    pub(in crate::gui::ui) fn write(
-        &self,
-        painter: &Painter,
-        at: Pos2,
-        anchor: Align2,
-        text: &str,
-        colour: Color32,
-    ) -> Rect {
+    pub(super) fn write(&self, painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
         painter.text(at, anchor, text, self.font.clone(), colour)
     }
 
     /// What was written at `place` is explained by the glossary under `word`.
-    pub(in crate::gui::ui) fn term(&self, place: Rect, word: &str) {
+    pub(super) fn term(&self, place: Rect, word: &str) {
         self.terms.borrow_mut().push((place, word.to_owned(), None));
     }
 
     /// What was written at `place` is explained by `text`.
-    pub(in crate::gui::ui) fn parameter(&self, place: Rect, name: &str, text: String) {
+    pub(super) fn parameter(&self, place: Rect, name: &str, text: String) {
         self.terms.borrow_mut().push((place, name.to_owned(), Some(text)));
     }
 
     /// Explains the terms of the drawing on hover: after all that also wants the pointer. Whether the pointer is on one: values
     /// are then read out elsewhere.
-    pub(in crate::gui::ui) fn explain(&self, ui: &Ui) -> bool {
+    pub(super) fn explain(&self, ui: &Ui) -> bool {
         let mut pointed = false;
         for (number, (place, word, text)) in self.terms.borrow_mut().drain(..).enumerate() {
             let response = glossary::over(ui, place, &word, number);
@@ -82,25 +75,18 @@ impl PlotStyle {
     }
 
     /// Width of one line.
-    pub(in crate::gui::ui) fn width(&self, painter: &Painter, text: &str) -> f32 {
+    pub(super) fn width(&self, painter: &Painter, text: &str) -> f32 {
         painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
     /// The entry of a legend for the run that a lesson's step began with, if that is drawn.
-    pub(in crate::gui::ui) fn at_first<T>(&self, first: Option<T>) -> Option<(&'static str, Color32)> {
+    pub(super) fn at_first<T>(&self, first: Option<T>) -> Option<(&'static str, Color32)> {
         first.map(|_| ("at first", self.palette.quiet))
     }
 
     /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
     /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
-    pub(in crate::gui::ui) fn title(
-        &self,
-        painter: &Painter,
-        plot: Rect,
-        word: &str,
-        titles: &[&str],
-        legend: &[(&str, Color32)],
-    ) {
+    pub(super) fn title(&self, painter: &Painter, plot: Rect, word: &str, titles: &[&str], legend: &[(&str, Color32)]) {
         let bottom = plot.top() - 2.0;
         let gap = 0.7 * self.row;
         let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
@@ -131,7 +117,7 @@ impl PlotStyle {
 }
 
 /// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
-pub(in crate::gui::ui) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
+pub(super) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
     if recording.frames == 0 || recording.x.is_empty() || recording.film.is_empty() {
         ui.label("This run has no fields to show.");
         return None;
@@ -140,7 +126,7 @@ pub(in crate::gui::ui) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rec
 }
 
 /// Takes the whole of `ui`; `None`, with a word about it, if that is too little to draw in.
-pub(in crate::gui::ui) fn room(ui: &mut Ui) -> Option<Rect> {
+pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
     let size = ui.available_size();
     if size.x <= 160.0 || size.y <= 160.0 {
         ui.label("There is no room for this view. The menu View hides what is at the sides.");
@@ -151,51 +137,51 @@ pub(in crate::gui::ui) fn room(ui: &mut Ui) -> Option<Rect> {
 
 /// A rectangle on the screen and what its edges mean.
 #[derive(Clone, Copy)]
-pub(in crate::gui::ui) struct Axes {
-    pub(in crate::gui::ui) rect: Rect,
-    pub(in crate::gui::ui) x: [f64; 2],
-    pub(in crate::gui::ui) y: [f64; 2],
+pub(super) struct Axes {
+    pub(super) rect: Rect,
+    pub(super) x: [f64; 2],
+    pub(super) y: [f64; 2],
 }
 
 impl Axes {
     /// Ranges of no extent are widened.
-    pub(in crate::gui::ui) fn new(rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+    pub(super) fn new(rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         Self { rect, x: widened(x), y: widened(y) }
     }
 
-    pub(in crate::gui::ui) fn px(&self, x: f64) -> f32 {
+    pub(super) fn px(&self, x: f64) -> f32 {
         let part = (x - self.x[0]) / (self.x[1] - self.x[0]);
         self.rect.left() + part as f32 * self.rect.width()
     }
 
-    pub(in crate::gui::ui) fn py(&self, y: f64) -> f32 {
+    pub(super) fn py(&self, y: f64) -> f32 {
         let part = (y - self.y[0]) / (self.y[1] - self.y[0]);
         self.rect.bottom() - part as f32 * self.rect.height()
     }
 
     /// By how much y is drawn larger than x.
-    pub(in crate::gui::ui) fn exaggeration(&self) -> f64 {
+    pub(super) fn exaggeration(&self) -> f64 {
         let scale = |length: f32, [from, to]: [f64; 2]| f64::from(length) / (to - from);
         scale(self.rect.height(), self.y) / scale(self.rect.width(), self.x)
     }
 
-    pub(in crate::gui::ui) fn at(&self, x: f64, y: f64) -> Pos2 {
+    pub(super) fn at(&self, x: f64, y: f64) -> Pos2 {
         pos2(self.px(x), self.py(y))
     }
 
     /// x at a place on the screen; `None` beside the rectangle.
-    pub(in crate::gui::ui) fn x_at(&self, px: f32) -> Option<f64> {
+    pub(super) fn x_at(&self, px: f32) -> Option<f64> {
         let part = f64::from((px - self.rect.left()) / self.rect.width());
         (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
     }
 
     /// Background and frame.
-    pub(in crate::gui::ui) fn canvas(&self, painter: &Painter, style: &PlotStyle) {
+    pub(super) fn canvas(&self, painter: &Painter, style: &PlotStyle) {
         painter.rect_filled(self.rect, 2.0, style.palette.canvas);
     }
 
     /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
-    pub(in crate::gui::ui) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
+    pub(super) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
         let range = [self.y[0] / unit, self.y[1] / unit];
         let ticks = Steps::several(range, about);
@@ -212,7 +198,7 @@ impl Axes {
     }
 
     /// Vertical grid lines.
-    pub(in crate::gui::ui) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
+    pub(super) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         for value in self.x_values(style, unit).values() {
             painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, style.grid));
         }
@@ -224,7 +210,7 @@ impl Axes {
     }
 
     /// Values below the plot, and the name of the axis left of them.
-    pub(in crate::gui::ui) fn x_labels(&self, painter: &Painter, style: &PlotStyle, unit: f64, name: &str) {
+    pub(super) fn x_labels(&self, painter: &Painter, style: &PlotStyle, unit: f64, name: &str) {
         let ticks = self.x_values(style, unit);
         let top = self.rect.bottom() + 1.0;
         let place =
@@ -242,7 +228,7 @@ impl Axes {
     }
 
     /// The line under the pointer.
-    pub(in crate::gui::ui) fn cursor(&self, painter: &Painter, style: &PlotStyle, x: Option<f64>) {
+    pub(super) fn cursor(&self, painter: &Painter, style: &PlotStyle, x: Option<f64>) {
         if let Some(x) = x.filter(|x| (self.x[0]..=self.x[1]).contains(x)) {
             painter.vline(self.px(x), self.rect.y_range(), Stroke::new(1.0, style.palette.accent));
         }
@@ -250,7 +236,7 @@ impl Axes {
 }
 
 /// The range, or one round it if it has no extent.
-pub(in crate::gui::ui) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
+pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     if !(low.is_finite() && high.is_finite()) {
         return [0.0, 1.0];
     }
@@ -263,12 +249,12 @@ pub(in crate::gui::ui) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Fills between two lines, given as columns (x, one y, other y).
-pub(in crate::gui::ui) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
+pub(super) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
     shaded(painter, columns.map(|(x, one, other)| (x, one, other, colour)));
 }
 
 /// The same with a colour for each column: (x, one y, other y, colour).
-pub(in crate::gui::ui) fn shaded(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
+pub(super) fn shaded(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
     let mut mesh = Mesh::default();
     let (least, _) = columns.size_hint();
     mesh.reserve_vertices(2 * least);
@@ -286,20 +272,20 @@ pub(in crate::gui::ui) fn shaded(painter: &Painter, columns: impl Iterator<Item 
 }
 
 /// Colours of the field in 256 steps.
-pub(in crate::gui::ui) fn field_colours() -> &'static [Color32; 256] {
+pub(super) fn field_colours() -> &'static [Color32; 256] {
     static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
     COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
 }
 
 /// Colours of the field per pascal over a range; none where both ends are written as the same number, and the rest is noise.
-pub(in crate::gui::ui) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
+pub(super) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
     let [least, most] = ends([low / 1e3, high / 1e3]);
     if least == most { 0.0 } else { 255.0 / (high - low) }
 }
 
 /// A title above `plot` with the colour bar and its ends at the right end of the same line.
 /// `word`: what the glossary explains it under.
-pub(in crate::gui::ui) fn title_with_bar(
+pub(super) fn title_with_bar(
     painter: &Painter,
     style: &PlotStyle,
     plot: Rect,
@@ -318,7 +304,7 @@ pub(in crate::gui::ui) fn title_with_bar(
 }
 
 /// The same with what is written at the ends of the bar.
-pub(in crate::gui::ui) fn title_with_ends(
+pub(super) fn title_with_ends(
     painter: &Painter,
     style: &PlotStyle,
     plot: Rect,
@@ -348,7 +334,7 @@ pub(in crate::gui::ui) fn title_with_ends(
 }
 
 /// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.
-pub(in crate::gui::ui) fn scale_bar(painter: &Painter, style: &PlotStyle, plot: Rect, scale: f64) {
+pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, plot: Rect, scale: f64) {
     let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
     let height = (length * 1e-6 * scale) as f32;
     let x = plot.left() - 6.0;

@@ -10,31 +10,31 @@ use std::sync::Arc;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::gui) struct Look {
+pub(super) struct Look {
     /// Height of the text \[points\].
-    pub(in crate::gui) size: f32,
-    pub(in crate::gui) colour: Color32,
+    pub(super) size: f32,
+    pub(super) colour: Color32,
 }
 
 impl Look {
     /// The usual text of this ui.
-    pub(in crate::gui) fn usual(ui: &Ui) -> Self {
+    pub(super) fn usual(ui: &Ui) -> Self {
         Self { size: TextStyle::Body.resolve(ui.style()).size, colour: ui.visuals().text_color() }
     }
 
     /// A little larger than the usual: to be read, not looked up.
-    pub(in crate::gui) fn reading(ui: &Ui) -> Self {
+    pub(super) fn reading(ui: &Ui) -> Self {
         let usual = Self::usual(ui);
         Self { size: 1.08 * usual.size, colour: ui.visuals().strong_text_color().lerp_to_gamma(usual.colour, 0.35) }
     }
 
-    pub(in crate::gui) fn coloured(self, colour: Color32) -> Self {
+    pub(super) fn coloured(self, colour: Color32) -> Self {
         Self { colour, ..self }
     }
 }
 
 /// Shows blocks below each other.
-pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
+pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
     for (i, block) in blocks.iter().enumerate() {
         if i > 0 {
             ui.add_space(0.45 * look.size);
@@ -96,7 +96,7 @@ enum Drawn {
 }
 
 /// Shows one paragraph; its response has the whole text.
-pub(in crate::gui) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
+pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     let atoms = atoms(ui, parts, look);
     let room = ui.available_width();
     // Lines of atoms; what is glued together is moved together.
@@ -211,7 +211,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     }
                     let (colour, ground) = match style {
                         Style::Plain | Style::Slanted => (look.colour, None),
-                        Style::Strong => (emphasis(ui), None),
+                        // The fonts have one weight: what is strong has a colour.
+                        Style::Strong => (palette(ui.visuals().dark_mode).film, None),
                         Style::Code => (look.colour, Some(ui.visuals().extreme_bg_color)),
                     };
                     let (galley, baseline) = galley(painter, word, look.size, colour, *style == Style::Slanted);
@@ -232,9 +233,4 @@ fn is_unit(word: &str) -> bool {
     const UNITS: &str = "nm µm mm cm m mm/s g kg N N/m N·m N·s/m mN·s/m Pa kPa W Hz kHz µs ms s rpm %";
     let word = word.trim_end_matches(['.', ',', ':', ';', '?', ')']);
     UNITS.split(' ').any(|unit| unit == word)
-}
-
-/// The fonts have one weight: what is strong has a colour.
-fn emphasis(ui: &Ui) -> Color32 {
-    palette(ui.visuals().dark_mode).film
 }

@@ -28,58 +28,32 @@ pub struct Palette {
 
 /// The palette of the present theme.
 pub fn palette(dark: bool) -> Palette {
-    if dark {
-        Palette {
-            stator: Color32::from_rgb(0x8c, 0x9a, 0xae),
-            rotor: Color32::from_rgb(0xc9, 0xb0, 0x8c),
-            film: Color32::from_rgb(0x56, 0xb4, 0xe9),
-            contact: Color32::from_rgb(0xe6, 0x8a, 0x2e),
-            accent: Color32::from_rgb(0xf0, 0xe4, 0x42),
-            quiet: Color32::from_rgb(0x9a, 0xa2, 0xad),
-            alarm: Color32::from_rgb(0xff, 0x6b, 0x5e),
-            good: Color32::from_rgb(0x3f, 0xc7, 0x9a),
-            canvas: Color32::from_rgb(0x14, 0x17, 0x1d),
-        }
-    } else {
-        Palette {
-            stator: Color32::from_rgb(0x6b, 0x77, 0x88),
-            rotor: Color32::from_rgb(0xa9, 0x8a, 0x5c),
-            film: Color32::from_rgb(0x00, 0x72, 0xb2),
-            contact: Color32::from_rgb(0xd5, 0x5e, 0x00),
-            accent: Color32::from_rgb(0x9b, 0x2f, 0xae),
-            quiet: Color32::from_rgb(0x60, 0x66, 0x70),
-            alarm: Color32::from_rgb(0xb0, 0x1c, 0x10),
-            good: Color32::from_rgb(0x00, 0x75, 0x56),
-            canvas: Color32::from_rgb(0xff, 0xff, 0xff),
-        }
+    let colour = |in_dark: u32, in_light: u32| rgb(if dark { in_dark } else { in_light });
+    Palette {
+        stator: colour(0x8c9aae, 0x6b7788),
+        rotor: colour(0xc9b08c, 0xa98a5c),
+        film: colour(0x56b4e9, 0x0072b2),
+        contact: colour(0xe68a2e, 0xd55e00),
+        accent: colour(0xf0e442, 0x9b2fae),
+        quiet: colour(0x9aa2ad, 0x606670),
+        alarm: colour(0xff6b5e, 0xb01c10),
+        good: colour(0x3fc79a, 0x007556),
+        canvas: colour(0x14171d, 0xffffff),
     }
 }
 
-/// Colours of runs laid over each other, in the order of those in printed figures.
-pub const RUNS: usize = 7;
-
-/// Colour of one of several runs; after [`RUNS`] they begin again.
+/// Colour of one of several runs laid over each other, in the order of those in printed figures; after the last they begin again.
 pub fn run_colour(slot: usize, dark: bool) -> Color32 {
-    const DARK: [[u8; 3]; RUNS] = [
-        [0x56, 0xb4, 0xe9],
-        [0xf0, 0x8a, 0x3c],
-        [0x3f, 0xc7, 0x9a],
-        [0xe3, 0x9a, 0xc6],
-        [0xf0, 0xd4, 0x42],
-        [0xa9, 0xb4, 0xff],
-        [0xdf, 0xe3, 0xe9],
-    ];
-    const LIGHT: [[u8; 3]; RUNS] = [
-        [0x00, 0x72, 0xb2],
-        [0xd5, 0x5e, 0x00],
-        [0x00, 0x8a, 0x64],
-        [0xb0, 0x4c, 0x8a],
-        [0xa6, 0x76, 0x00],
-        [0x52, 0x5c, 0xc8],
-        [0x22, 0x26, 0x2c],
-    ];
-    let [r, g, b] = if dark { DARK } else { LIGHT }[slot % RUNS];
-    Color32::from_rgb(r, g, b)
+    const DARK: [u32; 7] = [0x56b4e9, 0xf08a3c, 0x3fc79a, 0xe39ac6, 0xf0d442, 0xa9b4ff, 0xdfe3e9];
+    const LIGHT: [u32; 7] = [0x0072b2, 0xd55e00, 0x008a64, 0xb04c8a, 0xa67600, 0x525cc8, 0x22262c];
+    let colours = if dark { DARK } else { LIGHT };
+    rgb(colours[slot % colours.len()])
+}
+
+/// The colour of six hexadecimal digits.
+fn rgb(digits: u32) -> Color32 {
+    let [_, red, green, blue] = digits.to_be_bytes();
+    Color32::from_rgb(red, green, blue)
 }
 
 /// Colour of a value between 0 and 1 in a field: perceptually uniform.
@@ -105,26 +79,23 @@ pub fn install(ctx: &egui::Context) {
 
 /// Greys with a little blue, so that panels and drawings are of one kind, and text that is read from the last row.
 fn dress(visuals: &mut egui::Visuals, dark: bool) {
-    let grey = |dark_value: [u8; 3], light_value: [u8; 3]| {
-        let [r, g, b] = if dark { dark_value } else { light_value };
-        Color32::from_rgb(r, g, b)
-    };
-    visuals.panel_fill = grey([0x1e, 0x21, 0x28], [0xf2, 0xf3, 0xf6]);
-    visuals.window_fill = grey([0x24, 0x28, 0x30], [0xfd, 0xfd, 0xfe]);
-    visuals.extreme_bg_color = grey([0x13, 0x15, 0x1a], [0xff, 0xff, 0xff]);
-    visuals.window_stroke.color = grey([0x3d, 0x43, 0x4f], [0xc2, 0xc7, 0xcf]);
-    visuals.selection.bg_fill = grey([0x1c, 0x67, 0x96], [0x9c, 0xcf, 0xee]);
+    let grey = |in_dark: u32, in_light: u32| rgb(if dark { in_dark } else { in_light });
+    visuals.panel_fill = grey(0x1e2128, 0xf2f3f6);
+    visuals.window_fill = grey(0x242830, 0xfdfdfe);
+    visuals.extreme_bg_color = grey(0x13151a, 0xffffff);
+    visuals.window_stroke.color = grey(0x3d434f, 0xc2c7cf);
+    visuals.selection.bg_fill = grey(0x1c6796, 0x9ccfee);
     let widgets = &mut visuals.widgets;
-    widgets.noninteractive.bg_stroke.color = grey([0x36, 0x3b, 0x46], [0xcf, 0xd3, 0xda]);
-    widgets.noninteractive.fg_stroke.color = grey([0xb8, 0xbe, 0xc8], [0x3c, 0x41, 0x4a]);
-    widgets.inactive.bg_fill = grey([0x3a, 0x40, 0x4c], [0xdd, 0xe0, 0xe6]);
-    widgets.inactive.weak_bg_fill = grey([0x32, 0x37, 0x42], [0xe1, 0xe4, 0xe9]);
-    widgets.hovered.bg_fill = grey([0x47, 0x4f, 0x5d], [0xcd, 0xd2, 0xda]);
-    widgets.hovered.weak_bg_fill = grey([0x3f, 0x46, 0x53], [0xd3, 0xd8, 0xdf]);
-    widgets.active.bg_fill = grey([0x50, 0x59, 0x69], [0xbf, 0xc6, 0xd0]);
-    widgets.active.weak_bg_fill = grey([0x47, 0x4f, 0x5d], [0xc6, 0xcc, 0xd5]);
-    widgets.open.weak_bg_fill = grey([0x2b, 0x30, 0x39], [0xdc, 0xe0, 0xe6]);
-    widgets.inactive.fg_stroke.color = grey([0xd2, 0xd7, 0xdf], [0x2e, 0x33, 0x3b]);
+    widgets.noninteractive.bg_stroke.color = grey(0x363b46, 0xcfd3da);
+    widgets.noninteractive.fg_stroke.color = grey(0xb8bec8, 0x3c414a);
+    widgets.inactive.bg_fill = grey(0x3a404c, 0xdde0e6);
+    widgets.inactive.weak_bg_fill = grey(0x323742, 0xe1e4e9);
+    widgets.hovered.bg_fill = grey(0x474f5d, 0xcdd2da);
+    widgets.hovered.weak_bg_fill = grey(0x3f4653, 0xd3d8df);
+    widgets.active.bg_fill = grey(0x505969, 0xbfc6d0);
+    widgets.active.weak_bg_fill = grey(0x474f5d, 0xc6ccd5);
+    widgets.open.weak_bg_fill = grey(0x2b3039, 0xdce0e6);
+    widgets.inactive.fg_stroke.color = grey(0xd2d7df, 0x2e333b);
 }
 
 /// Gives fields and boxes an outline: in the light theme their fill is nearly that of the panel.

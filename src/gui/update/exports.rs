@@ -1,6 +1,6 @@
 //! Exports: the same code and the same names as those of the command line, in the background.
 
-use super::updater::Updater;
+use super::updater::{REDRAW, Updater};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
@@ -11,10 +11,6 @@ use crate::job::task::Task;
 use crate::job::work::Posed;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// Progress is drawn at most this often.
-const REDRAW: Duration = Duration::from_millis(100);
 
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
@@ -55,7 +51,7 @@ impl Updater {
         };
         let of_tradeoff = |what| {
             let measured = self.state.tradeoff.as_ref()?;
-            Some(Content::Tradeoff(what, measured.name().to_owned(), measured.tradeoff.clone()))
+            Some(Content::Tradeoff(what, measured.scene.name.clone(), measured.tradeoff.clone()))
         };
         match export {
             Export::Data => of_run(OfRun::Data),

@@ -20,7 +20,7 @@ impl Updater {
         match command {
             FaceCommand::Choose => self.ask(Purpose::Heights, ""),
             FaceCommand::Load(path) => self.load_face(path),
-            FaceCommand::Forget => self.state.face.forget(),
+            FaceCommand::Forget => self.state.face.found = None,
             FaceCommand::Take => self.take_face(),
         }
     }

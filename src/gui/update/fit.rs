@@ -1,6 +1,6 @@
 //! What is asked of measurements and fits, carried out.
 
-use super::updater::Updater;
+use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
 use crate::gui::command::{FaceCommand, FitCommand};
 use crate::gui::state::dialogs::Purpose;
@@ -11,10 +11,6 @@ use crate::job::task::Task;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::Path;
-use std::time::Duration;
-
-/// Progress is drawn at most this often.
-const REDRAW: Duration = Duration::from_millis(100);
 
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
@@ -23,13 +19,21 @@ impl Updater {
         match command {
             FitCommand::Choose => self.ask(Purpose::Measurements, ""),
             FitCommand::Load(path) => self.load_measurements(&path),
-            FitCommand::Forget => state.fit.forget(),
-            FitCommand::Seek(sought) => state.fit.seek(sought),
-            FitCommand::Quantity(name) => state.fit.seek_of(name),
-            FitCommand::Limits(limits) => state.fit.limit(limits),
-            FitCommand::Axis(line, edit) => state.fit.edit(scene, line, edit),
-            FitCommand::Add => state.fit.add(scene),
-            FitCommand::Remove(line) => state.fit.remove(line),
+            FitCommand::Forget => state.fit.measured = None,
+            FitCommand::Seek(sought) => state.fit.edit(|form| form.sought = sought),
+            FitCommand::Quantity(name) => state.fit.edit(|form| form.quantity = Some(name)),
+            FitCommand::Limits(limits) => state.fit.edit(|form| form.limits = limits),
+            FitCommand::Axis(line, edit) => state.fit.edit(|form| {
+                if let Some(axis) = form.axes.get_mut(line) {
+                    axis.edit(scene, edit, 2);
+                }
+            }),
+            FitCommand::Add => state.fit.edit(|form| form.add(scene)),
+            FitCommand::Remove(line) => state.fit.edit(|form| {
+                if line < form.axes.len() {
+                    form.axes.remove(line);
+                }
+            }),
             FitCommand::Start => self.start_fit(),
             FitCommand::Cancel => state.fit.cancel(),
             FitCommand::Take => {

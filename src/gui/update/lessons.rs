@@ -25,15 +25,15 @@ impl Updater {
         let place = self.state.lessons.running().map(|running| (running.lesson, running.step));
         let changed = self.state.lessons.reload();
         if let (true, Some((lesson, step))) = (changed, place) {
-            self.teach(LessonCommand::OpenAt(lesson, step));
+            self.teach(LessonCommand::Open(lesson, Some(step)));
         }
         self.say_faults();
     }
 
     fn say_faults(&mut self) {
-        let text = self.state.lessons.fault_text();
-        if !text.is_empty() {
-            self.state.fail(text);
+        let faults: Vec<String> = self.state.lessons.faults().iter().map(ToString::to_string).collect();
+        if !faults.is_empty() {
+            self.state.fail(faults.join("\n"));
         }
     }
 
@@ -50,8 +50,7 @@ impl Updater {
         let State { document, view, lessons, .. } = &mut self.state;
         let sets_up = matches!(
             command,
-            LessonCommand::Open(_)
-                | LessonCommand::OpenAt(..)
+            LessonCommand::Open(..)
                 | LessonCommand::Again
                 | LessonCommand::Next
                 | LessonCommand::Back
@@ -59,8 +58,7 @@ impl Updater {
         );
         let shows = command == LessonCommand::ShowMe;
         let replaced = match command {
-            LessonCommand::Open(lesson) => lessons.open(lesson, None, document, view),
-            LessonCommand::OpenAt(lesson, step) => lessons.open(lesson, Some(step), document, view),
+            LessonCommand::Open(lesson, step) => lessons.open(lesson, step, document, view),
             LessonCommand::Again => lessons.again(document, view),
             LessonCommand::Next => lessons.turn(1, document, view),
             LessonCommand::Back => lessons.turn(-1, document, view),
@@ -113,7 +111,7 @@ impl Updater {
         if let Some(stop) = self.state.lessons.tour {
             match stop + 1 < STOPS.len() {
                 true => self.carry_out(Command::Tour(Some(stop + 1))),
-                false => self.teach(LessonCommand::OpenAt(0, 0)),
+                false => self.teach(LessonCommand::Open(0, Some(0))),
             }
             return;
         }
@@ -126,7 +124,7 @@ impl Updater {
             Some(Stage::Told) => self.teach(LessonCommand::Next),
             None => {
                 if let Some(next) = self.state.lessons.following() {
-                    self.teach(LessonCommand::Open(next));
+                    self.teach(LessonCommand::Open(next, None));
                 }
             }
         }

@@ -70,7 +70,7 @@ impl Updater {
                 if step > most {
                     return self.state.fail(format!("step {step}: lesson {lesson} has {most} steps"));
                 }
-                self.carry_out(LessonCommand::OpenAt(lesson - 1, step - 1).into());
+                self.carry_out(LessonCommand::Open(lesson - 1, Some(step - 1)).into());
             }
         }
     }

@@ -7,6 +7,7 @@ use crate::gui::state::dropped::Dropped;
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
+use crate::gui::state::window::State;
 use crate::job::drop::Dropping;
 use crate::job::hold::{HeldPlate, slowed};
 use crate::job::rotor::Alone;
@@ -105,23 +106,20 @@ impl Updater {
     }
 
     pub(super) fn start_up(&mut self, command: StartupCommand) {
-        if command == StartupCommand::Start {
-            self.start_from_rest();
-        }
-        if let (StartupCommand::Cancel, Some(dropped)) = (command, &self.state.dropped) {
-            dropped.cancel();
-        }
-        let Some(startup) = &mut self.state.startup else { return };
-        match command {
-            StartupCommand::Start => {}
-            StartupCommand::Cancel => startup.cancel(),
-            StartupCommand::Choose(number) => startup.stay_at(number),
-            StartupCommand::Follow(follow) => startup.follow(follow),
-            StartupCommand::Replay => {
-                startup.stay_at(1);
-                self.state.view.phase = 0.0;
-                self.state.view.playing = true;
+        let State { startup, dropped, view, .. } = &mut self.state;
+        match (command, startup) {
+            (StartupCommand::Start, _) => self.start_from_rest(),
+            (StartupCommand::Cancel, startup) => {
+                dropped.iter().for_each(Dropped::cancel);
+                startup.iter().for_each(StartupState::cancel);
             }
+            (StartupCommand::Choose(number), Some(startup)) => startup.stay_at(number),
+            (StartupCommand::Follow(follow), Some(startup)) => startup.follow(follow),
+            (StartupCommand::Replay, Some(startup)) => {
+                startup.stay_at(1);
+                (view.phase, view.playing) = (0.0, true);
+            }
+            (_, None) => {}
         }
     }
 

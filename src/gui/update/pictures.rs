@@ -26,26 +26,21 @@ impl Updater {
             let rgb = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
             self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }), dialogs::PICTURE);
         }
-        let mut ended = Vec::new();
-        self.writing.retain(|task| match task.drain().end {
-            Some(end) => {
-                ended.push(end.unwrap_or_else(|panic| Err(Some(panic))));
-                false
+        let Self { writing, state, .. } = self;
+        writing.retain(|task| {
+            match task.drain().end {
+                None => return true,
+                Some(Ok(Ok(paths))) => state.exports.written = Some(paths),
+                Some(Ok(Err(Some(error))) | Err(error)) => state.fail(error),
+                Some(Ok(Err(None))) => {}
             }
-            None => true,
+            false
         });
-        for end in ended {
-            match end {
-                Ok(paths) => self.state.exports.written = Some(paths),
-                Err(Some(error)) => self.state.fail(error),
-                Err(None) => {}
-            }
-        }
     }
 
     /// Writes a picture to this file.
     pub(super) fn write_picture(&mut self, picture: Picture, path: &Path) {
-        let path = match dialogs::complete_picture(path) {
+        let path = match dialogs::complete(path.to_owned(), "picture of the window", &["png"]) {
             Ok(path) => path,
             Err(reason) => return self.state.fail(reason),
         };

@@ -60,7 +60,6 @@ fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
         (Some(_), true) => Asked::NewFile,
         (Some(_), false) => Asked::File,
     };
-    // Without a portal and without zenity the library answers as if the dialog had been closed, but at once.
     match start.parent.ask(&FileDialog { asked, title, filter, name: &start.name }) {
         Some(path) => Answer::Path(path),
         None if HAS_FILES && started.elapsed() < TOO_SOON => Answer::NoDialog,

@@ -46,17 +46,14 @@ impl Updater {
             }
             Command::OpenDialog => self.ask(Purpose::Open, ""),
             Command::OpenPathPrompt => {
-                let prompt = PathPrompt::asked(
-                    &[Purpose::Open, Purpose::Save(None)],
-                    state.failed_path.take().map_or_else(|| state.suggested_name(), |(_, path)| path),
-                );
-                state.modal = Some(Modal::Path(prompt));
+                let purposes = vec![Purpose::Open, Purpose::Save(None)];
+                let path = state.failed_path.take().map_or_else(|| state.suggested_name(), |(_, path)| path);
+                state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: false, fresh: true }));
             }
-            Command::Save => self.save(None),
+            Command::Save(then) => self.save(then),
             Command::SaveAs => self.save_as(None),
             Command::SavePath(path, then) => self.save_to(&path, then),
-            Command::SaveThen(next) => self.save(Some(next)),
-            Command::QuitAnyway => self.quit(),
+            Command::QuitAnyway => self.proceed_with_document(Next::Quit),
             Command::DiscardThen(next) => self.discard_then(next),
             Command::CloseModal => state.modal = None,
             Command::TypePath(path) => {
@@ -90,7 +87,7 @@ impl Updater {
             Command::Export(export) => self.ask(Purpose::Export(export), export.file_name()),
             Command::WriteExport(export, path) => self.export(export, &path),
             Command::CancelExport => state.exports.cancel(),
-            Command::CloseExportNote => state.exports.close(),
+            Command::CloseExportNote => state.exports.written = None,
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
                 None => state.view.playing = !state.view.playing,
@@ -215,7 +212,8 @@ impl Updater {
                     Purpose::Export(export) => failed.unwrap_or_else(|| export.file_name().to_owned()),
                     Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                 };
-                self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));
+                let purposes = vec![purpose];
+                self.state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: true, fresh: true }));
             }
         }
     }

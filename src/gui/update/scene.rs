@@ -82,12 +82,8 @@ impl Updater {
         }
     }
 
-    /// Closes the window although work goes on; asks about unsaved changes.
-    pub(super) fn quit(&mut self) {
-        self.proceed_with_document(Next::Quit);
-    }
-
-    fn proceed_with_document(&mut self, next: Next) {
+    /// The same although work goes on.
+    pub(super) fn proceed_with_document(&mut self, next: Next) {
         // A file that cannot be opened takes nothing away, and a lesson goes on.
         let loses = match &next {
             Next::Preset(_) | Next::New(_) | Next::Quit => true,

@@ -1,16 +1,12 @@
 //! Derivatives and random scenes: computed.
 
-use super::updater::Updater;
+use super::updater::{REDRAW, Updater};
 use crate::gui::command::SensitivityCommand;
 use crate::gui::state::sensitivity::SEED;
 use crate::job::sensitivity::{Derivatives, Draws};
 use crate::job::task::Task;
 use crate::solve::Settings;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// Progress is drawn at most this often.
-const REDRAW: Duration = Duration::from_millis(100);
 
 impl Updater {
     /// Does what is asked about what the results depend on.

@@ -1,15 +1,11 @@
 //! What is asked of the sweep, carried out.
 
-use super::updater::Updater;
+use super::updater::{REDRAW, Updater};
 use crate::gui::command::SweepCommand;
 use crate::job::sweep::{Points, SweepTask};
 use crate::job::task::Task;
 use crate::solve::Settings;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// Points are drawn as they come, but at most this often.
-const REDRAW: Duration = Duration::from_millis(100);
 
 impl Updater {
     pub(super) fn sweep(&mut self, command: SweepCommand) {

@@ -123,5 +123,8 @@ impl Updater {
     }
 }
 
+/// Progress is drawn at most this often.
+pub(super) const REDRAW: Duration = Duration::from_millis(100);
+
 /// Zoom of the lecture size, relative to the user's own.
 pub(super) const LECTURE_ZOOM: f32 = 1.35;

@@ -95,7 +95,7 @@ fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
         let discard = ui.button("Don't save");
         let keep = ui.button("Keep editing");
         let answers = [
-            (save, vec![Command::SaveThen(next.clone())]),
+            (save, vec![Command::Save(Some(next.clone()))]),
             (discard, vec![Command::DiscardThen(next.clone())]),
             (keep, Vec::new()),
         ];

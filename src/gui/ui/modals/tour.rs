@@ -32,11 +32,7 @@ pub fn beside(part: Rect, size: Vec2, room: Rect) -> Rect {
         let common = rect.intersect(part);
         if common.is_positive() { common.area() } else { 0.0 }
     };
-    let candidates = corners.map(inside);
-    candidates
-        .into_iter()
-        .reduce(|best, next| if covered(&next) < covered(&best) { next } else { best })
-        .unwrap_or(part)
+    corners.map(inside).into_iter().min_by(|a, b| covered(a).total_cmp(&covered(b))).unwrap_or(part)
 }
 
 /// Shows a stop of the tour.

@@ -2,10 +2,10 @@
 
 use crate::control::Progress;
 use crate::gui::derived::format::power_of_ten;
-use crate::gui::ui::chart::{bare, line, powers, whole};
+use crate::gui::ui::chart::{bare, level, line, powers, whole};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui;
-use egui_plot::{HLine, LineStyle, PlotPoints, Points};
+use egui_plot::{LineStyle, PlotPoints, Points};
 
 /// Height of the plot, in lines of text.
 const HEIGHT: f32 = 9.0;
@@ -42,13 +42,7 @@ pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
             }
         }
         for tolerance in tolerances {
-            plot.hline(
-                HLine::new("", tolerance.log10())
-                    .color(cx.colours.quiet)
-                    .width(1.0)
-                    .style(LineStyle::dashed_dense())
-                    .allow_hover(false),
-            );
+            plot.hline(level(tolerance.log10(), cx.colours.quiet, 1.0).style(LineStyle::dashed_dense()));
         }
         for (grid, points) in lines(history).into_iter().enumerate() {
             let share = (grid + 1) as f32 / grids as f32;

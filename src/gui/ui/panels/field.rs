@@ -63,7 +63,7 @@ impl Field<'_> {
             (None, _) => present.clone(),
         };
         let alarmed = self.refused.is_some() && edit.is_some();
-        let free = self.value.is_none_or(is_text);
+        let free = matches!(self.value, None | Some(Value::Text(_)));
         let editor = if self.wrapped && text.len() <= LONGEST_WRAPPED {
             egui::TextEdit::multiline(&mut text).desired_rows(1).return_key(None)
         } else {
@@ -157,10 +157,6 @@ pub fn enter(ui: &egui::Ui, key: &'static str, value: &Value) {
 
 fn id_of(key: &'static str) -> Id {
     Id::unique(("parameter", key))
-}
-
-fn is_text(value: &Value) -> bool {
-    matches!(value, Value::Text(_))
 }
 
 /// The value as it is edited: texts in full.

@@ -25,7 +25,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         headline(ui, "", "Force", &uncertain(Estimate { value: reading.force, error: reading.error }), unit);
         cx.note(ui, "force of the film on the plate, positive if it pushes");
         ui.add_space(4.0);
-        let [least, most] = hold.force_range();
+        let [least, most] = hold.force_range;
         number(ui, cx, "Since it was at rest", &span(least, most), unit);
         number(ui, cx, area, &shown(reading.ratio), "");
         section(ui, "Gap");

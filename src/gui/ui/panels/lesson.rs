@@ -84,14 +84,12 @@ fn dots(ui: &mut Ui, running: &RunningLesson, lesson: &Lesson, cx: &DrawContext<
             } else {
                 ui.painter().circle_filled(area.center(), radius, colour);
             }
-            let word = if skipped {
-                "skipped"
-            } else if work.left {
-                "done"
-            } else {
-                "to come"
+            let word = match (i == running.step, skipped, work.left) {
+                (true, ..) => "on screen",
+                (_, true, _) => "skipped",
+                (_, _, true) => "done",
+                _ => "to come",
             };
-            let word = if i == running.step { "on screen" } else { word };
             dot.on_hover_text(format!("{}: {word}", step.title));
         }
     });
@@ -151,7 +149,7 @@ fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
         if let Some(next) = next {
             let button = button::next(ui, "Next lesson", true, cx);
             if button.on_hover_text("Enter").clicked() {
-                cx.push(LessonCommand::Open(next));
+                cx.push(LessonCommand::Open(next, None));
             }
         }
     });

@@ -17,7 +17,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let document = &cx.state.document;
     egui::MenuBar::new().ui(ui, |ui| {
         menu(ui, "File", &mut |ui| file(ui, cx));
-        menu(ui, "Presets", &mut |ui| built_in(ui, cx));
+        menu(ui, "Presets", &mut |ui| presets_menu(ui, |name| Next::Preset(name).into(), cx));
         menu(ui, "Edit", &mut |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, cx);
             item(ui, "Redo", document.can_redo(), Command::Redo, cx);
@@ -51,16 +51,11 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let mark = if document.is_dirty() { " •" } else { "" };
         let name = show_text(&document.scene().title(document.saved()));
         let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
-        let place = document.path().map_or_else(
-            || {
-                if document.is_practice() {
-                    "set up by the lesson, to try things on".to_owned()
-                } else {
-                    "built-in preset, not saved".to_owned()
-                }
-            },
-            |p| p.display().to_string(),
-        );
+        let place = match document.path() {
+            Some(path) => path.display().to_string(),
+            None if document.is_practice() => "set up by the lesson, to try things on".to_owned(),
+            None => "built-in preset, not saved".to_owned(),
+        };
         title.hint(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
     });
 }
@@ -151,7 +146,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
     }
     ui.separator();
-    item(ui, "Save", true, Command::Save, cx);
+    item(ui, "Save", true, Command::Save(None), cx);
     item(ui, "Save as…", true, Command::SaveAs, cx);
     ui.separator();
     menu(ui, "Export", &mut |ui| exports(ui, cx));
@@ -175,7 +170,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         };
         let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
         if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {
-            cx.push(LessonCommand::Open(i));
+            cx.push(LessonCommand::Open(i, None));
             ui.close();
         }
     }
@@ -190,10 +185,6 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }
-}
-
-fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
-    presets_menu(ui, |name| Next::Preset(name).into(), cx);
 }
 
 /// All built-in presets; `command` is asked with the one that is clicked.

@@ -26,8 +26,8 @@ const MAIN: &[&str] = &[
     "plate.frequency_khz",
 ];
 
-/// The other groups: table, heading, whether it starts open.
-const GROUPS: &[(&str, &str, bool)] = &[
+/// The groups: table, heading, whether it starts open.
+pub const GROUPS: &[(&str, &str, bool)] = &[
     ("motor", "Motor", true),
     ("stator", "Stator", true),
     ("plate", "Plate", true),
@@ -85,7 +85,8 @@ impl Panel<'_> {
         let line = ui.visuals().widgets.noninteractive.bg_stroke;
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
-            heading(ui, "Main");
+            ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false));
+            ui.add_space(2.0);
             for parameter in main {
                 self.row(ui, parameter);
             }
@@ -412,10 +413,7 @@ impl Panel<'_> {
     /// The default of a parameter that has one in this scene.
     fn default(&self, parameter: &Parameter) -> Option<Value> {
         let own = matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows { .. });
-        if parameter.absent.is_some() || own {
-            return None;
-        }
-        parameter.default()
+        if own { None } else { parameter.default() }
     }
 
     /// Its value in the scene as it was opened or last saved; its default where it had none.
@@ -441,11 +439,6 @@ impl Panel<'_> {
 /// Whether the parameter is among those that the eye meets first. A plate has no minimum spacing.
 fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
     MAIN.contains(&parameter.key) && words::unused(scene, parameter).is_none()
-}
-
-fn heading(ui: &mut egui::Ui, text: &str) {
-    ui.add(egui::Label::new(RichText::new(text).strong()).selectable(false));
-    ui.add_space(2.0);
 }
 
 /// A round arrow in `area`.

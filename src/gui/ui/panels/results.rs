@@ -180,9 +180,9 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
     number(ui, cx, "Fidelity", &run.fidelity.to_string(), "");
     match &run.solution.outcome {
-        Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha.error), ""),
+        Outcome::Motor(result) => number(ui, cx, "Error of α", &significant(result.alpha.error, 2), ""),
         Outcome::Plate(result) => {
-            number(ui, cx, "Error of the load", &rough(result.film_load.error), force_unit(&run.problem));
+            number(ui, cx, "Error of the load", &significant(result.film_load.error, 2), force_unit(&run.problem));
         }
     }
     match run.solution.accuracy.stopped_by {
@@ -298,7 +298,7 @@ pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str,
 
 /// Air and contact as parts of one bar, and what the colours mean.
 fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
-    let height = 0.6 * text_height(ui);
+    let height = 0.6 * ui.text_style_height(&TextStyle::Body);
     let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
     // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
     let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
@@ -327,7 +327,7 @@ fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
 }
 
 fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
-    let side = 0.6 * text_height(ui);
+    let side = 0.6 * ui.text_style_height(&TextStyle::Body);
     // Swatch and text stay on one line.
     ui.horizontal(|ui| {
         let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
@@ -366,17 +366,8 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
     }
 }
 
-fn text_height(ui: &egui::Ui) -> f32 {
-    ui.text_style_height(&TextStyle::Body)
-}
-
 pub(super) fn shown(value: f64) -> String {
     significant(value, DIGITS)
-}
-
-/// An error, to two digits.
-fn rough(error: f64) -> String {
-    significant(error, 2)
 }
 
 pub(super) fn span(least: f64, most: f64) -> String {

@@ -27,7 +27,8 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     let row = ui.horizontal(|ui| {
         play_and_step(ui, view.playing, cx);
-        let alike = same(periods);
+        // Whether all that moves has one period.
+        let alike = periods[1] / periods[0] - 1.0 < 1e-9;
         let slowed = |seconds: f64| {
             let [most, least] = periods.map(|period| thousands(seconds / period));
             if alike { format!("slowed {most}×") } else { format!("slowed {least} to {most}×") }
@@ -104,11 +105,6 @@ fn scrub(ui: &mut egui::Ui, mut at: f64, most: f64, [called, hover]: [&'static s
     let scrub = ui.add(slider.smart_aim(false));
     name(&scrub, called);
     scrub.hint(hover).changed().then_some(at)
-}
-
-/// Whether all that moves has one period.
-fn same([shortest, longest]: [f64; 2]) -> bool {
-    longest / shortest - 1.0 < 1e-9
 }
 
 /// Fidelity, error, time; progress and cancel while something runs.

@@ -6,7 +6,7 @@ use crate::digits::capitalised;
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
-use crate::gui::state::pins::{Note, Page, fidelity};
+use crate::gui::state::pins::{Note, Page, Pin, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
@@ -46,17 +46,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.add_space(2.0);
     match pins.page {
         Page::Fields => {
-            let overlaid: Vec<Overlaid<'_>> = pins
-                .pins()
-                .iter()
-                .zip(pins.runs())
-                .map(|(pin, run)| Overlaid {
-                    id: pin.id,
-                    colour: run_colour(pin.slot, cx.state.dark),
-                    run,
-                    curves: &pin.curves,
-                })
-                .collect();
+            let pinned = pins.pins().iter().zip(pins.runs());
+            let colour = |pin: &Pin| run_colour(pin.slot, cx.state.dark);
+            let overlaid: Vec<_> = pinned.map(|(pin, run)| Overlaid { pin, run, colour: colour(pin) }).collect();
             overlay::show(ui, &overlaid, cx);
         }
         Page::Numbers => numbers(ui, cx),
@@ -75,7 +67,7 @@ fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
 
 /// What became of the last request.
 fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
-    let (text, colour) = match cx.state.pins.note() {
+    let (text, colour) = match &cx.state.pins.note {
         Some(Note::Remark(text)) => (text, cx.colours.quiet),
         Some(Note::Failure(text)) => (text, cx.colours.alarm),
         None => return,
@@ -109,15 +101,9 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         ui.separator();
         add_buttons(ui, cx);
-        if pins.runs().len() > 1
-            && ui
-                .button("Remove all")
-                .hint("Takes all pins away; until there is another one they can be brought back")
-                .clicked()
-        {
-            cx.push(PinCommand::Clear);
-        }
         if pins.runs().len() > 1 {
+            let about = "Takes all pins away; until there is another one they can be brought back";
+            cx.button(ui, "Remove all", about, PinCommand::Clear);
             export_button(ui, COMPARISON, cx);
         }
     });

@@ -15,7 +15,7 @@ use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Scenario};
-use eframe::egui::{Color32, RichText, TextStyle, Ui};
+use eframe::egui::{RichText, TextStyle, Ui};
 use egui_plot::LineStyle;
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
@@ -115,7 +115,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         title(ui, "Spring and damping against the squeeze number", "Squeeze number");
         coefficients(ui, &known, plate.outline(), tall(0), cx);
         ui.add_space(4.0);
-        title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
+        title(ui, &format!("Load over the cycle, {}", known.unit), "Film load");
         cycle(ui, &known, tall(1), cx);
         ui.add_space(4.0);
         table(ui, &known, units(plate), cx);
@@ -126,13 +126,8 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-/// Where spring and damping are drawn in.
-fn pair(cx: &DrawContext<'_>) -> [(&'static str, Color32); 2] {
-    [("spring S", cx.colours.film), ("damping D", cx.colours.contact)]
-}
-
 fn coefficients(ui: &mut Ui, known: &ExactCurves, outline: Outline, height: f32, cx: &DrawContext<'_>) {
-    let [spring, damping] = pair(cx);
+    let (spring, damping) = (("spring S", cx.colours.film), ("damping D", cx.colours.contact));
     // They stay as long as the outline and the window do.
     let curves = once(ui, "small amplitude", (outline, known.window), || small_amplitude(outline, known.window));
     legend(

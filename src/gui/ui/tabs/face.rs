@@ -59,7 +59,8 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     ui.painter().image(picture.id(), rect, whole, Color32::WHITE);
     let ends = [significant(low * 1e9, 3), format!("{} nm", significant(high * 1e9, 3))];
-    let long = format!("Heights, {} × {} µm, x along the wave", micrometres(wide), micrometres(tall));
+    let [length, width] = [wide, tall].map(|metres| significant(f64::from(metres) * 1e6, 3));
+    let long = format!("Heights, {length} × {width} µm, x along the wave");
     let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
     title_with_ends(ui.painter(), &style, titled, "Measured face", [&long, "Heights"], [&ends[0], &ends[1]]);
     let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover());
@@ -71,10 +72,6 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, style.palette.accent));
     style.explain(ui);
     row
-}
-
-fn micrometres(metres: f32) -> String {
-    significant(f64::from(metres) * 1e6, 3)
 }
 
 /// The heights in the colours of fields, y upwards.

@@ -6,7 +6,7 @@ use crate::digits::{capitalised, percent, signed, significant, with_error};
 use crate::gui::command::FitCommand;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
-use crate::gui::state::fit::{FitState, Found, Sought, chooses, quantities};
+use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses, quantities};
 use crate::gui::state::sweep::AxisForm;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title, whole};
 use crate::gui::ui::context::DrawContext;
@@ -38,12 +38,12 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     outline_fields(ui);
     scrolled(ui, "fit", 8.0, |ui| {
         sought(ui, state, cx);
-        let agreement = state.sought().0 == Sought::Agreement;
+        let agreement = state.form().sought == Sought::Agreement;
         if agreement {
             measurements(ui, state, cx);
         }
         if state.measured.is_some() || !agreement {
-            for (i, axis) in state.form().iter().enumerate() {
+            for (i, axis) in state.form().axes.iter().enumerate() {
                 ui.push_id(i, |ui| {
                     ui.horizontal_wrapped(|ui| key(ui, i, axis, cx));
                     if let Some(fault) = state.faults().get(i).and_then(Option::as_ref) {
@@ -78,7 +78,8 @@ fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         (Sought::Greatest, "the greatest value of"),
         (Sought::Least, "the least value of"),
     ];
-    let (sought, name, limits) = state.sought();
+    let FitForm { sought, quantity: name, limits, .. } = state.form();
+    let (sought, name) = (*sought, *name);
     ui.horizontal_wrapped(|ui| {
         ui.label("Look for");
         let chosen = KINDS.iter().find(|(kind, _)| *kind == sought).map_or("", |(_, words)| *words);
@@ -159,37 +160,34 @@ fn key(ui: &mut Ui, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
         log: (&format!("Equal ratios of {of}"), "Searched by equal ratios instead of equal steps"),
     };
     row.show(ui, cx, |edit| FitCommand::Axis(i, edit).into());
-    if cx.state.fit.form().len() > 1 {
+    if cx.state.fit.form().axes.len() > 1 {
         let less = ("✕", "Leaves it as it is in the scene");
         cx.small_button(ui, less, format!("Do not choose {of}"), FitCommand::Remove(i));
     }
 }
 
 fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
+    let agreement = state.form().sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.running() {
             cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
             ui.spinner();
-            let told = state.told.map_or_else(
-                || "Solving the starts…".to_owned(),
-                |(points, best)| {
-                    let what = if state.sought().0 == Sought::Agreement { "χ²" } else { "best" };
-                    format!("{points} points tried, {what} {}", significant(best, 3))
-                },
-            );
-            ui.label(told);
+            let what = if agreement { "χ²" } else { "best" };
+            ui.label(match state.told {
+                Some((points, best)) => format!("{points} points tried, {what} {}", significant(best, 3)),
+                None => "Solving the starts…".to_owned(),
+            });
             return;
         }
-        let agreement = state.sought().0 == Sought::Agreement;
-        let good = state.faults().iter().all(Option::is_none) && !state.form().is_empty();
+        let good = state.faults().iter().all(Option::is_none) && !state.form().axes.is_empty();
         let good = good && (agreement || state.goal_fault().is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";
         let text = if agreement { "Fit the scene" } else { "Find the optimum" };
         if button::first(ui, text, (state.found.is_none(), good), cx).hint(about).clicked() {
             cx.push(FitCommand::Start);
         }
-        if state.has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
-            cx.push(FitCommand::Add);
+        if state.form().has_room() {
+            cx.button(ui, "Add a key…", "One more parameter to choose", FitCommand::Add);
         }
     });
     if let Some(failure) = &state.failure {

@@ -59,22 +59,16 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         }
         let floats = hold.plate().load.is_some();
         let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
-        match hold.free() {
-            Some(true) => {
-                let about = "The vibration ends, and the plate sinks";
-                cx.button(ui, "Stop", about, HoldCommand::LetGo { vibrates: false });
-            }
-            Some(false) => {
-                cx.button(ui, "Vibrate", "The vibration begins again", HoldCommand::LetGo { vibrates: true });
-            }
-            None => {
-                cx.button(ui, "Let go", hint, HoldCommand::LetGo { vibrates: true });
-            }
-        }
+        let (text, about, vibrates) = match hold.free {
+            Some(true) => ("Stop", "The vibration ends, and the plate sinks", false),
+            Some(false) => ("Vibrate", "The vibration begins again", true),
+            None => ("Let go", hint, true),
+        };
+        cx.button(ui, text, about, HoldCommand::LetGo { vibrates });
         cx.button(ui, "Reset", "Mean gap, ambient pressure, empty charts", HoldCommand::Reset);
     });
     ui.horizontal(|ui| {
-        let mut seconds = hold.seconds();
+        let mut seconds = hold.seconds;
         ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
         let label = glossary::term(ui, "Leak time takes", "Leak time");
         let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);

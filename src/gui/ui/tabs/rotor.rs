@@ -51,14 +51,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             Some(Err(_)) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
             Some(_) => {}
         }
-        let found = match known {
-            Some(Ok(found)) => Some(found),
-            Some(Err(why)) => {
-                cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
-                None
-            }
-            None => None,
-        };
+        if let Some(Err(why)) = known {
+            cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
+        }
+        let found = known.and_then(|known| known.as_ref().ok());
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         if let Some(found) = found {
@@ -76,14 +72,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// The models in the order of the legend, each with its colour and line.
-fn styles(cx: &DrawContext<'_>) -> [(Color32, LineStyle); 3] {
-    let colours = &cx.colours;
-    [(colours.film, SOLID), (colours.contact, LineStyle::dashed_loose()), (colours.rotor, LineStyle::dashed_dense())]
-}
-
 fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<'_>) {
-    let styled: Vec<_> = found.curves.iter().zip(styles(cx)).collect();
+    let (film, contact, rotor) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
+    let styles = [(film, SOLID), (contact, LineStyle::dashed_loose()), (rotor, LineStyle::dashed_dense())];
+    let styled: Vec<_> = found.curves.iter().zip(styles).collect();
     let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (&*curve.name, *colour, *style)).collect();
     legend(ui, &entries);
     let em = ui.text_style_height(&TextStyle::Body);
@@ -214,7 +206,9 @@ fn section(
     if let Some(bent) = bent {
         elements(&painter, ui, bent, scale, [wide, tall], cx);
     }
-    contact(&painter, [1e3 * radius, 1e3 * width], now[2], scale, cx);
+    // Where the stator touches.
+    let touching = [-0.5, 0.5].map(|part| scale.at(1e3 * radius + part * (1e3 * width), now[2]));
+    painter.line_segment(touching, Stroke::new(4.0, cx.colours.contact));
     supports(&painter, scale, cx);
     let mut dragging = false;
     for (number, (part, lengths)) in parts.iter().zip(&boxes).enumerate() {
@@ -306,12 +300,6 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, 
     );
     let at = painter.clip_rect().left_bottom() + vec2(4.0, -4.0);
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
-}
-
-/// Where the stator touches.
-fn contact(painter: &egui::Painter, [radius, width]: [f64; 2], height: f64, scale: Scale, cx: &DrawContext<'_>) {
-    let ends = [scale.at(radius - 0.5 * width, height), scale.at(radius + 0.5 * width, height)];
-    painter.line_segment(ends, Stroke::new(4.0, cx.colours.contact));
 }
 
 /// Where it is held.

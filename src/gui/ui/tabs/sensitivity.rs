@@ -83,8 +83,8 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
                 cx.push(SensitivityCommand::Start);
             }
         }
-        if state.found.is_some() && ui.button("Export…").hint(Export::Sensitivity.about()).clicked() {
-            cx.push(Command::Export(Export::Sensitivity));
+        if state.found.is_some() {
+            cx.button(ui, "Export…", Export::Sensitivity.about(), Command::Export(Export::Sensitivity));
         }
     });
 }
@@ -161,7 +161,7 @@ fn tornado(ui: &mut Ui, shown: Shown<'_>) {
     let gutter = names.iter().map(|name| text_width(ui, name)).fold(0.0, f32::max) + 0.8 * em;
     let height = BAR * em * count as f32 + 1.6 * em;
     let ends = bars.iter().flat_map(|(_, bar)| [bar.value - bar.error, bar.value + bar.error]);
-    let [low, high] = ends.fold([0.0_f64; 2], |[low, high], end| [low.min(end), high.max(end)]);
+    let [low, high] = span(ends.chain([0.0]));
     let room = MARGIN * (high - low);
     let name = "Tornado chart";
     let rows: Vec<GridMark> = (0..bars.len()).map(|row| GridMark { value: -(row as f64), step_size: 1.0 }).collect();
@@ -222,22 +222,14 @@ fn monte_carlo(ui: &mut Ui, shown: Shown<'_>) {
         }
     });
     let Some(carlo) = state.carlo.as_ref() else { return };
-    if !carlo.failures.is_empty() {
-        let text = format!(
-            "{} could not be solved and are missing, the first because {}",
-            carlo.failures.len(),
-            carlo.failures[0]
-        );
+    if let [first, ..] = &carlo.failures[..] {
+        let failed = carlo.failures.len();
+        let text = format!("{failed} could not be solved and are missing, the first because {first}");
         cx.say(ui, text, cx.colours.alarm);
     }
     if carlo.redrawn > 0 {
-        cx.note(
-            ui,
-            format!(
-                "{} were outside of what is allowed and were drawn again, which makes the spread smaller",
-                carlo.redrawn
-            ),
-        );
+        let what = "were outside of what is allowed and were drawn again, which makes the spread smaller";
+        cx.note(ui, format!("{} {what}", carlo.redrawn));
     }
     let Some(spread) = carlo.spread(output) else { return };
     let (from, width, bins) = &spread.bins;
@@ -329,18 +321,9 @@ fn field(ui: &mut Ui, state: &SensitivityState, parameter: &'static Parameter, w
         .desired_width(width)
         .hint_text("none")
         .text_color_opt(refused.map(|_| cx.colours.alarm));
-    let about = refused.map_or_else(
-        || {
-            format!(
-                "A standard deviation in {} or in per cent, as 20%; with ± in front limits, as ±10%",
-                match parameter.unit {
-                    "" => "plain numbers",
-                    unit => unit,
-                }
-            )
-        },
-        str::to_owned,
-    );
+    let unit = if parameter.unit.is_empty() { "plain numbers" } else { parameter.unit };
+    let usual = format!("A standard deviation in {unit} or in per cent, as 20%; with ± in front limits, as ±10%");
+    let about = refused.map_or(usual, str::to_owned);
     let name = format!("Uncertainty of {}", label(parameter));
     if ui.add(editor).accessible_name(name).hint(about).changed() {
         cx.push(SensitivityCommand::Uncertainty(parameter.key, text));

@@ -97,7 +97,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
         cx.warn(ui, &ended.warnings);
     }
     if startup.stale(cx.state.document.scene()) {
-        let text = format!("Of “{}” before the scene changed; start again", startup.name());
+        let text = format!("Of “{}” before the scene changed; start again", startup.scene.name);
         cx.say(ui, text, cx.colours.alarm);
     }
     if let Some(point) = startup.points.get(startup.chosen().wrapping_sub(1)) {

@@ -9,22 +9,12 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, list};
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::{SWEEP, export_button};
+use crate::gui::ui::panels::parameters::GROUPS;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
 use crate::gui::ui::{button, fidelity, glossary};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Ui, WidgetInfo};
-
-/// Names of the groups of parameters, by table.
-const TABLES: &[(&str, &str)] = &[
-    ("motor", "Motor"),
-    ("stator", "Stator"),
-    ("rotor", "Rotor"),
-    ("plate", "Plate"),
-    ("film", "Film"),
-    ("surface", "Surface"),
-    ("numerics", "Numerics"),
-];
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -37,12 +27,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         return;
     };
     state(ui, swept, cx);
-    let sweep = &swept.sweep;
-    let quantity = cx.state.sweep.quantity(&sweep.quantities());
+    let quantity = cx.state.sweep.quantity(&swept.sweep.quantities());
     let present = if swept.stale(cx.state.document.scene()) { None } else { swept.present(cx.state.document.scene()) };
-    let (number, rows, published) = (swept.number, &swept.rows[..], &swept.published[..]);
-    let plotted = Plotted { number, sweep, rows, quantity, published, present: present.as_deref() };
-    swept::show(ui, &plotted, cx);
+    swept::show(ui, &Plotted { swept, quantity, present: present.as_deref() }, cx);
 }
 
 /// The form, with what is wrong with it.
@@ -56,7 +43,7 @@ fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
             }
         });
     }
-    if let Some(refusal) = cx.state.sweep.refusal() {
+    if let Some(refusal) = &cx.state.sweep.refusal {
         cx.say(ui, refusal, cx.colours.alarm);
     }
 }
@@ -66,7 +53,7 @@ fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContex
     let groups = || {
         let group =
             |table: &str| candidates(cx.state.document.scene()).filter(|found| found.table() == table).collect();
-        let groups = TABLES.iter().map(|(table, title)| (*title, group(table)));
+        let groups = GROUPS.iter().map(|(table, title, _)| (*title, group(table)));
         groups.filter(|(_, group): &(_, Vec<_>)| !group.is_empty()).collect()
     };
     let row = AxisRow {
@@ -92,10 +79,9 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     let running = swept.filter(|swept| swept.running);
     let building = cx.state.sweep.building();
     ui.horizontal_wrapped(|ui| {
-        if (building || running.is_some())
-            && ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked()
-        {
-            cx.push(SweepCommand::Cancel);
+        if building || running.is_some() {
+            let about = "Ends it; what is solved stays, and it can go on";
+            cx.button(ui, "Cancel the sweep", about, SweepCommand::Cancel);
         }
         match running {
             _ if building => drop(ui.label("Its points are being made")),
@@ -166,20 +152,11 @@ fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
         let text = format!("Cancelled; {} of {} points are solved", swept.rows.len(), swept.sweep.len());
         say(text, cx.colours.quiet);
     }
-    let count = |failed: bool| {
-        swept
-            .rows
-            .iter()
-            .filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed && !converged(&row.status))
-            .count()
-    };
+    let unsound = || swept.rows.iter().filter(|row| row.status != RunStatus::Converged);
+    let count = |failed: bool| unsound().filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed).count();
     for (number, what) in [(count(false), "did not converge"), (count(true), "have no solution")] {
         if number > 0 {
             say(format!("{number} of the points {what}: crosses, point at one to read why"), cx.colours.quiet);
         }
     }
-}
-
-fn converged(ending: &RunStatus) -> bool {
-    *ending == RunStatus::Converged
 }

@@ -191,32 +191,28 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     let (with, without) = (&merit.with_film, &merit.without_film);
     let speed = |found: Option<Estimate>| stated(found, merit.rpm(1.0), "rpm");
     let present = format!("Torque at {} rpm", as_given(merit.rpm(motor.rotor_speed)));
-    type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
-    // What it is called here, its value, and what the glossary explains it under.
-    let rows: Vec<(&str, Cell<'_>, &str)> = vec![
-        ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
-        (
-            "Maximum operating torque",
-            Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")),
-            "Maximum operating torque",
-        ),
-        ("No-load speed", Box::new(move |of| speed(of.no_load_speed)), "No-load speed"),
-        ("Greatest power", Box::new(|of| stated(Some(of.max_power), 1.0, "W")), "Greatest power"),
-        ("    at", Box::new(move |of| speed(of.max_power_speed)), "Greatest power"),
-        ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
-        ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
-        (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
-        ("Friction heat there", Box::new(|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
+    let both = |value: &dyn Fn(&Performance) -> String| [with, without].map(value);
+    // What it is called here, its values, and what the glossary explains it under.
+    let rows = [
+        ("Stall torque", both(&|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
+        ("Maximum operating torque", both(&|of| stated(Some(of.max_torque), 1.0, "N·m")), "Maximum operating torque"),
+        ("No-load speed", both(&|of| speed(of.no_load_speed)), "No-load speed"),
+        ("Greatest power", both(&|of| stated(Some(of.max_power), 1.0, "W")), "Greatest power"),
+        ("    at", both(&|of| speed(of.max_power_speed)), "Greatest power"),
+        ("Greatest efficiency", both(&|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
+        ("    at", both(&|of| speed(of.max_efficiency_speed)), "Efficiency"),
+        (&present, both(&|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
+        ("Friction heat there", both(&|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
     ];
     table::table(ui, "figures of merit", 3, 10.0, |ui| {
         ui.label("");
         table::heads(ui, &[("With film", "With film")], cx.colours.film);
         table::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
         ui.end_row();
-        for (name, cell, word) in &rows {
-            glossary::term(ui, RichText::new(*name).color(cx.colours.quiet), word);
-            for of in [with, without] {
-                glossary::term(ui, RichText::new(cell(of)).color(ui.visuals().strong_text_color()), word);
+        for (name, values, word) in rows {
+            glossary::term(ui, RichText::new(name).color(cx.colours.quiet), word);
+            for value in values {
+                glossary::term(ui, RichText::new(value).color(ui.visuals().strong_text_color()), word);
             }
             ui.end_row();
         }

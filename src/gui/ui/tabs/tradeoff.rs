@@ -6,9 +6,10 @@ use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
 use crate::digits::{self, short};
 use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
+use crate::gui::derived::scales::span;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
-use crate::gui::ui::chart::{axes, key, line, numbered, place as chart_place, powers};
+use crate::gui::ui::chart::{axes, key, level, line, numbered, place as chart_place, powers, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::scroll::scrolled;
@@ -16,7 +17,7 @@ use crate::gui::ui::table;
 use crate::gui::ui::{button, glossary};
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points, VLine};
+use egui_plot::{AxisHints, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points};
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
@@ -81,12 +82,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 }
             }
         }
-        if cx
-            .state
-            .tradeoff
-            .as_ref()
-            .is_some_and(|measured| !measured.running() && !measured.tradeoff.points.is_empty())
-        {
+        if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
                 cx.button(ui, text, export.about(), Command::Export(export));
@@ -105,7 +101,7 @@ const INTRODUCTION: &[&str] = &[
 /// Of what, and whether that still is the scene.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
-        let text = format!("Measured on “{}” before the scene changed; measure again", measured.name());
+        let text = format!("Measured on “{}” before the scene changed; measure again", measured.scene.name);
         cx.say(ui, text, cx.colours.alarm);
     } else if measured.cancelled {
         let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
@@ -114,7 +110,8 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if let Some(failure) = &measured.failure {
         cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
     }
-    let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(&point.run.status)).count();
+    let usable = |point: &&Point| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
+    let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(point)).count();
     if unconverged > 0 {
         let text = format!("{unconverged} of the settings did not converge: they are in the table only");
         cx.note(ui, text);
@@ -124,10 +121,6 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
 /// Whether the window solves with just this setting.
 fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
     is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
-}
-
-fn usable(ended: &RunStatus) -> bool {
-    matches!(ended, RunStatus::Waiting | RunStatus::Converged)
 }
 
 /// Where the families stand, in colour and shape.
@@ -210,13 +203,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
         let guide = LineStyle::dashed_loose();
         let quiet = cx.colours.quiet;
         let within = |low: f64, value: f64, high: f64| value > low && value < high;
-        let range = |axis: usize| {
-            tradeoff
-                .points
-                .iter()
-                .filter_map(place)
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
-        };
+        let range = |axis: usize| span(tradeoff.points.iter().filter_map(place).map(|at| at[axis]));
         let ([left, right], [bottom, top]) = (range(0), range(1));
         // Room for the names, at the left of their points.
         for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
@@ -229,10 +216,10 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
         // Wishes beyond all points would only squeeze them together.
         let (accuracy, budget) = ((100.0 * cx.state.view.accuracy).log10(), cx.state.view.budget.log10());
         if within(bottom, accuracy, top) {
-            plot.hline(HLine::new("", accuracy).color(quiet).width(1.0).style(guide).allow_hover(false));
+            plot.hline(level(accuracy, quiet, 1.0).style(guide));
         }
         if within(left, budget, right) {
-            plot.vline(VLine::new("", budget).color(quiet).width(1.0).style(guide).allow_hover(false));
+            plot.vline(upright(budget, quiet, 1.0).style(guide));
         }
         let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|p| p.best).filter_map(place).collect();
         front.sort_by(|a, b| a[0].total_cmp(&b[0]));

@@ -1,9 +1,9 @@
 //! The pressure map as a picture: resampled from the graded nodes to pixels, one texture for each map on screen.
 
 use crate::fidelity::Fidelity;
-use crate::gui::derived::sample::{self, Plane, between};
 use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
 use crate::recording::Recording;
+use crate::recording::sample::{self, Plane, between};
 use eframe::egui::{Color32, ColorImage, Id, Painter, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
 /// Texels across the width: the field is smooth, the graphics card interpolates.
@@ -34,21 +34,24 @@ struct Picture {
     texture: TextureHandle,
 }
 
-/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `axes.rect`: all of
-/// it, so that it needs no canvas below.
+/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `rect`: all of
+/// it, so that it needs no canvas below. Returns the axes, along x and across the width.
 pub(super) fn draw(
     ui: &Ui,
     style: &PlotStyle,
     painter: &Painter,
-    axes: &Axes,
+    rect: Rect,
     recording: &Recording,
     name: &str,
     stamp: Stamp,
-) {
+) -> Axes {
+    let half = sample::half_width(recording);
+    let axes = Axes::new(rect, stamp.x, [-half, half]);
+    let stamp = Stamp { x: axes.x, ..stamp };
     let ground = style.palette.canvas;
     let scale = painter.pixels_per_point();
     let texels = |length: f32, most: usize| ((length * scale).round().max(1.0) as usize).min(most);
-    let size = [texels(axes.rect.width(), MOST_COLUMNS), texels(axes.rect.height(), MOST_ROWS)];
+    let size = [texels(rect.width(), MOST_COLUMNS), texels(rect.height(), MOST_ROWS)];
     let id = Id::unique(("squeezefilm map", name));
     let known = ui.data(|data| data.get_temp::<Picture>(id));
     let texture = match known {
@@ -67,7 +70,8 @@ pub(super) fn draw(
         }
     };
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    painter.image(texture.id(), axes.rect, whole, Color32::WHITE);
+    painter.image(texture.id(), rect, whole, Color32::WHITE);
+    axes
 }
 
 /// Pixels of the map, row by row from y = +w/2 down; the ground beside the teeth.

@@ -172,26 +172,12 @@ fn plot(
 
 /// A cycle's numbers in words.
 pub fn words(point: &Point, scenario: &Scenario) -> String {
-    let kilo = |pressure: f64| number(pressure / 1e3);
-    match (&point.outcome, scenario) {
-        (Outcome::Motor(result), _) => format!(
-            "cycle {}: α {:.4} ± {:.1e}, least film thickness {} µm, highest pressure {} kPa absolute",
-            point.number,
-            result.alpha.value,
-            result.alpha.error,
-            number(result.min_film_thickness.value * 1e6),
-            kilo(result.max_pressure.value),
-        ),
-        (Outcome::Plate(result), Scenario::Plate(plate)) => {
-            let ratio = result.film_load * PlateResult::ratio(1.0, plate);
-            format!(
-                "cycle {}: load ratio {:.4} ± {:.1e}, highest pressure {} kPa absolute",
-                point.number,
-                ratio.value,
-                ratio.error,
-                kilo(result.max_pressure.value),
-            )
-        }
-        (Outcome::Plate(_), Scenario::Motor(_)) => format!("cycle {}", point.number),
-    }
+    let of = |quantity: &Quantity| (quantity.of)(&point.outcome, scenario);
+    let (cycle, Estimate { value, error }) = (point.number, of(&ALPHA));
+    let (name, thickness) = match scenario {
+        Scenario::Motor(_) => ("α", format!(", least film thickness {} µm", number(of(&THICKNESS).value * 1e6))),
+        Scenario::Plate(_) => ("load ratio", String::new()),
+    };
+    let pressure = number(of(&PRESSURE).value / 1e3);
+    format!("cycle {cycle}: {name} {value:.4} ± {error:.1e}{thickness}, highest pressure {pressure} kPa absolute")
 }

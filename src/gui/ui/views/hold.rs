@@ -3,10 +3,10 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::plate::{load_unit, wall_and_plate};
+use super::plate::wall_and_plate;
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
-use crate::gui::derived::format::{number, times, with_known_digits};
+use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
@@ -92,7 +92,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let force_chart = place(charts.left(), left_end, top + between + title, bottom);
     chart(&painter, &style, gap_chart, &shown, "Gap, µm", 1e-6, style.palette.rotor, |r| [r.gap, 0.0], None);
     let text = format!("Force, {}", unit.0);
-    let force = Some(hold.force_range());
+    let force = Some(hold.force_range);
     let axes_of_force =
         chart(&painter, &style, force_chart, &shown, &text, unit.1, style.palette.film, |r| [r.force, r.error], force);
     time_labels(&painter, &style, &axes_of_force, &shown);
@@ -167,7 +167,7 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
 
 /// The film, coloured by the pressure at mid-width.
 fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.pressure_range();
+    let [low, high] = shown.hold.pressure_range;
     let colours = field_colours();
     let colour = |pressure: f64| colours[(255.0 * (pressure - low) / (high - low)).clamp(0.0, 255.0) as usize];
     shaded(painter, profile_points(shown).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
@@ -184,7 +184,7 @@ fn profile_points<'a>(shown: &'a HoldFrame<'_>) -> impl Iterator<Item = (f64, f6
 
 /// The force of the film on the plate: up where it pushes, down where it pulls.
 fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64, shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.force_range();
+    let [low, high] = shown.hold.force_range;
     // A tenth of the ambient pressure is seen, and what was greatest is as long as there is room.
     let greatest = high.max(-low).max(0.1 * shown.ambient * shown.hold.plate().area());
     let length = ARROW * rect.height() * (force / greatest) as f32;
@@ -215,7 +215,7 @@ fn tag(painter: &Painter, style: &PlotStyle, at: Pos2, anchor: Align2, text: &st
 
 /// Pressure along x at mid-width.
 fn profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.pressure_range();
+    let [low, high] = shown.hold.pressure_range;
     let margin = 0.06 * (high - low);
     let axes = Axes::new(rect, [-shown.half, shown.half], [low - margin, high + margin]);
     axes.canvas(painter, style);
@@ -239,8 +239,6 @@ fn profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'
 /// The pressure over the whole plate.
 fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
     let now = shown.hold.shown();
-    let half = now.y.last().copied().unwrap_or(0.0);
-    let axes = Axes::new(rect, [-shown.half, shown.half], [-half, half]);
     let length = 2.0 * shown.half;
     let recording = Recording {
         lines: LineLoads { frames: 1, length, teeth: 1, stored_teeth: 1, pitch: length, ..LineLoads::default() },
@@ -251,9 +249,10 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFr
         pressure: now.pressure.clone(),
         ..Recording::default()
     };
-    let range = shown.hold.pressure_range();
-    let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x: axes.x, range };
-    field::draw(ui, style, painter, &axes, &recording, "held plate", stamp);
+    let range = shown.hold.pressure_range;
+    let x = [-shown.half, shown.half];
+    let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x, range };
+    let axes = field::draw(ui, style, painter, rect, &recording, "held plate", stamp);
     style.title(painter, rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
     y_labels(painter, style, &axes);
 }

@@ -1,8 +1,10 @@
 //! Contact pressure and film pressure along the wave, gauge, as in the paper's Fig. 4: line loads over the contact width.
 
-use super::motor_frame::MotorFrame;
+use super::motor_frame::{FirstMotor, MotorFrame};
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
+use crate::problem::Motor;
+use crate::recording::Recording;
 use eframe::egui::{Rect, Ui};
 use egui_plot::{LineStyle, PlotResponse, Span};
 
@@ -16,7 +18,6 @@ pub(super) fn draw(
     (rect, gutter): (Rect, f32),
     shown: &MotorFrame<'_>,
 ) -> PlotResponse<()> {
-    let recording = shown.recording;
     let kilo = 1e-3 / shown.motor.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
@@ -32,24 +33,17 @@ pub(super) fn draw(
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
         plot.span(column);
         plot.hline(level(0.0, style.palette.quiet, 1.0));
-        if let Some(first) = &shown.first {
-            let (recording, kilo) = (first.recording, 1e-3 / first.motor.contact_width);
+        if let Some(FirstMotor { recording, motor, lines, .. }) = &shown.first {
             for tooth in 0..recording.teeth {
-                let (nodes, middle) = (first.lines.of(tooth), tooth as f64 * recording.pitch);
-                for field in [&first.lines.contact, &first.lines.film] {
-                    let loads = recording.x.iter().zip(&field[nodes.clone()]);
-                    let curve: Vec<_> = loads.map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect();
+                for field in [&lines.contact, &lines.film] {
+                    let curve = curve(recording, motor, tooth, &field[lines.of(tooth)]);
                     plot.line(line(&curve, style.palette.quiet, 1.2, LineStyle::Solid));
                 }
             }
         }
-        for tooth in 0..recording.teeth {
+        for tooth in 0..shown.recording.teeth {
             let nodes = shown.lines.of(tooth);
-            let middle = tooth as f64 * recording.pitch;
-            let curve = |field: &[f64]| -> Vec<[f64; 2]> {
-                let loads = recording.x.iter().zip(&field[nodes.clone()]);
-                loads.map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect()
-            };
+            let curve = |field: &[f64]| curve(shown.recording, shown.motor, tooth, &field[nodes.clone()]);
             let touching = curve(&shown.lines.contact);
             if touching.iter().any(|at| at[1] != 0.0) {
                 let columns: Vec<[f64; 3]> = touching.iter().map(|at| [at[0], at[1], 0.0]).collect();
@@ -62,4 +56,10 @@ pub(super) fn draw(
             plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
         }
     })
+}
+
+/// The line loads of a tooth as pressures: (x \[mm\], pressure \[kPa\]).
+fn curve(recording: &Recording, motor: &Motor, tooth: usize, loads: &[f64]) -> Vec<[f64; 2]> {
+    let (middle, kilo) = (tooth as f64 * recording.pitch, 1e-3 / motor.contact_width);
+    recording.x.iter().zip(loads).map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect()
 }

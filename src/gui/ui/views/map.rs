@@ -3,18 +3,14 @@
 use super::field::{self, Stamp};
 use super::motor_frame::MotorFrame;
 use crate::gui::derived::format::plain;
-use crate::gui::derived::sample;
 use crate::gui::ui::paint::{Axes, PlotStyle, title_with_bar};
 use eframe::egui::{Align2, Painter, Rect, Stroke, StrokeKind, Ui, pos2};
 
 /// Draws the map into `rect`, with the colour bar in its title and the values of x below.
 pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) {
-    let recording = shown.recording;
-    let half = sample::half_width(recording);
-    let axes = Axes::new(rect, shown.x_range(), [-half, half]);
     let range = shown.scales.pressure;
-    let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: axes.x, range };
-    field::draw(ui, style, painter, &axes, recording, "all teeth", stamp);
+    let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
+    let axes = field::draw(ui, style, painter, rect, shown.recording, "all teeth", stamp);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
     title_with_bar(painter, style, rect, "Pressure map", titles, range);
     y_labels(painter, style, &axes);

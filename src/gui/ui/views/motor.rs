@@ -1,18 +1,18 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
 use super::motor_frame::{FirstMotor, MotorFrame};
-use super::pointer::{Readout, named};
+use super::pointer::{named, read_out, readout_height};
 use super::scales::{FirstRun, scales_of};
 use super::velocity::Place;
 use super::{loads, map, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
-use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
+use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, CursorIcon, Pos2, Rect, pos2};
 
 /// Where the parts go.
@@ -26,7 +26,6 @@ struct Layout {
     /// The followed tooth, titles and axes included.
     tooth: Option<Rect>,
     readout: Rect,
-    gutter: f32,
 }
 
 impl Layout {
@@ -56,7 +55,7 @@ impl Layout {
         let tooth =
             with_tooth.then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(end, under + 2.0 + below)));
         let readout = Rect::from_min_max(pos2(area.left(), area.bottom() - readout), area.right_bottom());
-        Self { wave, loads, map, side, tooth, readout, gutter }
+        Self { wave, loads, map, side, tooth, readout }
     }
 }
 
@@ -90,25 +89,24 @@ pub(super) fn show(
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
     let gutter = style.width(&painter, "−0.000") + 6.0;
-    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
-    let layout = Layout::new(area, style.row, gutter, longest.height(&painter, &style, area.width()));
+    let layout = Layout::new(area, style.row, gutter, readout_height(&LONGEST, &painter, &style, area.width()));
 
     let axes = wave::draw(&painter, &style, layout.wave, &shown);
-    let charted = loads::draw(ui, &style, (layout.loads, layout.gutter), &shown);
+    let charted = loads::draw(ui, &style, (layout.loads, gutter), &shown);
     map::draw(ui, &painter, &style, layout.map, &shown);
     if let Some([rect, profile]) = layout.side {
         ring::draw(ui, &style, rect, (&shown, &axes), cx);
-        velocity(ui, &style, (profile, layout.gutter), &shown);
+        velocity(ui, &style, (profile, gutter), &shown);
     }
     if let Some(rect) = layout.tooth {
-        let charts = tooth::draw(ui, &style, (rect, layout.gutter), &shown, cx);
+        let charts = tooth::draw(ui, &style, (rect, gutter), &shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
             cx.mark_plot(ui, place, chart);
         }
         cx.mark(ui, "tooth", rect);
     }
     wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, &shown);
-    readout(&shown).draw(&painter, &style, layout.readout);
+    read_out(&readout(&shown), &painter, &style, layout.readout);
 
     let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
     let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
@@ -163,17 +161,17 @@ const LONGEST: [&str; 7] = [
     "p at y = 0 0000 kPa absolute",
 ];
 
-fn readout(shown: &MotorFrame<'_>) -> Readout {
+fn readout(shown: &MotorFrame<'_>) -> Vec<String> {
     let recording = shown.recording;
     let [left, right] = shown.x_range();
     let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
-        return Readout { values: vec!["Point at a view to read its values, click a tooth to follow it".to_owned()] };
+        return vec!["Point at a view to read its values, click a tooth to follow it".to_owned()];
     };
     let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth);
     let mut values = vec![format!("x {} mm", number(x * 1e3))];
     let Some(node) = sample::locate(&recording.x, xi) else {
         values.push("groove".to_owned());
-        return Readout { values };
+        return values;
     };
     let lines = &shown.lines;
     let at = |field: &[f64]| sample::between(&field[lines.of(tooth)], node);
@@ -187,7 +185,7 @@ fn readout(shown: &MotorFrame<'_>) -> Readout {
     if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
         values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
     }
-    Readout { values }
+    values
 }
 
 #[cfg(test)]

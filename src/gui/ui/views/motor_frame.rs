@@ -2,10 +2,10 @@
 
 use super::scales::FirstRun;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::sample::Lines;
 use crate::gui::derived::scales::Scales;
 use crate::problem::{Motor, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::Lines;
 
 /// A motor at one instant.
 pub(super) struct MotorFrame<'a> {

@@ -8,13 +8,14 @@ use super::series::{Series, Trace};
 use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
+use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::{LineStyle, PlotResponse};
 
@@ -29,14 +30,12 @@ const PLATE_MAP: f32 = 7.0;
 /// A run among others.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlaid<'a> {
-    /// Its own number, which no other run ever has.
-    pub id: u64,
-    /// Its colour.
-    pub colour: Color32,
+    /// Its number, and scales and curves of its cycle.
+    pub pin: &'a Pin,
     /// The run.
     pub run: &'a ComparedRun,
-    /// Scales and curves of its cycle.
-    pub curves: &'a RunCurves,
+    /// Its colour.
+    pub colour: Color32,
 }
 
 impl<'a> Overlaid<'a> {
@@ -119,27 +118,20 @@ impl Along {
         if self.alike { 1.0 } else { 1.0 / length }
     }
 
-    fn labels(&self, painter: &Painter, style: &PlotStyle, axes: &Axes, length: &str) {
-        if self.alike {
-            axes.x_labels(painter, style, 1e-3, "x, mm");
-        } else {
-            axes.x_labels(painter, style, 1.0, length);
-        }
+    /// Size of the unit that is written.
+    fn unit(&self) -> f64 {
+        if self.alike { 1e-3 } else { 1.0 }
     }
 
     /// What a unit of the axis is in the numbers that are written.
     fn written(&self) -> f64 {
-        if self.alike { 1e3 } else { 1.0 }
+        1.0 / self.unit()
     }
 
     /// A chart over the numbers that are written, and where on the axis the pointer is.
     fn pointed(&self, chart: PlotResponse<()>) -> (Response, Option<f64>) {
         let x = chart.response.hover_pos().map(|at| chart.transform.value_from_position(at).x / self.written());
         (chart.response, x)
-    }
-
-    fn grid(&self, painter: &Painter, style: &PlotStyle, axes: &Axes) {
-        axes.x_grid(painter, style, if self.alike { 1e-3 } else { 1.0 });
     }
 
     /// x under the pointer as the other views have it \[m\], and back.
@@ -193,23 +185,23 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         draw_pressure(ui, &style, place, runs, (x, &along, cursor), names[field], field)
     });
 
-    let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
+    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
     let titles =
         ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
     title_with_bar(&painter, &style, maps[0], "Pressure map", titles, range);
     for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
         let metre = along.metre(run.recording.length);
-        let half = sample::half_width(run.recording);
         // In metres of this run: its own teeth are where its own x says.
-        let axes = Axes::new(*rect, x.map(|x| x / metre), [-half, half]);
-        let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &style, &painter, &axes, run.recording, &format!("overlaid motor {slot}"), stamp);
+        let x = x.map(|x| x / metre);
+        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        let axes = field::draw(ui, &style, &painter, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
         key_beside(&painter, *rect, run.of.colour);
         axes.cursor(&painter, &style, cursor.map(|x| x / metre));
         map_name(ui, *rect, &run.of.run.label, range);
     }
     if let Some(last) = maps.last() {
-        along.labels(&painter, &style, &Axes::new(*last, x, [0.0, 1.0]), "x/λ");
+        let name = if along.alike { "x, mm" } else { "x/λ" };
+        Axes::new(*last, x, [0.0, 1.0]).x_labels(&painter, &style, along.unit(), name);
     }
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
@@ -222,7 +214,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let place = (Rect::from_x_y_ranges(left..=right, loads.y_range()), gutter);
-        let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(run.of.curves))).collect();
+        let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(&run.of.pin.curves))).collect();
         over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
 
@@ -295,7 +287,7 @@ fn draw_surfaces(
     cursor: Option<f64>,
 ) -> Axes {
     let heights = runs.iter().map(|run| {
-        let scales = &run.of.curves.scales;
+        let scales = &run.of.pin.curves.scales;
         [scales.stator[0], (scales.rotor[1] - run.motor.spacing()).max(scales.stator[1])]
     });
     let [low, high] = common(heights);
@@ -312,7 +304,7 @@ fn draw_surfaces(
     ];
     style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    along.grid(painter, style, &axes);
+    axes.x_grid(painter, style, along.unit());
     for run in runs {
         let metre = along.metre(run.recording.length);
         let at = |tooth: usize, node: usize, height: f64| {
@@ -340,7 +332,7 @@ fn draw_pressure(
     field: usize,
 ) -> PlotResponse<()> {
     let kilo = |run: &MotorNow<'_>| 1e-3 / run.motor.contact_width;
-    let ranges = runs.iter().map(|run| run.of.curves.lines[field].map(|load| load * kilo(run)));
+    let ranges = runs.iter().map(|run| run.of.pin.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = common(ranges.chain([[0.0, 0.0]]));
     let margin = 0.06 * (high - low).max(1e-3);
     let written = along.written();
@@ -419,7 +411,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let along = Along::of(runs.iter().map(|run| run.plate.length));
     let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
-    let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
+    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
     let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
     let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
@@ -456,10 +448,9 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
         let left = area.left() + gutter + column * step;
         let rect =
             Rect::from_min_max(pos2(left + if column > 0.0 { 16.0 } else { 0.0 }, top), pos2(left + step, top + map));
-        let half = [0.5 * run.plate.length, sample::half_width(run.recording)];
-        let axes = Axes::new(rect, [-half[0], half[0]], [-half[1], half[1]]);
-        let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &style, &painter, &axes, run.recording, &format!("overlaid plate {slot}"), stamp);
+        let x = [-0.5, 0.5].map(|x| x * run.plate.length);
+        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        field::draw(ui, &style, &painter, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
         key_beside(&painter, rect, run.of.colour);
         map_name(ui, rect, &run.of.run.label, range);
     }
@@ -473,7 +464,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 2.2 * style.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.curves.film)).collect();
+    let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.pin.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
     over_cycle(ui, &style, (left, gutter), title, &kept, (1e3, period), cx);
     draw_loops(ui, &style, (right, gutter), runs, cx.state.view.phase);
@@ -508,12 +499,13 @@ fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
 
 /// Mean gauge pressure against the gap over its mean.
 fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: (Rect, f32), runs: &[PlateNow<'_>], phase: f64) {
-    let loads = common(runs.iter().map(|run| run.of.curves.film.range()).chain([[0.0, 0.0]]));
-    let gaps = common(runs.iter().map(|run| run.of.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
+    let loads = common(runs.iter().map(|run| run.of.pin.curves.film.range()).chain([[0.0, 0.0]]));
+    let gaps = common(runs.iter().map(|run| run.of.pin.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
     let kept = runs.iter().filter_map(|run| {
-        let (curves, _) = run.of.curves.scales.tooth(0)?;
-        let at =
-            move |phase: f64| [curves.thickness.at(phase) / run.plate.mean_gap, 1e-3 * run.of.curves.film.at(phase)];
+        let (curves, _) = run.of.pin.curves.scales.tooth(0)?;
+        let at = move |phase: f64| {
+            [curves.thickness.at(phase) / run.plate.mean_gap, 1e-3 * run.of.pin.curves.film.at(phase)]
+        };
         Some((run.of.colour, Box::new(at) as _))
     });
     let kept: Vec<Loop<'_>> = kept.collect();

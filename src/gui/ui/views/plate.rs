@@ -2,13 +2,12 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::pointer::{Readout, named};
+use super::pointer::{named, read_out, readout_height};
 use super::scales::{FirstRun, scales_of};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines};
+use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -16,6 +15,7 @@ use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
 use crate::job::SolvedScene;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
@@ -67,9 +67,7 @@ pub(super) fn show(
     let gutter = style.width(&painter, "−0.000") + 6.0;
 
     let (title, axis) = (style.row + 7.0, style.row + 3.0);
-    let readout = readout(&shown);
-    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
-    let reserved = longest.height(&painter, &style, area.width());
+    let reserved = readout_height(&LONGEST, &painter, &style, area.width());
     let with_map = plate.width.is_some();
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
@@ -87,11 +85,9 @@ pub(super) fn show(
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
-        let half = sample::half_width(recording);
-        let axes = Axes::new(last, shown.x_range(), [-half, half]);
         let range = scales.pressure;
-        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &style, &painter, &axes, recording, "plate", stamp);
+        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: shown.x_range(), range };
+        let axes = field::draw(ui, &style, &painter, last, recording, "plate", stamp);
         title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &style, &axes);
         axes.cursor(&painter, &style, shown.cursor);
@@ -115,7 +111,7 @@ pub(super) fn show(
         draw_velocity(ui, &style, (*rect, gutter), &shown, (run.number, run.fidelity));
     }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
-    readout.draw(&painter, &style, place);
+    read_out(&readout(&shown), &painter, &style, place);
 
     let wall_response = named(ui, wall, "Plate along its length: point to read values");
     let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
@@ -214,31 +210,16 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
     mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect()
 }
 
-/// Unit of a load: its name and its size.
-pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
-    match (greatest < 0.5, strip) {
-        (true, false) => ("mN", 1e-3),
-        (true, true) => ("mN/m", 1e-3),
-        (false, false) => ("N", 1.0),
-        (false, true) => ("N/m", 1.0),
-    }
-}
-
 fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let [low, high] = shown.scales.tooth_load;
     let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
+    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
     let first = shown.first.and_then(|first| first.scales.tooth(0));
-    let first = first.map(|(curves, lag)| Trace {
-        curve: &curves.film,
-        lag,
-        offset: 0.0,
-        colour: style.palette.quiet,
-        behind: true,
-    });
+    let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, true));
     let legend = style.at_first(first.as_ref());
-    let present = Trace { curve, lag, offset: 0.0, colour: style.palette.film, behind: false };
+    let present = trace(curve, lag, style.palette.film, false);
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
@@ -321,10 +302,10 @@ pub(super) fn show_loops(
 
 const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];
 
-fn readout(shown: &PlateFrame<'_>) -> Readout {
+fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     let [left, right] = shown.x_range();
     let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
-        return Readout { values: vec!["Point at a view to read its values".to_owned()] };
+        return vec!["Point at a view to read its values".to_owned()];
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
@@ -337,5 +318,5 @@ fn readout(shown: &PlateFrame<'_>) -> Readout {
         let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
         values.push(format!("load {} {name}", number(load / unit)));
     }
-    Readout { values }
+    values
 }

@@ -10,37 +10,30 @@ pub(super) fn named(ui: &Ui, rect: Rect, name: &str) -> Response {
     response
 }
 
-/// Values under the cursor.
-pub(super) struct Readout {
-    pub(super) values: Vec<String>,
+/// Values beside each other, in as many lines as they take.
+fn lines<T: AsRef<str>>(values: &[T], painter: &Painter, style: &PlotStyle, width: f32) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for value in values.iter().map(AsRef::as_ref) {
+        let longer = lines.last().map(|line| format!("{line}   {value}"));
+        match (lines.last_mut(), longer.filter(|longer| style.width(painter, longer) <= width)) {
+            (Some(line), Some(longer)) => *line = longer,
+            _ => lines.push(value.to_owned()),
+        }
+    }
+    lines
 }
 
-impl Readout {
-    fn lines(&self, painter: &Painter, style: &PlotStyle, width: f32) -> Vec<String> {
-        let mut lines = vec![String::new()];
-        for value in &self.values {
-            let Some(line) = lines.last_mut() else { break };
-            let longer = if line.is_empty() { value.clone() } else { format!("{line}   {value}") };
-            if line.is_empty() || style.width(painter, &longer) <= width {
-                *line = longer;
-            } else {
-                lines.push(value.clone());
-            }
-        }
-        lines
-    }
+/// Height of the lines that `values` take.
+pub(super) fn readout_height(values: &[&str], painter: &Painter, style: &PlotStyle, width: f32) -> f32 {
+    lines(values, painter, style, width).len() as f32 * style.row + 4.0
+}
 
-    pub(super) fn height(&self, painter: &Painter, style: &PlotStyle, width: f32) -> f32 {
-        self.lines(painter, style, width).len() as f32 * style.row + 4.0
-    }
-
-    pub(super) fn draw(&self, painter: &Painter, style: &PlotStyle, rect: Rect) {
-        let mut at = pos2(rect.left(), rect.top() + 4.0);
-        let hint = self.values.len() == 1;
-        for line in self.lines(painter, style, rect.width()) {
-            let colour = if hint { style.palette.quiet } else { style.text };
-            style.write(painter, at, Align2::LEFT_TOP, &line, colour);
-            at.y += style.row;
-        }
+/// Writes the values under the cursor; one alone is a hint.
+pub(super) fn read_out(values: &[String], painter: &Painter, style: &PlotStyle, rect: Rect) {
+    let mut at = pos2(rect.left(), rect.top() + 4.0);
+    let colour = if values.len() == 1 { style.palette.quiet } else { style.text };
+    for line in lines(values, painter, style, rect.width()) {
+        style.write(painter, at, Align2::LEFT_TOP, &line, colour);
+        at.y += style.row;
     }
 }

@@ -4,7 +4,7 @@
 use super::pointer::named;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
+use crate::analysis::sweep::{Axis, Row, typical_error};
 use crate::analysis::table1::Published;
 use crate::digits::{capitalised, short, significant};
 use crate::estimate::Estimate;
@@ -13,6 +13,7 @@ use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
+use crate::gui::state::sweep::Swept;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{self, Inset, between, dots, tick, upright};
 use crate::gui::ui::context::DrawContext;
@@ -53,16 +54,10 @@ const FROM_ZERO: f64 = 0.6;
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Plotted<'a> {
-    /// The sweep's number in this window.
-    pub number: u64,
-    /// The sweep.
-    pub sweep: &'a Sweep,
-    /// Its rows so far.
-    pub rows: &'a [Row],
+    /// The sweep, with its rows so far.
+    pub swept: &'a Swept,
     /// What is read off them.
     pub quantity: Quantity,
-    /// Points of Table I.
-    pub published: &'a [Published],
     /// Where the present scene is.
     pub present: Option<&'a [f64]>,
 }
@@ -85,10 +80,10 @@ impl Plotted<'_> {
     /// A row in words.
     fn words(&self, row: &Row) -> String {
         let mut lines: Vec<String> = Vec::new();
-        for (axis, value) in self.sweep.axes().iter().zip(&row.values) {
+        for (axis, value) in self.swept.sweep.axes().iter().zip(&row.values) {
             lines.push(format!("{} {} {}", label(axis.parameter), short(*value, DIGITS), axis.parameter.unit));
         }
-        let unit = self.quantity.unit(self.sweep.problem());
+        let unit = self.quantity.unit(self.swept.sweep.problem());
         let name = capitalised(self.quantity.words());
         let value = raised(&row.numbers.text(self.quantity));
         lines.push(if value.is_empty() { format!("{name}: none") } else { format!("{name} {value} {unit}") });
@@ -112,7 +107,7 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
         return;
     }
     let style = PlotStyle::new(ui);
-    let (response, pointed) = match plotted.sweep.axes() {
+    let (response, pointed) = match plotted.swept.sweep.axes() {
         [x] => line(ui, &style, area, plotted, x),
         [x, y] => {
             let pointed = map(ui, &style, area, plotted, x, y);
@@ -198,8 +193,10 @@ fn name_x(painter: &Painter, style: &PlotStyle, rect: Rect, axis: &Axis) {
 
 /// What the marks in a map are, at the right end of the line above it, right of `free`.
 fn marked(painter: &Painter, style: &PlotStyle, rect: Rect, free: f32, plotted: &Plotted<'_>) {
-    let marks =
-        [("○ present", "present", plotted.present.is_some()), ("□ Table I", "Table I", !plotted.published.is_empty())];
+    let marks = [
+        ("○ present", "present", plotted.present.is_some()),
+        ("□ Table I", "Table I", !plotted.swept.published.is_empty()),
+    ];
     let mut right = rect.right();
     for (text, word, _) in marks.into_iter().filter(|mark| mark.2) {
         if right - style.width(painter, text) > free + style.row {
@@ -243,10 +240,11 @@ fn line<'a>(
     plotted: &Plotted<'a>,
     axis: &Axis,
 ) -> (Response, Option<&'a Row>) {
-    let mut rows: Vec<(&Row, f64)> = plotted.rows.iter().map(|row| (row, place(axis, row.values[0]))).collect();
+    let mut rows: Vec<(&Row, f64)> = plotted.swept.rows.iter().map(|row| (row, place(axis, row.values[0]))).collect();
     rows.sort_by(|a, b| a.1.total_cmp(&b.1));
     let x = ends(axis);
     let table: Vec<[f64; 2]> = plotted
+        .swept
         .published
         .iter()
         .filter_map(|point| Some([place(axis, point.values[0]), plotted.published(point)?]))
@@ -321,7 +319,7 @@ fn line<'a>(
     if !table.is_empty() {
         legend.push(("Table I", style.palette.contact));
     }
-    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
+    let title = capitalised(&plotted.quantity.label(plotted.swept.sweep.problem()));
     style.title(&painter, frame, plotted.quantity.words(), &[&title], &legend);
     if let Some(x) = present.map(|x| at.position_from_point_x(x)).filter(|x| frame.x_range().contains(*x)) {
         let left = x > frame.center().x;
@@ -367,7 +365,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         if at - places[right - 1] < places[right] - at { right - 1 } else { right }
     };
     let cell = |row: &Row| (nearest(&xs, place(x, row.values[0])), nearest(&ys, place(y, row.values[1])));
-    let shown = || plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value);
+    let shown = || plotted.swept.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value);
     let extent = span(shown());
     // Values of many sizes get colours by their logarithm: else all but the greatest look the same.
     let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0];
@@ -380,9 +378,9 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let rect = plot(area, style, widest.max(2.0 * style.row) + 8.0, 2.0);
     let axes = Axes::new(rect, limits[0], limits[1]);
     axes.canvas(&painter, style);
-    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
+    let title = capitalised(&plotted.quantity.label(plotted.swept.sweep.problem()));
     let title = if log { format!("{title}, logarithmic colours") } else { title };
-    if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
+    if plotted.swept.rows.iter().any(|row| plotted.sound(row).is_some()) {
         let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
         let written = |end: f64| if end.abs() < nothing { "0".to_owned() } else { significant(end, 3) };
         let ends = extent.map(written);
@@ -411,7 +409,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let mut mesh = Mesh::default();
     let colours = field_colours();
     let per_colour = if range[1] > range[0] { 255.0 / (range[1] - range[0]) } else { 0.0 };
-    for row in plotted.rows {
+    for row in &plotted.swept.rows {
         let at = cell(row);
         if let Some(Estimate { value, .. }) = plotted.sound(row) {
             let value = tone(value);
@@ -421,20 +419,20 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         }
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
-    let lines = once(ui, "contours", (plotted.number, plotted.rows.len(), plotted.quantity), || {
+    let lines = once(ui, "contours", (plotted.swept.number, plotted.swept.rows.len(), plotted.quantity), || {
         let ticks = Steps::new(range, LEVELS);
         // Where lines would be nearer to each other than values are told apart there are none.
-        if !log && ticks.step() <= typical_error(plotted.rows, plotted.quantity) {
+        if !log && ticks.step() <= typical_error(&plotted.swept.rows, plotted.quantity) {
             return Vec::new();
         }
         let levels = levels(ticks, range, log);
         levels.map(|level| (level, contour(&xs, &ys, &values, level))).collect::<Vec<Contour>>()
     });
     contours(&inner, style, &axes, &lines, (range, log));
-    for row in plotted.rows.iter().filter(|row| plotted.sound(row).is_none()) {
+    for row in plotted.swept.rows.iter().filter(|row| plotted.sound(row).is_none()) {
         cross(&inner, area_of(cell(row)).center(), 4.0, Stroke::new(1.8, style.palette.alarm));
     }
-    for point in plotted.published {
+    for point in &plotted.swept.published {
         let at = axes.at(place(x, point.values[0]), place(y, point.values[1]));
         for (size, width, colour) in [(9.0, 1.8, Color32::BLACK), (12.0, 1.0, Color32::WHITE)] {
             let square = Rect::from_center_size(at, vec2(size, size));
@@ -447,7 +445,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         inner.circle_stroke(at, RING, Stroke::new(1.8, Color32::WHITE));
     }
     let pointer = pointer(ui, rect)?;
-    let row = plotted.rows.iter().find(|row| area_of(cell(row)).contains(pointer))?;
+    let row = plotted.swept.rows.iter().find(|row| area_of(cell(row)).contains(pointer))?;
     inner.rect_stroke(area_of(cell(row)), 0.0, Stroke::new(2.0, Color32::WHITE), StrokeKind::Inside);
     Some(row)
 }

@@ -4,9 +4,9 @@ use super::field::{self, Stamp};
 use super::map::y_labels;
 use super::motor_frame::MotorFrame;
 use super::series::{Series, Trace};
-use crate::gui::derived::sample;
+use crate::gui::derived::scales::common;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle};
+use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{Rect, Ui, pos2};
 
 /// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
@@ -29,11 +29,9 @@ pub(super) fn draw(
         )
     });
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
-    let half = sample::half_width(recording);
-    let axes = Axes::new(places[0], [-reach, reach], [-half, half]);
-    let stamp =
-        Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
-    field::draw(ui, style, painter, &axes, recording, "followed tooth", stamp);
+    let (x, range) = ([-reach, reach], shown.scales.pressure);
+    let stamp = Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x, range };
+    let axes = field::draw(ui, style, painter, places[0], recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
     style.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, style, &axes);
@@ -43,24 +41,15 @@ pub(super) fn draw(
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
-    let minimum = shown.motor.spacing();
-    let text = style.text;
     // The same tooth of the run that this one is compared with, behind it.
     let quiet = style.palette.quiet;
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
     let behind = style.at_first(first);
-    let before = first.map(|(first, (curves, lag))| Trace {
-        curve: &curves.thickness,
-        lag,
-        offset: -first.motor.spacing(),
-        colour: quiet,
-        behind: true,
-    });
-    let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text, behind: false };
-    let [low, high] = before.iter().chain([&present]).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], trace| {
-        let [least, most] = trace.curve.range().map(|value| value + trace.offset);
-        [low.min(least), high.max(most)]
-    });
+    let trace = |curve, lag, offset, colour, behind| Trace { curve, lag, offset, colour, behind };
+    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.motor.spacing(), quiet, true));
+    let present = trace(&curves.thickness, lag, -shown.motor.spacing(), style.text, false);
+    let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
+    let [low, high] = common(ranges);
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
     let series = Series {
         name: "Least gap over the cycle",
@@ -74,11 +63,10 @@ pub(super) fn draw(
         phase: shown.phase(),
     };
     series.show(ui, style, (gap_chart, gutter), cx);
-    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
-    let before =
-        first.map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, quiet, true)));
+    let before = first
+        .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, true)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
-    let present = present.map(|(curve, colour)| trace(curve, lag, colour, false));
+    let present = present.map(|(curve, colour)| trace(curve, lag, 0.0, colour, false));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
     let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };

@@ -3,13 +3,13 @@
 use crate::fidelity::Fidelity;
 use crate::film::velocity::Velocity;
 use crate::gui::derived::format::number;
-use crate::gui::derived::sample;
 use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Inset, between, dots, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Gas;
 use crate::recording::Recording;
+use crate::recording::sample;
 use eframe::egui::{Rect, Ui};
 use egui_plot::LineStyle;
 
