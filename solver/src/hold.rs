@@ -309,7 +309,7 @@ impl Hold {
         let (ux, uy, ny) = (grid.x.unknown(), grid.y.unknown(), grid.y.len());
         let (ambient, gap) = (self.plate.gas.ambient_pressure, self.gap);
         let trapped = &self.fine.state.trapped;
-        (0..grid.len()).map(move |i| {
+        (0..grid.nodes()).map(move |i| {
             let (ix, iy) = (i / ny, i % ny);
             let inside = ux.contains(&ix) && uy.contains(&iy);
             if inside { ambient * trapped[(ix - ux.start) * uy.len() + iy - uy.start] / gap } else { ambient }

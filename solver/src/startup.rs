@@ -397,8 +397,8 @@ impl<'a> SceneTransient<'a> {
     /// Error of the last cycle's headline that finer grids would not make smaller, absolute.
     fn elsewhere(&self) -> f64 {
         match self {
-            Self::Motor(transient) => transient.elsewhere(),
-            Self::Plate(transient) => transient.elsewhere(),
+            Self::Motor(transient) => transient.elsewhere,
+            Self::Plate(transient) => transient.width_error,
         }
     }
 
@@ -412,8 +412,8 @@ impl<'a> SceneTransient<'a> {
 
     fn stats(&self) -> Stats {
         match self {
-            Self::Motor(transient) => transient.stats(),
-            Self::Plate(transient) => transient.stats(),
+            Self::Motor(transient) => transient.stats,
+            Self::Plate(transient) => transient.stats,
         }
     }
 }

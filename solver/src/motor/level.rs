@@ -11,7 +11,7 @@ use crate::estimate::{Mean, left};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
-use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
+use crate::film::stepper::{Film, FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
 use crate::ladder::State;
 use crate::numerics::anderson::Anderson;
@@ -32,10 +32,11 @@ const REPEATING_SHARE: f64 = 0.3;
 const LEAST_CHANGE: f64 = 1e-9;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
+#[derive(Debug)]
 pub(super) struct Level {
     teeth: usize,
     stored: usize,
-    steps: usize,
+    pub(super) steps: usize,
     nx: usize,
     /// Vibration period over steps \[s\].
     dt: f64,
@@ -60,8 +61,8 @@ pub(super) struct Level {
     contact_load: Vec<f64>,
     /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
     stiffness: f64,
-    /// Residual of the last round.
-    residual: f64,
+    /// Residual of the last round; of a transient, the largest of a step of the last cycle, in ln ζ.
+    pub(super) residual: f64,
     /// What the gas, as it changed in the last round, changes of the film's load \[N\].
     drift: f64,
     /// ζ from the film's last cycle, lines.
@@ -124,13 +125,13 @@ impl Level {
         let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load)
             .on(motor.surface.asperities, motor.contact_width);
         let unknowns = film_grid.unknowns();
-        let closed_along = plan.flow == Flow::Across;
-        let trapped_film = plan.trapped.then(|| TrappedFilm::new(film_grid.clone(), gas, closed_along));
-        let mut film = FilmCycle::new(film_grid, gas, steps);
-        film.roughen(motor.surface.flow);
-        if closed_along {
+        let mut film = Film::new(film_grid, gas);
+        if plan.flow == Flow::Across {
             film.close_along();
         }
+        let trapped_film = plan.trapped.then(|| TrappedFilm::new(film.clone()));
+        film.roughen(motor.surface.flow);
+        let film = FilmCycle::new(film, steps);
         Self {
             teeth,
             stored,
@@ -159,10 +160,6 @@ impl Level {
             reference: None,
             widths: widths[..nx].to_vec(),
         }
-    }
-
-    pub(super) fn steps(&self) -> usize {
-        self.steps
     }
 
     fn grid(&self) -> &FilmGrid {
@@ -265,18 +262,24 @@ impl Level {
                 .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
             stats.contact_solves += 1;
             stats.contact_iterations += u64::from(iterations);
-            for tooth in 0..teeth {
-                let to = self.line_of(tooth, s);
-                self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
-                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
-            }
+            self.keep(s, &fields);
         }
         Ok(())
     }
 
+    /// Keeps what a contact problem has found for instant `s`.
+    fn keep(&mut self, s: usize, fields: &Instant) {
+        let nx = self.nx;
+        for tooth in 0..self.teeth {
+            let to = self.line_of(tooth, s);
+            self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
+            self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+        }
+    }
+
     /// Solves the contact problems of all instants, one after the other, as if there were no gas.
     pub(super) fn dry_cycle(&mut self, cancel: &Cancel) -> Result<(), Stop> {
-        let (mut contact, nodes, nx) = (self.contact.dry(), self.contact.nodes(), self.nx);
+        let (mut contact, nodes) = (self.contact.dry(), self.contact.nodes());
         let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::unknown(), Instant::default());
         for s in 0..self.instants() {
             if cancel.is_cancelled() {
@@ -285,10 +288,7 @@ impl Level {
             contact
                 .solve(&self.stator[s * nodes..(s + 1) * nodes], &nothing, &mut shape, &mut fields)
                 .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
-            for tooth in 0..self.teeth {
-                let to = self.line_of(tooth, s);
-                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
-            }
+            self.keep(s, &fields);
         }
         Ok(())
     }
@@ -568,7 +568,7 @@ impl State for Level {
     }
 
     fn count(&self, stats: &mut Stats) {
-        stats.film_nodes = self.grid().len();
+        stats.film_nodes = self.grid().nodes();
         stats.contact_nodes = self.contact.nodes();
         stats.steps_per_cycle = self.steps;
     }

@@ -53,7 +53,7 @@ pub type Periodic = ladder::Periodic<MotorResult>;
 /// The states that the last solve ended with: where the solve of a similar motor starts.
 ///
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Warm {
     found: Option<Found<Level>>,
 }
@@ -62,12 +62,6 @@ impl Warm {
     /// Whether there is nothing to start from.
     pub fn is_empty(&self) -> bool {
         self.found.is_none()
-    }
-}
-
-impl std::fmt::Debug for Warm {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Warm").field("grids", &self.found.as_ref().map_or(0, |found| found.levels.len())).finish()
     }
 }
 
@@ -203,6 +197,8 @@ impl Search<'_> {
 impl Scene for Search<'_> {
     type Level = Level;
     type Error = MotorError;
+    const WIDTH_AIM: f64 = 0.3;
+    const MOST_WORK: f64 = 1.5e5;
 
     fn solve(
         &mut self,
@@ -268,14 +264,6 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn width_aim(&self) -> f64 {
-        0.3
-    }
-
-    fn most_work(&self) -> f64 {
-        1.5e5
-    }
-
     fn settled(&self, found: &Found<Level>) -> bool {
         let whole = stated(self.plan, found);
         let grids = extrapolate_means(&found.headlines).error;
@@ -284,22 +272,18 @@ impl Scene for Search<'_> {
 }
 
 /// A motor from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
+#[derive(Debug)]
 pub struct Transient<'a> {
     motor: &'a Motor,
     plan: Plan,
     levels: Vec<Level>,
     width_error: f64,
-    /// Error of the last cycle's α that finer grids would not make smaller.
-    elsewhere: f64,
-    stats: Stats,
+    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
+    pub elsewhere: f64,
+    /// What it has cost so far, all grids.
+    pub stats: Stats,
     /// Largest residual of any step so far, in ln ζ.
     worst: f64,
-}
-
-impl std::fmt::Debug for Transient<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
-    }
 }
 
 impl<'a> Transient<'a> {
@@ -341,12 +325,12 @@ impl<'a> Transient<'a> {
                 Err(Stop::Failed(error)) => return Err(error),
             };
             let end = level.alpha_now();
-            alphas.push(level.headline().from_to(start, end, level.steps()));
+            alphas.push(level.headline().from_to(start, end, level.steps));
             ends.push(end);
             level.count(&mut self.stats);
         }
         self.stats.cycles += 1;
-        let astray = self.levels.iter().map(Level::residual).fold(tolerance, f64::max);
+        let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
         self.worst = self.worst.max(astray);
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
@@ -370,19 +354,9 @@ impl<'a> Transient<'a> {
         0.025 * self.plan.tolerance
     }
 
-    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
-    pub fn elsewhere(&self) -> f64 {
-        self.elsewhere
-    }
-
     /// The largest residual of steps that were taken although film and contact did not agree, and what was allowed, in ln ζ.
     pub fn unsettled(&self) -> Option<(f64, f64)> {
         (self.worst > self.tolerance()).then_some((self.worst, self.tolerance()))
-    }
-
-    /// What it has cost so far, all grids.
-    pub fn stats(&self) -> Stats {
-        self.stats
     }
 }
 

@@ -141,6 +141,10 @@ struct Search<'a> {
 impl Scene for Search<'_> {
     type Level = Level;
     type Error = Interrupted;
+    /// Small, so that spring and damping are as accurate as the mean.
+    const WIDTH_AIM: f64 = 0.02;
+    /// Large, because without contact a few rounds are enough.
+    const MOST_WORK: f64 = 4e5;
 
     fn solve(
         &mut self,
@@ -162,16 +166,6 @@ impl Scene for Search<'_> {
             Err(Interrupted::Cancelled) => Ok((Status::Cancelled, level)),
             Err(failed) => Err(failed),
         }
-    }
-
-    /// Small, so that spring and damping are as accurate as the mean.
-    fn width_aim(&self) -> f64 {
-        0.02
-    }
-
-    /// Large, because without contact a few rounds are enough.
-    fn most_work(&self) -> f64 {
-        4e5
     }
 
     fn settled(&self, found: &Found<Level>) -> bool {

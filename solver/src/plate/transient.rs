@@ -11,19 +11,16 @@ use crate::recording::Recording;
 use crate::solution::{PlateResult, Stats};
 
 /// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
+#[derive(Debug)]
 pub struct Transient {
     plate: Plate,
     turned: bool,
     maps: bool,
     levels: Vec<Level>,
-    width_error: f64,
-    stats: Stats,
-}
-
-impl std::fmt::Debug for Transient {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
-    }
+    /// Error of a cycle's mean load that finer grids would not make smaller: by the nodes across \[N\].
+    pub width_error: f64,
+    /// What it has cost so far, all grids.
+    pub stats: Stats,
 }
 
 impl Transient {
@@ -83,15 +80,5 @@ impl Transient {
         load.value += 0.5 * grown / recording.frames as f64;
         load.error = estimate.error + (load.value - estimate.value).abs() + self.width_error;
         Ok(Some((result, recording, change)))
-    }
-
-    /// Error of a cycle's mean load that finer grids would not make smaller \[N\].
-    pub fn elsewhere(&self) -> f64 {
-        self.width_error
-    }
-
-    /// What it has cost so far, all grids.
-    pub fn stats(&self) -> Stats {
-        self.stats
     }
 }

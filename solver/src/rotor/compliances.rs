@@ -54,7 +54,6 @@ pub struct Wave {
 pub struct Compliances {
     pub(super) wavelength: f64,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
-    #[serde(with = "harmonics")]
     pub(super) harmonics: Arc<[f64]>,
     pub(super) local: f64,
     pub(super) relative_error: f64,
@@ -85,20 +84,6 @@ impl Compliances {
     /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
     pub fn relative_error(&self) -> f64 {
         self.relative_error
-    }
-}
-
-/// The harmonics in bytes: as any list.
-mod harmonics {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-    use std::sync::Arc;
-
-    pub(super) fn serialize<S: Serializer>(harmonics: &Arc<[f64]>, to: S) -> Result<S::Ok, S::Error> {
-        harmonics.serialize(to)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<[f64]>, D::Error> {
-        Vec::deserialize(from).map(Arc::from)
     }
 }
 

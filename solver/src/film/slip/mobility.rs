@@ -16,12 +16,3 @@ pub trait Mobility: Copy {
     /// Greatest Kn at which it is within a tenth of the Boltzmann equation's flow; of a fit to that, where the fit ends.
     fn knudsen_limit(&self) -> f64;
 }
-
-/// Work that is compiled for each law.
-pub trait Work {
-    /// What it gives.
-    type Output;
-
-    /// Does it with a law.
-    fn with<L: Mobility>(self, law: L) -> Self::Output;
-}

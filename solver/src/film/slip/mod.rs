@@ -5,7 +5,7 @@
 //! that of rough faces (`surface::flow`), and 1 of smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the
 //! discrete film an M-matrix (`film::stepper`); k does not change that.
 //!
-//! Each law is a file and its line in `laws!`; whatever asks for it (`Mobility`) is compiled for each.
+//! Each law is a file and its line in `laws!`; a step of the film is compiled for each (`Film::step`).
 
 mod accommodated;
 mod affine;
@@ -18,7 +18,7 @@ use crate::problem::Gas;
 pub use accommodated::Accommodated;
 pub use affine::Affine;
 pub use fukui_kaneko::FukuiKaneko;
-pub use mobility::{Mobility, Work};
+pub use mobility::Mobility;
 pub use second_order::SecondOrder;
 
 macro_rules! laws {
@@ -26,14 +26,6 @@ macro_rules! laws {
         /// A slip law chosen at run time.
         #[derive(Clone, Copy, Debug)]
         pub enum SlipLaw { $($(#[$about])* $Law($Law)),* }
-
-        impl SlipLaw {
-            /// Does `work` with the law itself.
-            #[inline(always)]
-            pub fn lend<W: Work>(self, work: W) -> W::Output {
-                match self { $(Self::$Law(law) => work.with(law)),* }
-            }
-        }
 
         impl Mobility for SlipLaw {
             fn of(gas: &Gas) -> Option<Self> {
