@@ -7,6 +7,7 @@ use crate::drive::{self, Scaled};
 use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
+use crate::ladder::Periodic;
 use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
@@ -225,28 +226,38 @@ pub fn solve_from(
 }
 
 fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel) -> Solution {
-    let teeth = if plan.every_tooth { motor.teeth } else { 1 };
-    Solution {
-        accuracy: accuracy(plan, found.result.alpha.error, motor::unit(found.result.alpha.value), cancel),
-        warnings: warnings(&found.status),
-        status: found.status,
-        outcome: Outcome::Motor(found.result),
-        performance: None,
-        stats: found.stats,
-        model: model(plan, teeth),
-        recording: found.recording,
-    }
+    let (alpha, teeth) = (found.result.alpha, if plan.every_tooth { motor.teeth } else { 1 });
+    told(found, Outcome::Motor, accuracy(plan, alpha.error, motor::unit(alpha.value), cancel), plan, teeth)
 }
 
 fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
+    let load = found.result.film_load;
+    told(found, Outcome::Plate, accuracy(plan, load.error, load.value.abs(), cancel), plan, 1)
+}
+
+fn told<R>(
+    found: Periodic<R>,
+    outcome: fn(R) -> Outcome,
+    accuracy: Accuracy,
+    plan: &Plan,
+    teeth_solved: usize,
+) -> Solution {
     Solution {
-        accuracy: accuracy(plan, found.result.film_load.error, found.result.film_load.value.abs(), cancel),
+        accuracy,
         warnings: warnings(&found.status),
         status: found.status,
-        outcome: Outcome::Plate(found.result),
+        outcome: outcome(found.result),
         performance: None,
         stats: found.stats,
-        model: model(plan, 1),
+        model: Model {
+            fidelity: plan.fidelity.clone(),
+            method: Method::Auto.name().to_owned(),
+            teeth_solved,
+            half_width: plan.half_width,
+            shear: plan.shear,
+            remarks: Vec::new(),
+            decisions: plan.decisions.clone(),
+        },
         recording: found.recording,
     }
 }
@@ -311,18 +322,6 @@ pub(crate) fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> A
         StoppedBy::Limit
     };
     Accuracy { asked: plan.accuracy, stated, stopped_by }
-}
-
-fn model(plan: &Plan, teeth_solved: usize) -> Model {
-    Model {
-        fidelity: plan.fidelity.clone(),
-        method: Method::Auto.name().to_owned(),
-        teeth_solved,
-        half_width: plan.half_width,
-        shear: plan.shear,
-        remarks: Vec::new(),
-        decisions: plan.decisions.clone(),
-    }
 }
 
 /// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,
