@@ -13,7 +13,7 @@ use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
-use crate::plate::floating::{FloatError, Floated, float};
+use crate::plate::floating::{FloatError, float};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Status, StoppedBy};
@@ -69,7 +69,7 @@ pub enum SolveError {
     Motor(#[from] MotorError),
     /// The plate.
     #[error("film, {0}")]
-    Plate(Interrupted),
+    Plate(#[from] Interrupted),
     /// A plate that does not float.
     #[error(transparent)]
     Float(#[from] FloatError),
@@ -204,7 +204,7 @@ pub fn solve_from(
             solution
         }
         (Scenario::Plate(plate), Some(plan)) => {
-            let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
+            let found = plate::periodic(plate, &plan, observer, cancel)?;
             of_plate(found, &plan, cancel)
         }
         (Scenario::Motor(motor), None) => {
@@ -218,7 +218,7 @@ pub fn solve_from(
     if taken.bytes() > memory::REFINED {
         *warm = Warm::default();
     }
-    perform(problem, &mut solution);
+    let mut solution = performed(problem, solution);
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();
     }
@@ -276,7 +276,7 @@ fn floated(
     let roughly = |plate: &Plate| plate_plan(plate, problem, &rough, &rough.fidelity.spec());
     let asked = |plate: &Plate| plate_plan(plate, problem, settings, spec);
     match float(plate, load, &roughly, &asked, observer, cancel) {
-        Ok(Floated { periodic, plan }) => {
+        Ok((periodic, plan)) => {
             let mut solution = of_plate(periodic, &plan, cancel);
             if let Outcome::Plate(PlateResult { floating: Some(Floating { mean_gap, stiffness, .. }), .. }) =
                 solution.outcome
@@ -300,8 +300,8 @@ fn floated(
     }
 }
 
-/// Adds torque, power and efficiency of a motor whose fields are kept.
-fn perform(problem: &Problem, solution: &mut Solution) {
+/// The solution with torque, power and efficiency of a motor whose fields are kept.
+fn performed(problem: &Problem, mut solution: Solution) -> Solution {
     if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome)
         && solution.recording.frames > 0
     {
@@ -309,6 +309,7 @@ fn perform(problem: &Problem, solution: &mut Solution) {
         solution.warnings.extend(drive::warnings(motor, result, &found));
         solution.performance = Some(found);
     }
+    solution
 }
 
 /// How exact a headline with this error is, relative to `unit`, and why it is no more so.

@@ -194,7 +194,7 @@ impl FilmCycle {
     fn accumulate_leak(&mut self, h: &[f64]) {
         let columns = self.grid().y.unknown().len();
         let x = self.grid().x.unknown();
-        let jacobian = self.film.last_jacobian();
+        let jacobian = &self.film.jacobian;
         let leak = &mut self.leak;
         let add = |sum: &mut [f64], terms: &[f64], factor: f64| {
             for (sum, term) in sum.iter_mut().zip(terms) {

@@ -26,7 +26,7 @@ pub struct Axis {
     /// those of finite volumes.
     slopes: Vec<f64>,
     /// It runs along the radius of a round film, with all of the circumference to each node.
-    radial: bool,
+    pub radial: bool,
 }
 
 impl Axis {
@@ -69,11 +69,6 @@ impl Axis {
     /// Width of the face after node `face`, in whatever width the lengths stand for: 1, or the circumference \[m\].
     pub fn face(&self, face: usize) -> f64 {
         if self.radial { PI * (self.nodes[face] + self.nodes[face + 1]) } else { 1.0 }
-    }
-
-    /// Whether it runs along a radius.
-    pub fn is_radial(&self) -> bool {
-        self.radial
     }
 
     /// An axis on which a field is one polynomial: `count` nodes of Gauss, Lobatto and Legendre over half-length `half` \[m\]

@@ -90,7 +90,7 @@ const CARRIED_FLOOR: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub struct Film {
     grid: FilmGrid,
-    law: SlipLaw,
+    pub(super) law: SlipLaw,
     /// M = p_a/(12μ) \[1/s\].
     mobility: f64,
     columns: usize,
@@ -109,7 +109,8 @@ pub struct Film {
     residual: Vec<f64>,
     /// Δt·div flux \[m\].
     divergence: Vec<f64>,
-    jacobian: Coupling,
+    /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
+    pub(super) jacobian: Coupling,
     /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
     pivots: Vec<f64>,
     solver: RowSolver,
@@ -254,17 +255,11 @@ impl Film {
         self.flow.fill(Factors::SMOOTH);
     }
 
-    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge(ix)` at all y of an end, and at the side of
-    /// each node along x.
-    pub fn set_edges(&mut self, edge: impl Fn(usize) -> f64) {
-        let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
-        let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
-        for ix in 0..nx {
-            for iy in 0..ny {
-                if !ux.contains(&ix) || !uy.contains(&iy) {
-                    self.pressure[ix * ny + iy] = edge(ix);
-                }
-            }
+    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge[ix]` at all y of an end, and at the side of
+    /// each node along x. Inside it is lost: the next step must start without a guess.
+    pub(super) fn set_edges(&mut self, edge: &[f64]) {
+        for (row, edge) in self.pressure.chunks_exact_mut(self.grid.y.len()).zip(edge) {
+            row.fill(*edge);
         }
     }
 
@@ -297,11 +292,6 @@ impl Film {
                 sum[j] += self.divergence[k] + outflow[j] + jacobian.centre[k] * step[k] + west + east;
             }
         }
-    }
-
-    /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
-    pub fn last_jacobian(&self) -> &Coupling {
-        &self.jacobian
     }
 
     /// Advances `state` by `dt` \[s\] to the gap `h` \[m\] (one value for each node along x). `speed`: sliding speed U
@@ -408,11 +398,6 @@ impl Film {
         let mode = length(&self.grid.x).powi(-2) + length(&self.grid.y).powi(-2);
         let flow = self.roughness.as_ref().map_or(Factors::SMOOTH, |roughness| roughness.at(h));
         flow.along.max(flow.across) * self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
-    }
-
-    /// The slip law.
-    pub fn law(&self) -> SlipLaw {
-        self.law
     }
 
     /// P at the unknown nodes.

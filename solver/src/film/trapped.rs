@@ -38,14 +38,13 @@ impl TrappedFilm {
     pub fn solve(&mut self, h: &[f64]) -> Result<&[f64], FilmError> {
         let nx = self.mean_gap.len();
         let steps = h.len() / nx;
-        let law = self.film.law();
+        let law = self.film.law;
         for ix in 0..nx {
             let gaps = || (0..steps).map(|step| h[step * nx + ix]);
             self.mean_gap[ix] = gaps().sum::<f64>() / steps as f64;
             self.edge[ix] = edge_height(law, gaps) / self.mean_gap[ix];
         }
-        let edge = &self.edge;
-        self.film.set_edges(|ix| edge[ix]);
+        self.film.set_edges(&self.edge);
         // From rest at the pressure of the sides.
         let columns = self.film.grid().y.unknown().len();
         for (column, ix) in self.state.trapped.chunks_exact_mut(columns).zip(self.film.grid().x.unknown()) {

@@ -78,37 +78,28 @@ pub(super) struct Level {
 impl Level {
     pub(super) fn new(motor: &Motor, plan: &Plan, grid: &Grid) -> Self {
         let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
-        let y = if plan.flow == Flow::Along {
-            Axis::single(motor.contact_width)
-        } else if plan.spectral {
-            let start = if plan.half_width { Start::Mirror } else { Start::Ambient };
-            Axis::spectral(0.5 * motor.contact_width, start, grid.across, plan.clustering_across)
-        } else if plan.half_width {
-            Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across)
-        } else {
-            Axis::clustered(0.5 * motor.contact_width, Start::Ambient, 2 * grid.across, plan.clustering_across)
+        let (half, beta) = (0.5 * motor.contact_width, plan.clustering_across);
+        let (start, intervals) =
+            if plan.half_width { (Start::Mirror, grid.across) } else { (Start::Ambient, 2 * grid.across) };
+        let y = match plan.flow {
+            Flow::Along => Axis::single(motor.contact_width),
+            _ if plan.spectral => Axis::spectral(half, start, grid.across, beta),
+            _ => Axis::clustered(half, start, intervals, beta),
         };
         let film_grid = FilmGrid { x, y };
         let (nx, steps, teeth) = (film_grid.x.len(), grid.steps, motor.teeth);
         let stored = if plan.every_tooth { teeth } else { 1 };
         let instants = if plan.every_tooth { steps } else { steps / teeth };
 
-        let mut positions = Vec::with_capacity(teeth * nx);
-        let mut lengths = Vec::with_capacity(teeth * nx);
-        let mut widths = Vec::with_capacity(teeth * nx);
-        let interior_width = film_grid.interior_width();
-        for tooth in 0..teeth {
-            for ix in 0..nx {
-                positions.push(tooth as f64 * motor.pitch() + film_grid.x.nodes[ix]);
-                lengths.push(film_grid.x.lengths[ix]);
-                widths.push(if film_grid.x.unknown().contains(&ix) { interior_width } else { 0.0 });
-            }
-        }
-        let stator = (0..instants)
-            .flat_map(|s| {
-                let (positions, nodes) = (&positions, &film_grid.x.nodes);
-                (0..teeth * nx)
-                    .map(move |i| motor.stator_displacement(positions[i], nodes[i % nx], s as f64 / steps as f64))
+        let (nodes, interior_width) = (&film_grid.x.nodes, film_grid.interior_width());
+        let place = |i: usize| (i / nx) as f64 * motor.pitch() + nodes[i % nx];
+        let positions: Vec<f64> = (0..teeth * nx).map(place).collect();
+        let mut widths = vec![0.0; nx];
+        widths[film_grid.x.unknown()].fill(interior_width);
+        let stator = (0..instants * teeth * nx)
+            .map(|k| {
+                let (s, i) = (k / (teeth * nx), k % (teeth * nx));
+                motor.stator_displacement(positions[i], nodes[i % nx], s as f64 / steps as f64)
             })
             .collect();
         let speed = plan.shear.then(|| {
@@ -122,7 +113,8 @@ impl Level {
         let harmonics = plan.harmonics(grid);
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let gas = &motor.gas;
-        let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load)
+        let (lengths, film_widths) = (film_grid.x.lengths.repeat(teeth), widths.repeat(teeth));
+        let contact = Contact::new(modes, lengths, &film_widths, gas.ambient_pressure, motor.min_spacing, motor.load)
             .on(motor.surface.asperities, motor.contact_width);
         let unknowns = film_grid.unknowns();
         let mut film = Film::new(film_grid, gas);
@@ -158,7 +150,7 @@ impl Level {
             line: vec![0.0; stored * steps * nx],
             next: vec![0.0; stored * steps * nx],
             reference: None,
-            widths: widths[..nx].to_vec(),
+            widths,
         }
     }
 

@@ -23,7 +23,7 @@ use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
-use crate::solution::{MotorResult, Stats, Status};
+use crate::solution::{MotorResult, Outcome, Stats, Status};
 use ending::Stop;
 use level::Level;
 
@@ -303,7 +303,7 @@ impl<'a> Transient<'a> {
     ///
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, MotorError> {
         let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
         let (mut alphas, mut ends) = (Vec::new(), Vec::new());
@@ -346,7 +346,7 @@ impl<'a> Transient<'a> {
         let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
         let error = estimate.error.min(1.0) + (alpha - estimate.value).abs() + self.elsewhere;
         result.set_alpha(self.motor, Estimate { value: alpha, error });
-        Ok(Some((result, recording, change)))
+        Ok(Some((Outcome::Motor(result), recording, change)))
     }
 
     /// What film and contact have to agree to in every step, in ln ζ.

@@ -99,7 +99,7 @@ pub fn solve(
 
     // Of a state that is not one, the residual is the only measure there is.
     let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
-    let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error();
+    let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error;
     let recording = recorder.recording;
     let film_load = mean(&recording.film_load);
     let alpha = film_load / motor.load;
@@ -269,14 +269,14 @@ impl Counts {
             let repeats = residual < CYCLE_TOLERANCE;
             if repeats || cycle == CYCLES || cycle - least_at >= STALLED {
                 trouble.warn(march.steps, warnings);
-                if repeats && trouble.is_minor() {
+                // The worst is an inner loop that ended in a small limit cycle.
+                if repeats && trouble.contact + trouble.overcarried == 0 && trouble.change < LIMIT_CYCLE {
                     self.limit_cycle = trouble.change;
                     return Status::Converged;
                 }
-                return match trouble.residual() {
-                    Some(residual) => Status::NotConverged { residual, tolerance: INNER_TOLERANCE },
-                    None => Status::NotConverged { residual, tolerance: CYCLE_TOLERANCE },
-                };
+                let (residual, tolerance) =
+                    trouble.residual().map_or((residual, CYCLE_TOLERANCE), |residual| (residual, INNER_TOLERANCE));
+                return Status::NotConverged { residual, tolerance };
             }
         }
         Status::NotConverged { residual, tolerance: CYCLE_TOLERANCE }
@@ -313,11 +313,6 @@ impl Trouble {
     /// What a solve that is not in order is off by; `None` if all is in order.
     fn residual(&self) -> Option<f64> {
         (self.unsettled + self.contact + self.overcarried > 0).then(|| self.change.max(self.imbalance))
-    }
-
-    /// Whether the worst is an inner loop that ended in a small limit cycle.
-    fn is_minor(&self) -> bool {
-        self.contact + self.overcarried == 0 && self.change < LIMIT_CYCLE
     }
 
     fn warn(&self, steps: usize, warnings: &mut Vec<String>) {

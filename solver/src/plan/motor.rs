@@ -136,7 +136,7 @@ fn rotor_error(
     spec: &Spec,
     cancel: &Cancel,
 ) -> Result<Option<Decision>, RotorError> {
-    let error = rotor.relative_error();
+    let error = rotor.relative_error;
     if error == 0.0 {
         return Ok(None);
     }

@@ -308,7 +308,7 @@ impl Level {
             pitch: plate.length,
             x: grid.x.nodes.clone(),
             node_length: grid.x.lengths.iter().map(|length| grid.x.copies() * length).collect(),
-            radial: grid.x.is_radial(),
+            radial: grid.x.radial,
             touching_from: 0.0,
             contact: vec![0.0; frames * nx],
             film,

@@ -8,7 +8,7 @@ use crate::ladder::State;
 use crate::plan::Plan;
 use crate::problem::Plate;
 use crate::recording::Recording;
-use crate::solution::{PlateResult, Stats};
+use crate::solution::{Outcome, PlateResult, Stats};
 
 /// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ impl Transient {
     ///
     /// # Errors
     /// [`Interrupted::Failed`] if a film step has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, Interrupted> {
         let finest = self.levels.len() - 1;
         let (mut loads, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
@@ -79,6 +79,6 @@ impl Transient {
         let load = &mut result.film_load;
         load.value += 0.5 * grown / recording.frames as f64;
         load.error = estimate.error + (load.value - estimate.value).abs() + self.width_error;
-        Ok(Some((result, recording, change)))
+        Ok(Some((Outcome::Plate(result), recording, change)))
     }
 }

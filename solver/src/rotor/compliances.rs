@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
 const SMOOTH: usize = 10;
+
 /// Why a rotor has no compliance.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RotorError {
@@ -56,7 +57,8 @@ pub struct Compliances {
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub(super) harmonics: Arc<[f64]>,
     pub(super) local: f64,
-    pub(super) relative_error: f64,
+    /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
+    pub relative_error: f64,
 }
 
 impl Compliances {
@@ -79,11 +81,6 @@ impl Compliances {
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
         if self.local > 0.0 { self.local } else { self.harmonic(n) }
-    }
-
-    /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
-    pub fn relative_error(&self) -> f64 {
-        self.relative_error
     }
 }
 
