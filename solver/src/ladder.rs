@@ -54,8 +54,8 @@ pub trait Scene {
         number: usize,
     ) -> Result<(Status, Self::Level), Self::Error>;
 
-    /// Whether the headline is as accurate as was asked, or further grids would not make it so.
-    fn settled(&self, found: &Found<Self::Level>) -> bool;
+    /// Whether the headline is as accurate as `plan` asks, or further grids would not make it so.
+    fn settled(&self, plan: &Plan, found: &Found<Self::Level>) -> bool;
 }
 
 /// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
@@ -222,7 +222,7 @@ pub fn climb_once<S: Scene>(
             found.grids.push(grid);
         }
         let next = grid.finer(plan.spectral);
-        let worthwhile = || next.work() * plan.target_error.sqrt() <= S::MOST_WORK && !scene.settled(&found);
+        let worthwhile = || next.work() * plan.target_error.sqrt() <= S::MOST_WORK && !scene.settled(plan, &found);
         let more = number < plan.grids.len()
             || number < plan.most_grids && status == Status::Converged && !cancel.is_spent() && worthwhile();
         finer = Some(next);

@@ -91,8 +91,7 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search =
-        Search { motor, plan, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
+    let mut search = Search { motor, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
     if let Status::NotConverged { .. } = found.status {
         // A cycle may repeat on grids of half the spacing and not on those of the plan.
@@ -124,7 +123,7 @@ pub fn periodic_near(
     let mut stats = Stats::default();
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
     let mut search =
-        Search { motor, plan, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
+        Search { motor, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
     let mut found = climb(&mut search, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));
@@ -147,7 +146,6 @@ pub fn touching(
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
         let mut search = Search {
             motor: &motor,
-            plan,
             warm_rounds: WARM_ROUNDS,
             marching: false,
             observer: &mut *observer,
@@ -167,7 +165,6 @@ pub fn touching(
 /// One solve of a motor by a plan.
 struct Search<'a> {
     motor: &'a Motor,
-    plan: &'a Plan,
     /// Rounds that a start from another motor's state is given.
     warm_rounds: usize,
     /// Cycle after cycle of every tooth is marched, in place of rounds of all instants at once.
@@ -188,7 +185,7 @@ impl Search<'_> {
             return None;
         }
         let (observer, stats) = (&mut *self.observer, &mut *self.stats);
-        let mut marching = Search { plan: &plan, marching: true, observer, stats, ..*self };
+        let mut marching = Search { marching: true, observer, stats, ..*self };
         let found = climb_once(&mut marching, &plan, None, self.cancel).ok()?;
         (found.status == Status::Converged).then_some(found)
     }
@@ -264,10 +261,10 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.plan, found);
+    fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
+        let whole = stated(plan, found);
         let grids = extrapolate_means(&found.headlines).error;
-        whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
+        whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
 }
 

@@ -11,7 +11,7 @@ pub use reduction::wedge_bound;
 
 use crate::contact::cutoff;
 use crate::fidelity::Fidelity;
-use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
+use crate::problem::{Flow, Numerics, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};

@@ -143,8 +143,7 @@ impl Way<'_> {
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;
         let plate = &turned(plate, plan);
         let warm = self.warm.take().filter(|warm| warm.spectral == plan.spectral && !plan.turned);
-        let mut search =
-            Search { plate, plan, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
+        let mut search = Search { plate, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
         let found = climb(&mut search, plan, warm.as_ref(), self.cancel)?;
         if found.status == Status::Cancelled {
             return Err(Interrupted::Cancelled.into());
