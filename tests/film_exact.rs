@@ -9,7 +9,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::exact;
 use squeezefilm::film::grid::{Axis, FilmGrid, Start};
-use squeezefilm::film::stepper::FilmState;
+use squeezefilm::film::stepper::{Film, FilmState};
 use squeezefilm::plan::Plan;
 use squeezefilm::plate::{self, Periodic};
 use squeezefilm::problem::{Gas, Numerics, Plate, Problem, Scenario, Slip};
@@ -139,7 +139,7 @@ fn gas_trapped_under_a_crowned_tooth_that_rocks_is_in_proportion_to_the_mean_gap
         };
         let h: Vec<f64> = (0..steps).flat_map(|step| share.iter().map(move |s| gap(step, *s))).collect();
         assert!((share[0] + 1.0).abs() < 1e-12, "{share:?}");
-        let mut film = FilmCycle::new(FilmGrid { x, y: Axis::single(1e-3) }, &gas, steps);
+        let mut film = FilmCycle::new(Film::new(FilmGrid { x, y: Axis::single(1e-3) }, &gas), steps);
         let mut state = FilmState::at_rest(h[1..intervals].to_vec());
         let mut line = vec![0.0; h.len()];
         for _ in 0..40 {

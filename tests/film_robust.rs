@@ -31,7 +31,7 @@ fn total(film: &Film, field: &[f64]) -> f64 {
 
 #[test]
 fn a_gap_that_doubles_or_grows_a_thousandfold_in_a_step_leaves_positive_pressure() {
-    let round = |hole: f64| FilmGrid { x: Axis::radial(hole, 0.87e-3, 24, 2.0), y: Axis::unit() };
+    let round = |hole: f64| FilmGrid { x: Axis::radial(hole, 0.87e-3, 24, 2.0), y: Axis::single(1.0) };
     for (slip, grid) in [Slip::None, Slip::FirstOrder, Slip::SecondOrder, Slip::FukuiKaneko]
         .into_iter()
         .flat_map(|slip| [tooth(24, 6), round(0.0), round(0.5e-3)].map(|grid| (slip, grid)))

@@ -12,7 +12,7 @@ use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::grid::{Axis, FilmGrid, Start};
-use squeezefilm::film::stepper::FilmState;
+use squeezefilm::film::stepper::{Film, FilmState};
 use squeezefilm::motor;
 use squeezefilm::plan::Plan;
 use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario};
@@ -227,8 +227,9 @@ fn the_films_invariant_holds_with_flow_factors() {
         let (nx, unknowns) = (grid.x.len(), grid.unknowns());
         let gap = |step: usize| 6e-7 + 4e-7 * (TAU * step as f64 / steps as f64).cos();
         let h: Vec<f64> = (0..steps * nx).map(|i| gap(i / nx)).collect();
-        let mut film = FilmCycle::new(grid, &gas, steps);
+        let mut film = Film::new(grid, &gas);
         film.roughen(Some(roughness));
+        let mut film = FilmCycle::new(film, steps);
         let mut state = FilmState::at_rest(vec![6e-7; unknowns]);
         let mut line = vec![0.0; steps * nx];
         for _ in 0..60 {

@@ -14,7 +14,6 @@ type Asked = Arc<dyn Fn() -> bool + Send + Sync>;
 #[derive(Clone, Default)]
 pub struct Cancel {
     flag: Arc<AtomicBool>,
-    above: Option<Box<Cancel>>,
     /// Starts the budget of a solve on the caller's clock.
     start: Option<Arc<dyn Fn() -> Asked + Send + Sync>>,
     /// The budget of the solve that is running.
@@ -37,8 +36,7 @@ impl Cancel {
 
     /// A flag that is up when this one is, and can be raised alone.
     pub fn child(&self) -> Self {
-        let above = Some(Box::new(self.clone()));
-        Self { above, start: self.start.clone(), spent: self.spent.clone(), ..Self::default() }
+        self.or(|| false)
     }
 
     /// The same flag with a budget for each solve: `start` is called when one begins, and what it returns says when it is spent.
@@ -66,12 +64,15 @@ impl Cancel {
 
     /// A flag that is also up once the budget is spent.
     pub fn within_budget(&self) -> Self {
-        Self { raised: self.spent.clone(), ..self.child() }
+        let solve = self.clone();
+        self.or(move || solve.is_spent())
     }
 
     /// A flag that is also up when `raised` says so; it is asked whenever a solver looks.
     pub fn or(&self, raised: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Self { raised: Some(Arc::new(raised)), ..self.child() }
+        let above = self.clone();
+        let raised: Asked = Arc::new(move || above.is_cancelled() || raised());
+        Self { flag: Arc::default(), start: self.start.clone(), spent: self.spent.clone(), raised: Some(raised) }
     }
 
     /// Raises the flag.
@@ -81,9 +82,7 @@ impl Cancel {
 
     /// Whether the flag is up.
     pub fn is_cancelled(&self) -> bool {
-        self.flag.load(Ordering::Relaxed)
-            || self.above.as_ref().is_some_and(|above| above.is_cancelled())
-            || self.raised.as_ref().is_some_and(|raised| raised())
+        self.flag.load(Ordering::Relaxed) || self.raised.as_ref().is_some_and(|raised| raised())
     }
 }
 

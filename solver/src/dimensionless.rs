@@ -45,14 +45,11 @@ impl Dimensionless {
     pub fn of_motor(motor: &Motor) -> Self {
         let omega = std::f64::consts::TAU * motor.frequency;
         let fastest = motor.rotor_speed.abs() + omega * motor.tangential_amplitude;
-        let smooth = Self::from_scales(&motor.gas, omega, fastest, motor.tooth_width, motor.min_spacing);
-        match &motor.surface.flow {
-            None => smooth,
-            Some(roughness) => {
-                let layer = roughness.at(motor.min_spacing).across.sqrt() * smooth.boundary_layer;
-                Self { boundary_layer: layer, ..smooth }
-            }
+        let mut numbers = Self::from_scales(&motor.gas, omega, fastest, motor.tooth_width, motor.min_spacing);
+        if let Some(roughness) = &motor.surface.flow {
+            numbers.boundary_layer *= roughness.at(motor.min_spacing).across.sqrt();
         }
+        numbers
     }
 
     /// The numbers of a plate.

@@ -323,7 +323,7 @@ impl<'a> Scaled<'a> {
             _ => Vec::new(),
         };
         let drive = lossless(dry.last().map(Drive::new).unwrap_or_default());
-        Self { motor, drive, others, load: Estimate { value: motor.load, error: 0.0 } }
+        Self { motor, drive, others, load: Estimate::exact(motor.load) }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
@@ -392,9 +392,8 @@ impl<'a> Scaled<'a> {
 
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
-        let exactly = |value: f64| Estimate { value, error: 0.0 };
         let speed = self.motor.stator_speed();
-        let (unit, v0) = (self.torque(), exactly(speed));
+        let (unit, v0) = (self.torque(), Estimate::exact(speed));
         let per_radius = speed / self.motor.contact_radius;
         let power = unit * per_radius;
         let driven = unit.value > 0.0 && self.drive.0.load() > 0.0 && speed > 0.0;

@@ -105,20 +105,17 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
 
 /// As [`extrapolate`], of cycle means.
 pub fn extrapolate_means(means: &[Mean]) -> Estimate {
-    let steps = match Changes::of(means) {
-        Ok(steps) => steps,
-        Err(estimate) => return estimate,
-    };
-    let correction = steps.correction().abs();
-    let left = if steps.ratio() >= 4.0 {
-        (SPREAD * steps.spread).min(correction)
-    } else if steps.ratio() > 0.0 {
-        REST * steps.slow_rest()
-    } else {
-        0.5 * steps.change.abs()
-    };
-    let least = (CORRECTION * correction).max(BEFORE * steps.earlier.abs());
-    Estimate { value: steps.value, error: left.max(least) }
+    extrapolate_by(means, |steps| {
+        let correction = steps.correction().abs();
+        let left = if steps.ratio() >= 4.0 {
+            (SPREAD * steps.spread).min(correction)
+        } else if steps.ratio() > 0.0 {
+            REST * steps.slow_rest()
+        } else {
+            0.5 * steps.change.abs()
+        };
+        left.max((CORRECTION * correction).max(BEFORE * steps.earlier.abs()))
+    })
 }
 
 /// As [`extrapolate_means`], of a film that nothing touches: its error is a power series of the spacing. What the second order leaves is
@@ -126,58 +123,49 @@ pub fn extrapolate_means(means: &[Mean]) -> Estimate {
 /// stands √(|r₂ − r₁|/unit), since that change is of second order. Where a mean still depends on the instants it is taken over, three
 /// grids may agree by chance: part of that is error, too. `unit`: what errors are relative to.
 pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
-    let steps = match Changes::of(means) {
-        Ok(steps) => steps,
-        Err(estimate) => return estimate,
-    };
-    let spacing = (steps.earlier.abs() / unit).min(1.0).sqrt();
-    let share = THIRD_ORDER + HIGHER_ORDERS * spacing;
-    let left = if steps.ratio() >= NEARLY_SECOND_ORDER {
-        share * steps.spread
-    } else if steps.ratio() > 0.0 {
-        steps.slow_rest()
-    } else {
-        share.max(TURNING) * steps.spread
-    };
-    let least = (HIGHER_ORDERS * spacing * steps.correction().abs()).max(SAMPLING * steps.sampling.abs());
-    Estimate { value: steps.value, error: left.max(least) }
+    extrapolate_by(means, |steps| {
+        let spacing = (steps.earlier.abs() / unit).min(1.0).sqrt();
+        let share = THIRD_ORDER + HIGHER_ORDERS * spacing;
+        let left = if steps.ratio() >= NEARLY_SECOND_ORDER {
+            share * steps.spread
+        } else if steps.ratio() > 0.0 {
+            steps.slow_rest()
+        } else {
+            share.max(TURNING) * steps.spread
+        };
+        left.max((HIGHER_ORDERS * spacing * steps.correction().abs()).max(SAMPLING * steps.sampling.abs()))
+    })
+}
+
+/// By means on three grids or more, with the `error` that they tell; what there is of fewer.
+fn extrapolate_by(means: &[Mean], error: impl Fn(&Changes) -> f64) -> Estimate {
+    match *means {
+        [] => Estimate { value: 0.0, error: f64::INFINITY },
+        [only] => Estimate { value: only.all, error: f64::INFINITY },
+        [coarse, fine] => {
+            let change = fine.shared - coarse.all;
+            Estimate { value: fine.all + change / 3.0, error: change.abs() }
+        }
+        [.., first, second, third] => {
+            let (earlier, change) = (second.shared - first.all, third.shared - second.all);
+            let (before, value) = (second.all + earlier / 3.0, third.all + change / 3.0);
+            let (spread, sampling) = ((value - before).abs(), second.all - second.shared);
+            Estimate { value, error: error(&Changes { earlier, change, spread, sampling }) }
+        }
+    }
 }
 
 /// How a mean changed over three nested grids, from r₁ to r₂ (`earlier`) and from there to r₃ (`change`).
 struct Changes {
     earlier: f64,
     change: f64,
-    /// Extrapolated, and by how much that differs from what the two coarser grids give.
-    value: f64,
+    /// By how much the extrapolated mean differs from what the two coarser grids give.
     spread: f64,
     /// What the second mean gains by the instants that the first grid has not.
     sampling: f64,
 }
 
 impl Changes {
-    /// Of fewer than three grids, what they give.
-    fn of(means: &[Mean]) -> Result<Self, Estimate> {
-        match *means {
-            [] => Err(Estimate { value: 0.0, error: f64::INFINITY }),
-            [only] => Err(Estimate { value: only.all, error: f64::INFINITY }),
-            [coarse, fine] => {
-                let change = fine.shared - coarse.all;
-                Err(Estimate { value: fine.all + change / 3.0, error: change.abs() })
-            }
-            [.., first, second, third] => {
-                let (earlier, change) = (second.shared - first.all, third.shared - second.all);
-                let (before, value) = (second.all + earlier / 3.0, third.all + change / 3.0);
-                Ok(Self {
-                    earlier,
-                    change,
-                    value,
-                    spread: (value - before).abs(),
-                    sampling: second.all - second.shared,
-                })
-            }
-        }
-    }
-
     fn correction(&self) -> f64 {
         self.change / 3.0
     }

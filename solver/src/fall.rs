@@ -8,7 +8,6 @@ use crate::control::Cancel;
 use crate::estimate::{Estimate, extrapolate, left};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
-use crate::film::stepper::FilmError;
 use crate::hold::Hold;
 use crate::memory;
 use crate::plan::Plan;
@@ -95,14 +94,15 @@ pub fn fall(
     let period = 1.0 / plate.frequency;
     let mut heights = vec![start];
     let mut status = Status::NotConverged { residual: f64::INFINITY, tolerance };
-    each(Cycle { number: 0, time: 0.0, height: Estimate { value: start, error: 0.0 }, speed: 0.0, rests: false });
+    each(Cycle { number: 0, time: 0.0, height: Estimate::exact(start), speed: 0.0, rests: false });
     for number in 1..=cycles {
         let rested = ways[1].free().rests;
         for way in &mut ways {
             if cancel.is_cancelled() {
                 return Ok(Some(Fall { status: Status::Cancelled, cycles: number - 1, floats }));
             }
-            way.fall(period, true).map_err(|error| failed(number, error))?;
+            let failed = |source| SolveError::Plate(Interrupted::Failed { step: number, source });
+            way.fall(period, true).map_err(failed)?;
         }
         let [usual, finer] = &ways;
         let height = extrapolate(&[usual.height(), finer.height()]);
@@ -117,18 +117,11 @@ pub fn fall(
             };
             let (before, after) = (change(&heights[first..=first + SETTLED]), change(&heights[first + SETTLED..]));
             let residual = after.max(left(before, after, SLOWEST, CREEP));
-            status = Status::NotConverged { residual, tolerance };
             if residual < tolerance {
-                status = Status::Converged;
+                return Ok(Some(Fall { status: Status::Converged, cycles: number, floats }));
             }
-        }
-        if status == Status::Converged {
-            return Ok(Some(Fall { status, cycles: number, floats }));
+            status = Status::NotConverged { residual, tolerance };
         }
     }
     Ok(Some(Fall { status, cycles, floats }))
-}
-
-fn failed(step: usize, source: FilmError) -> SolveError {
-    SolveError::Plate(Interrupted::Failed { step, source })
 }

@@ -100,18 +100,6 @@ impl Fidelity {
 
     /// What the level means. Between the named ones, grids and tolerances are theirs, in proportion to the logarithm of the error.
     pub fn spec(self) -> Spec {
-        if let Self::To(_) = self {
-            let target_error = self.accuracy();
-            let after = Self::ALL
-                .iter()
-                .position(|level| level.spec().target_error <= target_error)
-                .unwrap_or(Self::ALL.len() - 1)
-                .max(1);
-            let (coarse, fine) = (Self::ALL[after - 1].spec(), Self::ALL[after].spec());
-            let share = ((coarse.target_error / target_error).ln() / (coarse.target_error / fine.target_error).ln())
-                .clamp(0.0, 1.0);
-            return coarse.towards(&fine, share, target_error);
-        }
         match self {
             Self::Draft => Spec {
                 along: 8,
@@ -177,7 +165,14 @@ impl Fidelity {
                 plate_edge_fraction: 0.4,
                 target_error: 2e-4,
             },
-            Self::To(_) => Self::Standard.spec(),
+            Self::To(_) => {
+                let target_error = self.accuracy();
+                let after = Self::ALL.iter().position(|level| level.spec().target_error <= target_error);
+                let after = after.unwrap_or(Self::ALL.len() - 1).max(1);
+                let (coarse, fine) = (Self::ALL[after - 1].spec(), Self::ALL[after].spec());
+                let share = (coarse.target_error / target_error).ln() / (coarse.target_error / fine.target_error).ln();
+                coarse.towards(&fine, share.clamp(0.0, 1.0), target_error)
+            }
         }
     }
 }

@@ -114,9 +114,7 @@ impl Hold {
     pub fn new(plate: &Plate, plan: &Plan) -> Self {
         // A hand may be fast: layers thinner than any polynomial across resolves.
         let plan = &plan.volumes().not_turned();
-        let mut grids = plan.grids.iter().rev();
-        let none = Grid { along: 8, across: 8, steps: 0, harmonic_fraction: 0.0 };
-        let coarse = grids.next().unwrap_or(&none);
+        let coarse = &plan.grids[plan.grids.len() - 1];
         let fine = &coarse.finer(plan.spectral);
         Self {
             coarse: HeldFilm::new(plate, plan, coarse),
@@ -183,7 +181,8 @@ impl Hold {
 
     /// The longest step \[s\] that the film may take, at most `most`.
     fn longest_step(&self, most: f64) -> f64 {
-        let leak = leak_time(&self.plate, self.gap) / self.greatest_ratio();
+        let greatest_ratio = self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap));
+        let leak = leak_time(&self.plate, self.gap) / greatest_ratio;
         let most = most.min(LONGEST_STEP * leak) / self.finer;
         self.last_step.map_or(most, |last| most.min(GROWTH * last))
     }
@@ -309,7 +308,7 @@ impl Hold {
         let (ux, uy, ny) = (grid.x.unknown(), grid.y.unknown(), grid.y.len());
         let (ambient, gap) = (self.plate.gas.ambient_pressure, self.gap);
         let trapped = &self.fine.state.trapped;
-        (0..grid.len()).map(move |i| {
+        (0..grid.nodes()).map(move |i| {
             let (ix, iy) = (i / ny, i % ny);
             let inside = ux.contains(&ix) && uy.contains(&iy);
             if inside { ambient * trapped[(ix - ux.start) * uy.len() + iy - uy.start] / gap } else { ambient }
@@ -334,10 +333,6 @@ impl Hold {
     pub fn unrest(&self) -> f64 {
         let ratios = self.fine.state.trapped.iter().map(|z| z / self.gap);
         ratios.fold(0.0, |most: f64, ratio| most.max((ratio - 1.0).abs()))
-    }
-
-    fn greatest_ratio(&self) -> f64 {
-        self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap))
     }
 }
 

@@ -35,6 +35,10 @@ pub trait Scene {
     type Level: State;
     /// Why it cannot be solved.
     type Error;
+    /// Share of the error asked for that the nodes across may have.
+    const WIDTH_AIM: f64;
+    /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
+    const MOST_WORK: f64;
 
     /// Solves on `grid` of `plan`, started from `start`, which is the state of another scene if `similar`. `number` counts the grids
     /// from 0.
@@ -50,14 +54,8 @@ pub trait Scene {
         number: usize,
     ) -> Result<(Status, Self::Level), Self::Error>;
 
-    /// Share of the error asked for that the nodes across may have.
-    fn width_aim(&self) -> f64;
-
-    /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
-    fn most_work(&self) -> f64;
-
-    /// Whether the headline is as accurate as was asked, or further grids would not make it so.
-    fn settled(&self, found: &Found<Self::Level>) -> bool;
+    /// Whether the headline is as accurate as `plan` asks, or further grids would not make it so.
+    fn settled(&self, plan: &Plan, found: &Found<Self::Level>) -> bool;
 }
 
 /// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
@@ -224,7 +222,7 @@ pub fn climb_once<S: Scene>(
             found.grids.push(grid);
         }
         let next = grid.finer(plan.spectral);
-        let worthwhile = || next.work() * plan.target_error.sqrt() <= scene.most_work() && !scene.settled(&found);
+        let worthwhile = || next.work() * plan.target_error.sqrt() <= S::MOST_WORK && !scene.settled(plan, &found);
         let more = number < plan.grids.len()
             || number < plan.most_grids && status == Status::Converged && !cancel.is_spent() && worthwhile();
         finer = Some(next);
@@ -254,7 +252,7 @@ fn settle_across<S: Scene>(
         let level;
         (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (level.headline().all - narrower.headline().all).abs();
-        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.target_error * level.unit();
+        let matters = WIDTH_SHARE * change > S::WIDTH_AIM * plan.target_error * level.unit();
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;
             across += 1;

@@ -10,11 +10,6 @@ use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
 /// A key whose value is one of a few names.
-pub trait Named {
-    /// The name of the value in presets.
-    fn name(&self) -> &'static str;
-}
-
 macro_rules! named {
     ($(#[$about:meta])* $Type:ident { $($(#[$meaning:meta])* $Value:ident = $name:literal),* $(,)? }) => {
         $(#[$about])*
@@ -24,10 +19,9 @@ macro_rules! named {
         impl $Type {
             /// The names of all values.
             pub const NAMES: &[&str] = &[$($name),*];
-        }
 
-        impl Named for $Type {
-            fn name(&self) -> &'static str {
+            /// The name of the value in presets.
+            pub fn name(&self) -> &'static str {
                 match self { $(Self::$Value => $name),* }
             }
         }

@@ -7,12 +7,13 @@ use crate::drive::{self, Scaled};
 use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
+use crate::ladder::Periodic;
 use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
-use crate::plate::floating::{FloatError, Floated, float};
+use crate::plate::floating::{FloatError, float};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Status, StoppedBy};
@@ -68,7 +69,7 @@ pub enum SolveError {
     Motor(#[from] MotorError),
     /// The plate.
     #[error("film, {0}")]
-    Plate(Interrupted),
+    Plate(#[from] Interrupted),
     /// A plate that does not float.
     #[error(transparent)]
     Float(#[from] FloatError),
@@ -203,7 +204,7 @@ pub fn solve_from(
             solution
         }
         (Scenario::Plate(plate), Some(plan)) => {
-            let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
+            let found = plate::periodic(plate, &plan, observer, cancel)?;
             of_plate(found, &plan, cancel)
         }
         (Scenario::Motor(motor), None) => {
@@ -217,7 +218,7 @@ pub fn solve_from(
     if taken.bytes() > memory::REFINED {
         *warm = Warm::default();
     }
-    perform(problem, &mut solution);
+    let mut solution = performed(problem, solution);
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();
     }
@@ -225,28 +226,38 @@ pub fn solve_from(
 }
 
 fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel) -> Solution {
-    let teeth = if plan.every_tooth { motor.teeth } else { 1 };
-    Solution {
-        accuracy: accuracy(plan, found.result.alpha.error, motor::unit(found.result.alpha.value), cancel),
-        warnings: warnings(&found.status),
-        status: found.status,
-        outcome: Outcome::Motor(found.result),
-        performance: None,
-        stats: found.stats,
-        model: model(plan, teeth),
-        recording: found.recording,
-    }
+    let (alpha, teeth) = (found.result.alpha, if plan.every_tooth { motor.teeth } else { 1 });
+    told(found, Outcome::Motor, accuracy(plan, alpha.error, motor::unit(alpha.value), cancel), plan, teeth)
 }
 
 fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
+    let load = found.result.film_load;
+    told(found, Outcome::Plate, accuracy(plan, load.error, load.value.abs(), cancel), plan, 1)
+}
+
+fn told<R>(
+    found: Periodic<R>,
+    outcome: fn(R) -> Outcome,
+    accuracy: Accuracy,
+    plan: &Plan,
+    teeth_solved: usize,
+) -> Solution {
     Solution {
-        accuracy: accuracy(plan, found.result.film_load.error, found.result.film_load.value.abs(), cancel),
+        accuracy,
         warnings: warnings(&found.status),
         status: found.status,
-        outcome: Outcome::Plate(found.result),
+        outcome: outcome(found.result),
         performance: None,
         stats: found.stats,
-        model: model(plan, 1),
+        model: Model {
+            fidelity: plan.fidelity.clone(),
+            method: Method::Auto.name().to_owned(),
+            teeth_solved,
+            half_width: plan.half_width,
+            shear: plan.shear,
+            remarks: Vec::new(),
+            decisions: plan.decisions.clone(),
+        },
         recording: found.recording,
     }
 }
@@ -265,7 +276,7 @@ fn floated(
     let roughly = |plate: &Plate| plate_plan(plate, problem, &rough, &rough.fidelity.spec());
     let asked = |plate: &Plate| plate_plan(plate, problem, settings, spec);
     match float(plate, load, &roughly, &asked, observer, cancel) {
-        Ok(Floated { periodic, plan }) => {
+        Ok((periodic, plan)) => {
             let mut solution = of_plate(periodic, &plan, cancel);
             if let Outcome::Plate(PlateResult { floating: Some(Floating { mean_gap, stiffness, .. }), .. }) =
                 solution.outcome
@@ -289,8 +300,8 @@ fn floated(
     }
 }
 
-/// Adds torque, power and efficiency of a motor whose fields are kept.
-fn perform(problem: &Problem, solution: &mut Solution) {
+/// The solution with torque, power and efficiency of a motor whose fields are kept.
+fn performed(problem: &Problem, mut solution: Solution) -> Solution {
     if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome)
         && solution.recording.frames > 0
     {
@@ -298,6 +309,7 @@ fn perform(problem: &Problem, solution: &mut Solution) {
         solution.warnings.extend(drive::warnings(motor, result, &found));
         solution.performance = Some(found);
     }
+    solution
 }
 
 /// How exact a headline with this error is, relative to `unit`, and why it is no more so.
@@ -311,18 +323,6 @@ pub(crate) fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> A
         StoppedBy::Limit
     };
     Accuracy { asked: plan.accuracy, stated, stopped_by }
-}
-
-fn model(plan: &Plan, teeth_solved: usize) -> Model {
-    Model {
-        fidelity: plan.fidelity.clone(),
-        method: Method::Auto.name().to_owned(),
-        teeth_solved,
-        half_width: plan.half_width,
-        shear: plan.shear,
-        remarks: Vec::new(),
-        decisions: plan.decisions.clone(),
-    }
 }
 
 /// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,

@@ -375,30 +375,23 @@ impl<'a> SceneTransient<'a> {
                 Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error, stats)?))
             }
             Scenario::Plate(plate) => {
-                let transient =
-                    plate::Transient::at_rest(plate, plan, width_error, stats).map_err(SolveError::Plate)?;
-                Self::Plate(Box::new(transient))
+                Self::Plate(Box::new(plate::Transient::at_rest(plate, plan, width_error, stats)?))
             }
         })
     }
 
     fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, SolveError> {
         Ok(match self {
-            Self::Motor(transient) => {
-                transient.cycle(cancel)?.map(|(result, recording, change)| (Outcome::Motor(result), recording, change))
-            }
-            Self::Plate(transient) => transient
-                .cycle(cancel)
-                .map_err(SolveError::Plate)?
-                .map(|(result, recording, change)| (Outcome::Plate(result), recording, change)),
+            Self::Motor(transient) => transient.cycle(cancel)?,
+            Self::Plate(transient) => transient.cycle(cancel)?,
         })
     }
 
     /// Error of the last cycle's headline that finer grids would not make smaller, absolute.
     fn elsewhere(&self) -> f64 {
         match self {
-            Self::Motor(transient) => transient.elsewhere(),
-            Self::Plate(transient) => transient.elsewhere(),
+            Self::Motor(transient) => transient.elsewhere,
+            Self::Plate(transient) => transient.width_error,
         }
     }
 
@@ -412,8 +405,8 @@ impl<'a> SceneTransient<'a> {
 
     fn stats(&self) -> Stats {
         match self {
-            Self::Motor(transient) => transient.stats(),
-            Self::Plate(transient) => transient.stats(),
+            Self::Motor(transient) => transient.stats,
+            Self::Plate(transient) => transient.stats,
         }
     }
 }

@@ -93,7 +93,7 @@ impl RotorCurves {
             _ => None,
         };
         let resonances = motor.resonances(cancel)?.map(Vec::from);
-        Ok(Some(Self { curves, relative_error: present.relative_error(), resonances, bent }))
+        Ok(Some(Self { curves, relative_error: present.relative_error, resonances, bent }))
     }
 }
 

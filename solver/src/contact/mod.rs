@@ -66,19 +66,16 @@ pub struct Instant {
     pub contact: Vec<f64>,
 }
 
-/// Why a contact problem failed.
+/// Why a contact problem failed: Newton's iteration did not settle.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ContactError {
-    /// Newton's iteration did not settle.
-    #[error(
-        "the contact problem did not converge: after {iterations} iterations the balance is off by {imbalance:.1e} of the load"
-    )]
-    Newton {
-        /// Iterations made.
-        iterations: u32,
-        /// Largest imbalance, relative to the load.
-        imbalance: f64,
-    },
+#[error(
+    "the contact problem did not converge: after {iterations} iterations the balance is off by {imbalance:.1e} of the load"
+)]
+pub struct ContactError {
+    /// Iterations made.
+    pub iterations: u32,
+    /// Largest imbalance, relative to the load.
+    pub imbalance: f64,
 }
 
 const ITERATION_LIMIT: u32 = 200;
@@ -163,7 +160,7 @@ impl Contact {
         let unknowns = self.modes.unknowns();
         if shape.amplitudes.len() != unknowns {
             shape.amplitudes = vec![0.0; unknowns];
-            shape.amplitudes[0] = self.rigid_offset(stator, trapped);
+            shape.amplitudes[0] = self.rigid_offset(stator, trapped, &shape.amplitudes);
         }
         let mut amplitudes = std::mem::take(&mut shape.amplitudes);
         let mut gradient = vec![0.0; unknowns];
@@ -184,12 +181,12 @@ impl Contact {
                 break Ok(iterations);
             }
             if iterations == ITERATION_LIMIT {
-                break Err(ContactError::Newton { iterations, imbalance });
+                break Err(ContactError { iterations, imbalance });
             }
             iterations += 1;
             let Some(step) = self.newton_step(&gradient) else {
                 // No node pushes back: only the rigid offset can restore contact.
-                amplitudes[0] = self.rigid_offset_with(stator, trapped, &amplitudes);
+                amplitudes[0] = self.rigid_offset(stator, trapped, &amplitudes);
                 total = self.gradient(stator, trapped, &amplitudes, &mut gradient);
                 continue;
             };
@@ -302,14 +299,8 @@ impl Contact {
         step.iter().all(|v| v.is_finite()).then_some(step)
     }
 
-    /// z₀ of a rotor that is rigid but for its local compliance.
-    fn rigid_offset(&mut self, stator: &[f64], trapped: &[f64]) -> f64 {
-        let flat = vec![0.0; self.modes.unknowns()];
-        self.rigid_offset_with(stator, trapped, &flat)
-    }
-
     /// z₀ that balances the load with the other amplitudes as they are, by bisection: the total force falls with z₀.
-    fn rigid_offset_with(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64]) -> f64 {
+    fn rigid_offset(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64]) -> f64 {
         let mut shape = amplitudes.to_vec();
         shape[0] = 0.0;
         self.modes.deflection(&shape, &mut self.s);

@@ -41,12 +41,16 @@ impl Shape {
         Self { amplitudes: Vec::new() }
     }
 
-    /// The same shape with another number of modes.
+    /// The same shape with the number of these modes, cut or padded.
     pub fn resized(&self, modes: &Modes) -> Self {
-        if self.amplitudes.is_empty() {
-            return Self::unknown();
+        let Some(old) = self.amplitudes.len().checked_sub(1).map(|both| both / 2) else { return Self::unknown() };
+        let mut amplitudes = vec![0.0; modes.unknowns()];
+        amplitudes[0] = self.amplitudes[0];
+        for n in 0..old.min(modes.count) {
+            amplitudes[1 + n] = self.amplitudes[1 + n];
+            amplitudes[1 + modes.count + n] = self.amplitudes[1 + old + n];
         }
-        modes.resize(&self.amplitudes)
+        Self { amplitudes }
     }
 }
 
@@ -102,18 +106,6 @@ impl Modes {
     /// Unknowns: z₀ and two for each harmonic.
     pub fn unknowns(&self) -> usize {
         1 + 2 * self.count
-    }
-
-    /// Amplitudes of another set of modes, in physical size, cut or padded to this one.
-    pub(super) fn resize(&self, other: &[f64]) -> Shape {
-        let old = (other.len() - 1) / 2;
-        let mut amplitudes = vec![0.0; self.unknowns()];
-        amplitudes[0] = other[0];
-        for n in 0..old.min(self.count) {
-            amplitudes[1 + n] = other[1 + n];
-            amplitudes[1 + self.count + n] = other[1 + old + n];
-        }
-        Shape { amplitudes }
     }
 
     fn cosine(&self, n: usize) -> &[f64] {

@@ -16,8 +16,6 @@ use super::grid::FilmGrid;
 use super::stepper::{Film, FilmError, FilmState, StepCost};
 use crate::control::Cancel;
 use crate::numerics::rows::{Coupling, RowSolver};
-use crate::problem::Gas;
-use crate::surface::flow::Roughness;
 
 /// Why a cycle ended early.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -64,12 +62,13 @@ pub struct FilmCycle {
 }
 
 impl FilmCycle {
-    /// A cycle of `steps` on `grid`.
-    pub fn new(grid: FilmGrid, gas: &Gas, steps: usize) -> Self {
+    /// A cycle of `steps` of `film`.
+    pub fn new(film: Film, steps: usize) -> Self {
+        let grid = film.grid();
         let (unknowns, columns) = (grid.unknowns(), grid.y.unknown().len());
         let solver = RowSolver::new(unknowns / columns, columns, &grid.y.diffusion());
         Self {
-            film: Film::new(grid, gas),
+            film,
             steps,
             pressure: vec![1.0; steps * unknowns],
             marched: false,
@@ -102,16 +101,6 @@ impl FilmCycle {
     /// the slowest mode.
     pub fn stays(&self, h: f64, dt: f64) -> f64 {
         1.0 / (1.0 + dt * self.film.slowest_leak(h))
-    }
-
-    /// Lets nothing flow along x ([`Film::close_along`]).
-    pub fn close_along(&mut self) {
-        self.film.close_along();
-    }
-
-    /// Takes the faces for rough from now on ([`Film::roughen`]).
-    pub fn roughen(&mut self, roughness: Option<Roughness>) {
-        self.film.roughen(roughness);
     }
 
     /// Unknown P of step `m`.
@@ -205,7 +194,7 @@ impl FilmCycle {
     fn accumulate_leak(&mut self, h: &[f64]) {
         let columns = self.grid().y.unknown().len();
         let x = self.grid().x.unknown();
-        let jacobian = self.film.last_jacobian();
+        let jacobian = &self.film.jacobian;
         let leak = &mut self.leak;
         let add = |sum: &mut [f64], terms: &[f64], factor: f64| {
             for (sum, term) in sum.iter_mut().zip(terms) {
@@ -250,9 +239,8 @@ impl FilmCycle {
         let (nx, ny, columns) = (grid.x.len(), grid.y.len(), grid.y.unknown().len());
         let mut full = vec![ambient; self.steps * nx * ny];
         for (m, map) in full.chunks_exact_mut(nx * ny).enumerate() {
-            for (column, ix) in self.pressure(m).chunks_exact(columns).zip(grid.x.unknown()) {
-                let target = &mut map[ix * ny + grid.y.unknown().start..][..columns];
-                target.iter_mut().zip(column).for_each(|(to, p)| *to = p * ambient);
+            for (column, (_, row)) in self.pressure(m).chunks_exact(columns).zip(grid.rows()) {
+                map[row].iter_mut().zip(column).for_each(|(to, p)| *to = p * ambient);
             }
         }
         full

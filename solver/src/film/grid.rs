@@ -2,6 +2,7 @@
 
 use crate::numerics::{grading, legendre};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// What lies beyond the first node along an axis. Beyond the last there is always ambient gas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub struct Axis {
     /// those of finite volumes.
     slopes: Vec<f64>,
     /// It runs along the radius of a round film, with all of the circumference to each node.
-    radial: bool,
+    pub radial: bool,
 }
 
 impl Axis {
@@ -70,11 +71,6 @@ impl Axis {
         if self.radial { PI * (self.nodes[face] + self.nodes[face + 1]) } else { 1.0 }
     }
 
-    /// Whether it runs along a radius.
-    pub fn is_radial(&self) -> bool {
-        self.radial
-    }
-
     /// An axis on which a field is one polynomial: `count` nodes of Gauss, Lobatto and Legendre over half-length `half` \[m\]
     /// beside the edge, clustered further by β. Of a whole length, as many again on the other side.
     pub fn spectral(half: f64, start: Start, count: usize, beta: f64) -> Self {
@@ -103,12 +99,8 @@ impl Axis {
         }
     }
 
-    /// The single node of an infinitely wide film, standing for one metre.
-    pub fn unit() -> Self {
-        Self::single(1.0)
-    }
-
-    /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\].
+    /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\]; of an infinitely wide one,
+    /// for one metre.
     pub fn single(length: f64) -> Self {
         Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror, slopes: Vec::new(), radial: false }
     }
@@ -124,7 +116,7 @@ impl Axis {
     }
 
     /// Nodes whose pressure is unknown.
-    pub fn unknown(&self) -> std::ops::Range<usize> {
+    pub fn unknown(&self) -> Range<usize> {
         if self.len() == 1 {
             return 0..1;
         }
@@ -176,18 +168,19 @@ pub struct FilmGrid {
 
 impl FilmGrid {
     /// Nodes in all.
-    pub fn len(&self) -> usize {
+    pub fn nodes(&self) -> usize {
         self.x.len() * self.y.len()
-    }
-
-    /// Whether there are no nodes: never.
-    pub fn is_empty(&self) -> bool {
-        false
     }
 
     /// Nodes with unknown pressure.
     pub fn unknowns(&self) -> usize {
         self.x.unknown().len() * self.y.unknown().len()
+    }
+
+    /// Each node along x with unknown pressure, and where those across it are in a field of all nodes.
+    pub fn rows(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let (across, ny) = (self.y.unknown(), self.y.len());
+        self.x.unknown().map(move |ix| (ix, ix * ny + across.start..ix * ny + across.end))
     }
 
     /// Width \[m\] that the unknown nodes of one x stand for, both halves; the edge's own half interval, always at

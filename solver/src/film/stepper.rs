@@ -26,7 +26,7 @@
 //! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
 
 use super::grid::{Axis, FilmGrid, Start};
-use super::slip::{Mobility, SlipLaw, Work};
+use super::slip::{Mobility, SlipLaw};
 use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
@@ -62,17 +62,14 @@ pub struct StepCost {
     pub limited: bool,
 }
 
-/// Why a step failed.
+/// Why a step failed: Newton's iteration did not settle.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum FilmError {
-    /// Newton's iteration did not settle.
-    #[error("the film step did not converge: after {iterations} iterations the pressure still changes by {change:.1e}")]
-    Newton {
-        /// Iterations made.
-        iterations: u32,
-        /// Largest relative change of the last one.
-        change: f64,
-    },
+#[error("the film step did not converge: after {iterations} iterations the pressure still changes by {change:.1e}")]
+pub struct FilmError {
+    /// Iterations made.
+    pub iterations: u32,
+    /// Largest relative change of the last one.
+    pub change: f64,
 }
 
 /// Newton's relative change below which a step is accepted, unless `Film::set_tolerance` loosens it. Convergence is quadratic:
@@ -93,7 +90,7 @@ const CARRIED_FLOOR: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub struct Film {
     grid: FilmGrid,
-    law: SlipLaw,
+    pub(super) law: SlipLaw,
     /// M = p_a/(12μ) \[1/s\].
     mobility: f64,
     columns: usize,
@@ -112,7 +109,8 @@ pub struct Film {
     residual: Vec<f64>,
     /// Δt·div flux \[m\].
     divergence: Vec<f64>,
-    jacobian: Coupling,
+    /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
+    pub(super) jacobian: Coupling,
     /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
     pivots: Vec<f64>,
     solver: RowSolver,
@@ -158,24 +156,6 @@ impl Face {
             weights: [0.5 * before, 0.5 * behind],
             choke: [choke(before, behind), choke(behind, before)],
         }
-    }
-}
-
-/// A step to be taken by the law of the film.
-struct Step<'a> {
-    film: &'a mut Film,
-    h: &'a [f64],
-    speed: Option<&'a [f64]>,
-    dt: f64,
-    state: &'a mut FilmState,
-    guess: Option<&'a [f64]>,
-}
-
-impl Work for Step<'_> {
-    type Output = Result<StepCost, FilmError>;
-
-    fn with<L: Mobility>(self, law: L) -> Self::Output {
-        self.film.step_with(law, self.h, self.speed, self.dt, self.state, self.guess)
     }
 }
 
@@ -242,9 +222,9 @@ impl Film {
             closed_along: false,
             roughness: None,
             flow: vec![Factors::SMOOTH; grid.x.len()],
-            pressure: vec![1.0; grid.len()],
+            pressure: vec![1.0; grid.nodes()],
             theta: vec![1.0; unknowns],
-            fitting: vec![0.0; grid.len()],
+            fitting: vec![0.0; grid.nodes()],
             rhs: vec![0.0; unknowns],
             residual: vec![0.0; unknowns],
             divergence: vec![0.0; unknowns],
@@ -275,17 +255,11 @@ impl Film {
         self.flow.fill(Factors::SMOOTH);
     }
 
-    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge(ix)` at all y of an end, and at the side of
-    /// each node along x.
-    pub fn set_edges(&mut self, edge: impl Fn(usize) -> f64) {
-        let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
-        let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
-        for ix in 0..nx {
-            for iy in 0..ny {
-                if !ux.contains(&ix) || !uy.contains(&iy) {
-                    self.pressure[ix * ny + iy] = edge(ix);
-                }
-            }
+    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge[ix]` at all y of an end, and at the side of
+    /// each node along x. Inside it is lost: the next step must start without a guess.
+    pub(super) fn set_edges(&mut self, edge: &[f64]) {
+        for (row, edge) in self.pressure.chunks_exact_mut(self.grid.y.len()).zip(edge) {
+            row.fill(*edge);
         }
     }
 
@@ -320,17 +294,12 @@ impl Film {
         }
     }
 
-    /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
-    pub fn last_jacobian(&self) -> &Coupling {
-        &self.jacobian
-    }
-
     /// Advances `state` by `dt` \[s\] to the gap `h` \[m\] (one value for each node along x). `speed`: sliding speed U
     /// \[m/s\] at the nodes along x at the end of the step, or `None` to leave the wedge term out. `guess`: P at unknown
     /// nodes to start from.
     ///
     /// # Errors
-    /// [`FilmError::Newton`] when the iteration does not settle; `state` is then unchanged.
+    /// [`FilmError`] when the iteration does not settle; `state` is then unchanged.
     pub fn step(
         &mut self,
         h: &[f64],
@@ -342,7 +311,12 @@ impl Film {
         if let Some(roughness) = &self.roughness {
             self.flow.iter_mut().zip(h).for_each(|(flow, h)| *flow = roughness.at(*h));
         }
-        self.law.lend(Step { film: self, h, speed, dt, state, guess })
+        match self.law {
+            SlipLaw::Affine(law) => self.step_with(law, h, speed, dt, state, guess),
+            SlipLaw::SecondOrder(law) => self.step_with(law, h, speed, dt, state, guess),
+            SlipLaw::FukuiKaneko(law) => self.step_with(law, h, speed, dt, state, guess),
+            SlipLaw::Accommodated(law) => self.step_with(law, h, speed, dt, state, guess),
+        }
     }
 
     fn step_with<L: Mobility>(
@@ -397,25 +371,21 @@ impl Film {
 
     /// Gap and unknown pressures of each row of nodes.
     fn rows<'a>(&'a self, h: &'a [f64]) -> impl Iterator<Item = (f64, &'a [f64])> {
-        let (uy, ny) = (self.grid.y.unknown(), self.grid.y.len());
-        self.grid.x.unknown().map(move |ix| (h[ix], &self.pressure[ix * ny + uy.start..ix * ny + uy.end]))
+        self.grid.rows().map(move |(ix, row)| (h[ix], &self.pressure[row]))
     }
 
     /// P at the unknown nodes from Z and the gap; the edges hold 1 for good.
     fn load_pressure(&mut self, h: &[f64], trapped: &[f64]) {
-        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
-        for (column, ix) in trapped.chunks_exact(self.columns).zip(ux) {
-            let target = &mut self.pressure[ix * ny + uy.start..ix * ny + uy.end];
-            for (p, z) in target.iter_mut().zip(column) {
+        for (column, (ix, row)) in trapped.chunks_exact(self.columns).zip(self.grid.rows()) {
+            for (p, z) in self.pressure[row].iter_mut().zip(column) {
                 *p = z / h[ix];
             }
         }
     }
 
     fn scatter_pressure(&mut self, unknown: &[f64]) {
-        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
-        for (column, ix) in unknown.chunks_exact(self.columns).zip(ux) {
-            self.pressure[ix * ny + uy.start..ix * ny + uy.end].copy_from_slice(column);
+        for (column, (_, row)) in unknown.chunks_exact(self.columns).zip(self.grid.rows()) {
+            self.pressure[row].copy_from_slice(column);
         }
     }
 
@@ -430,16 +400,10 @@ impl Film {
         flow.along.max(flow.across) * self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
     }
 
-    /// The slip law.
-    pub fn law(&self) -> SlipLaw {
-        self.law
-    }
-
     /// P at the unknown nodes.
     pub fn gather_pressure(&self, unknown: &mut [f64]) {
-        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
-        for (column, ix) in unknown.chunks_exact_mut(self.columns).zip(ux) {
-            column.copy_from_slice(&self.pressure[ix * ny + uy.start..ix * ny + uy.end]);
+        for (column, (_, row)) in unknown.chunks_exact_mut(self.columns).zip(self.grid.rows()) {
+            column.copy_from_slice(&self.pressure[row]);
         }
     }
 
@@ -574,15 +538,13 @@ impl Film {
         careful: bool,
         cost: &mut StepCost,
     ) -> Result<(), FilmError> {
-        let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
-        let (ny, columns) = (self.grid.y.len(), self.columns);
         for k in 0..self.rhs.len() {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];
         }
         let mut damping = if careful { 1.0 } else { 0.0 };
         let limit = if careful { CAREFUL_LIMIT } else { NEWTON_LIMIT };
         for iteration in 0..limit {
-            with_columns!(columns, B => vectorised(
+            with_columns!(self.columns, B => vectorised(
                 #[inline(always)]
                 || self.assemble::<L, B>(law, h, speed, dt, damping)
             ));
@@ -593,9 +555,8 @@ impl Film {
                 continue;
             }
             let (mut settled, mut sum) = (true, 0.0);
-            for (column, ix) in self.residual.chunks_exact(columns).zip(ux.clone()) {
-                let values = &mut self.pressure[ix * ny + uy.start..ix * ny + uy.end];
-                for (p, step) in values.iter_mut().zip(column) {
+            for (column, (_, row)) in self.residual.chunks_exact(self.columns).zip(self.grid.rows()) {
+                for (p, step) in self.pressure[row].iter_mut().zip(column) {
                     settled &= step.abs() <= self.tolerance * *p;
                     sum += step;
                     // A Newton step from below may overshoot zero: it is cut, not refused.
@@ -619,15 +580,14 @@ impl Film {
         }
         // The caller gets a film that still holds the state it had.
         self.load_pressure(h, &state.trapped);
-        Err(FilmError::Newton { iterations: limit, change })
+        Err(FilmError { iterations: limit, change })
     }
 
     /// Largest relative change of a pressure in the last linear solve; infinite if one is not a number.
     fn largest_change(&self) -> f64 {
-        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
         let mut change = 0.0_f64;
-        for (column, ix) in self.residual.chunks_exact(self.columns).zip(ux) {
-            for (p, step) in self.pressure[ix * ny + uy.start..ix * ny + uy.end].iter().zip(column) {
+        for (column, (_, row)) in self.residual.chunks_exact(self.columns).zip(self.grid.rows()) {
+            for (p, step) in self.pressure[row].iter().zip(column) {
                 let relative = (step / p).abs();
                 change = if relative.is_nan() { f64::INFINITY } else { change.max(relative) };
             }

@@ -8,11 +8,9 @@
 //! * Inside, the cycle mean of −M h² ψ(Z) ∇(Z/h) with Z constant in time is −M ⟨h⟩² ψ(Z) ∇(Z/⟨h⟩): a steady film of the
 //!   gap ⟨h⟩, whose pressure at the edges is Z_e/⟨h⟩.
 
-use super::grid::FilmGrid;
 use super::slip::Mobility;
 use super::stepper::{Film, FilmError, FilmState};
 use crate::numerics::gauss_legendre;
-use crate::problem::Gas;
 
 /// The trapped film of one tooth.
 #[derive(Clone, Debug)]
@@ -27,13 +25,9 @@ pub struct TrappedFilm {
 const FOREVER: f64 = 1e12;
 
 impl TrappedFilm {
-    /// On `grid`, closed along x if `closed_along`.
-    pub fn new(grid: FilmGrid, gas: &Gas, closed_along: bool) -> Self {
-        let (nx, unknowns) = (grid.x.len(), grid.unknowns());
-        let mut film = Film::new(grid, gas);
-        if closed_along {
-            film.close_along();
-        }
+    /// The trapped state of `film`.
+    pub fn new(film: Film) -> Self {
+        let (nx, unknowns) = (film.grid().x.len(), film.grid().unknowns());
         Self { film, state: FilmState::at_rest(vec![1.0; unknowns]), mean_gap: vec![0.0; nx], edge: vec![0.0; nx] }
     }
 
@@ -44,18 +38,17 @@ impl TrappedFilm {
     pub fn solve(&mut self, h: &[f64]) -> Result<&[f64], FilmError> {
         let nx = self.mean_gap.len();
         let steps = h.len() / nx;
-        let law = self.film.law();
+        let law = self.film.law;
         for ix in 0..nx {
             let gaps = || (0..steps).map(|step| h[step * nx + ix]);
             self.mean_gap[ix] = gaps().sum::<f64>() / steps as f64;
             self.edge[ix] = edge_height(law, gaps) / self.mean_gap[ix];
         }
-        let edge = &self.edge;
-        self.film.set_edges(|ix| edge[ix]);
+        self.film.set_edges(&self.edge);
         // From rest at the pressure of the sides.
         let columns = self.film.grid().y.unknown().len();
-        for (row, ix) in self.film.grid().x.unknown().enumerate() {
-            self.state.trapped[row * columns..(row + 1) * columns].fill(self.edge[ix] * self.mean_gap[ix]);
+        for (column, ix) in self.state.trapped.chunks_exact_mut(columns).zip(self.film.grid().x.unknown()) {
+            column.fill(self.edge[ix] * self.mean_gap[ix]);
         }
         self.state.carried.copy_from_slice(&self.state.trapped);
         self.film.step(&self.mean_gap, None, FOREVER, &mut self.state, None)?;

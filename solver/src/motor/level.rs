@@ -11,7 +11,7 @@ use crate::estimate::{Mean, left};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
-use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
+use crate::film::stepper::{Film, FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
 use crate::ladder::State;
 use crate::numerics::anderson::Anderson;
@@ -32,10 +32,11 @@ const REPEATING_SHARE: f64 = 0.3;
 const LEAST_CHANGE: f64 = 1e-9;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
+#[derive(Debug)]
 pub(super) struct Level {
     teeth: usize,
     stored: usize,
-    steps: usize,
+    pub(super) steps: usize,
     nx: usize,
     /// Vibration period over steps \[s\].
     dt: f64,
@@ -60,8 +61,8 @@ pub(super) struct Level {
     contact_load: Vec<f64>,
     /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
     stiffness: f64,
-    /// Residual of the last round.
-    residual: f64,
+    /// Residual of the last round; of a transient, the largest of a step of the last cycle, in ln ζ.
+    pub(super) residual: f64,
     /// What the gas, as it changed in the last round, changes of the film's load \[N\].
     drift: f64,
     /// ζ from the film's last cycle, lines.
@@ -77,37 +78,28 @@ pub(super) struct Level {
 impl Level {
     pub(super) fn new(motor: &Motor, plan: &Plan, grid: &Grid) -> Self {
         let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
-        let y = if plan.flow == Flow::Along {
-            Axis::single(motor.contact_width)
-        } else if plan.spectral {
-            let start = if plan.half_width { Start::Mirror } else { Start::Ambient };
-            Axis::spectral(0.5 * motor.contact_width, start, grid.across, plan.clustering_across)
-        } else if plan.half_width {
-            Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across)
-        } else {
-            Axis::clustered(0.5 * motor.contact_width, Start::Ambient, 2 * grid.across, plan.clustering_across)
+        let (half, beta) = (0.5 * motor.contact_width, plan.clustering_across);
+        let (start, intervals) =
+            if plan.half_width { (Start::Mirror, grid.across) } else { (Start::Ambient, 2 * grid.across) };
+        let y = match plan.flow {
+            Flow::Along => Axis::single(motor.contact_width),
+            _ if plan.spectral => Axis::spectral(half, start, grid.across, beta),
+            _ => Axis::clustered(half, start, intervals, beta),
         };
         let film_grid = FilmGrid { x, y };
         let (nx, steps, teeth) = (film_grid.x.len(), grid.steps, motor.teeth);
         let stored = if plan.every_tooth { teeth } else { 1 };
         let instants = if plan.every_tooth { steps } else { steps / teeth };
 
-        let mut positions = Vec::with_capacity(teeth * nx);
-        let mut lengths = Vec::with_capacity(teeth * nx);
-        let mut widths = Vec::with_capacity(teeth * nx);
-        let interior_width = film_grid.interior_width();
-        for tooth in 0..teeth {
-            for ix in 0..nx {
-                positions.push(tooth as f64 * motor.pitch() + film_grid.x.nodes[ix]);
-                lengths.push(film_grid.x.lengths[ix]);
-                widths.push(if film_grid.x.unknown().contains(&ix) { interior_width } else { 0.0 });
-            }
-        }
-        let stator = (0..instants)
-            .flat_map(|s| {
-                let (positions, nodes) = (&positions, &film_grid.x.nodes);
-                (0..teeth * nx)
-                    .map(move |i| motor.stator_displacement(positions[i], nodes[i % nx], s as f64 / steps as f64))
+        let (nodes, interior_width) = (&film_grid.x.nodes, film_grid.interior_width());
+        let place = |i: usize| (i / nx) as f64 * motor.pitch() + nodes[i % nx];
+        let positions: Vec<f64> = (0..teeth * nx).map(place).collect();
+        let mut widths = vec![0.0; nx];
+        widths[film_grid.x.unknown()].fill(interior_width);
+        let stator = (0..instants * teeth * nx)
+            .map(|k| {
+                let (s, i) = (k / (teeth * nx), k % (teeth * nx));
+                motor.stator_displacement(positions[i], nodes[i % nx], s as f64 / steps as f64)
             })
             .collect();
         let speed = plan.shear.then(|| {
@@ -121,16 +113,17 @@ impl Level {
         let harmonics = plan.harmonics(grid);
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let gas = &motor.gas;
-        let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load)
+        let (lengths, film_widths) = (film_grid.x.lengths.repeat(teeth), widths.repeat(teeth));
+        let contact = Contact::new(modes, lengths, &film_widths, gas.ambient_pressure, motor.min_spacing, motor.load)
             .on(motor.surface.asperities, motor.contact_width);
         let unknowns = film_grid.unknowns();
-        let closed_along = plan.flow == Flow::Across;
-        let trapped_film = plan.trapped.then(|| TrappedFilm::new(film_grid.clone(), gas, closed_along));
-        let mut film = FilmCycle::new(film_grid, gas, steps);
-        film.roughen(motor.surface.flow);
-        if closed_along {
+        let mut film = Film::new(film_grid, gas);
+        if plan.flow == Flow::Across {
             film.close_along();
         }
+        let trapped_film = plan.trapped.then(|| TrappedFilm::new(film.clone()));
+        film.roughen(motor.surface.flow);
+        let film = FilmCycle::new(film, steps);
         Self {
             teeth,
             stored,
@@ -157,12 +150,8 @@ impl Level {
             line: vec![0.0; stored * steps * nx],
             next: vec![0.0; stored * steps * nx],
             reference: None,
-            widths: widths[..nx].to_vec(),
+            widths,
         }
-    }
-
-    pub(super) fn steps(&self) -> usize {
-        self.steps
     }
 
     fn grid(&self) -> &FilmGrid {
@@ -265,18 +254,24 @@ impl Level {
                 .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
             stats.contact_solves += 1;
             stats.contact_iterations += u64::from(iterations);
-            for tooth in 0..teeth {
-                let to = self.line_of(tooth, s);
-                self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
-                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
-            }
+            self.keep(s, &fields);
         }
         Ok(())
     }
 
+    /// Keeps what a contact problem has found for instant `s`.
+    fn keep(&mut self, s: usize, fields: &Instant) {
+        let nx = self.nx;
+        for tooth in 0..self.teeth {
+            let to = self.line_of(tooth, s);
+            self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
+            self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+        }
+    }
+
     /// Solves the contact problems of all instants, one after the other, as if there were no gas.
     pub(super) fn dry_cycle(&mut self, cancel: &Cancel) -> Result<(), Stop> {
-        let (mut contact, nodes, nx) = (self.contact.dry(), self.contact.nodes(), self.nx);
+        let (mut contact, nodes) = (self.contact.dry(), self.contact.nodes());
         let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::unknown(), Instant::default());
         for s in 0..self.instants() {
             if cancel.is_cancelled() {
@@ -285,10 +280,7 @@ impl Level {
             contact
                 .solve(&self.stator[s * nodes..(s + 1) * nodes], &nothing, &mut shape, &mut fields)
                 .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
-            for tooth in 0..self.teeth {
-                let to = self.line_of(tooth, s);
-                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
-            }
+            self.keep(s, &fields);
         }
         Ok(())
     }
@@ -568,7 +560,7 @@ impl State for Level {
     }
 
     fn count(&self, stats: &mut Stats) {
-        stats.film_nodes = self.grid().len();
+        stats.film_nodes = self.grid().nodes();
         stats.contact_nodes = self.contact.nodes();
         stats.steps_per_cycle = self.steps;
     }

@@ -23,7 +23,7 @@ use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
-use crate::solution::{MotorResult, Stats, Status};
+use crate::solution::{MotorResult, Outcome, Stats, Status};
 use ending::Stop;
 use level::Level;
 
@@ -53,7 +53,7 @@ pub type Periodic = ladder::Periodic<MotorResult>;
 /// The states that the last solve ended with: where the solve of a similar motor starts.
 ///
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Warm {
     found: Option<Found<Level>>,
 }
@@ -62,12 +62,6 @@ impl Warm {
     /// Whether there is nothing to start from.
     pub fn is_empty(&self) -> bool {
         self.found.is_none()
-    }
-}
-
-impl std::fmt::Debug for Warm {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Warm").field("grids", &self.found.as_ref().map_or(0, |found| found.levels.len())).finish()
     }
 }
 
@@ -97,8 +91,7 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search =
-        Search { motor, plan, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
+    let mut search = Search { motor, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
     if let Status::NotConverged { .. } = found.status {
         // A cycle may repeat on grids of half the spacing and not on those of the plan.
@@ -130,7 +123,7 @@ pub fn periodic_near(
     let mut stats = Stats::default();
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
     let mut search =
-        Search { motor, plan, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
+        Search { motor, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
     let mut found = climb(&mut search, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));
@@ -153,7 +146,6 @@ pub fn touching(
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
         let mut search = Search {
             motor: &motor,
-            plan,
             warm_rounds: WARM_ROUNDS,
             marching: false,
             observer: &mut *observer,
@@ -173,7 +165,6 @@ pub fn touching(
 /// One solve of a motor by a plan.
 struct Search<'a> {
     motor: &'a Motor,
-    plan: &'a Plan,
     /// Rounds that a start from another motor's state is given.
     warm_rounds: usize,
     /// Cycle after cycle of every tooth is marched, in place of rounds of all instants at once.
@@ -194,7 +185,7 @@ impl Search<'_> {
             return None;
         }
         let (observer, stats) = (&mut *self.observer, &mut *self.stats);
-        let mut marching = Search { plan: &plan, marching: true, observer, stats, ..*self };
+        let mut marching = Search { marching: true, observer, stats, ..*self };
         let found = climb_once(&mut marching, &plan, None, self.cancel).ok()?;
         (found.status == Status::Converged).then_some(found)
     }
@@ -203,6 +194,8 @@ impl Search<'_> {
 impl Scene for Search<'_> {
     type Level = Level;
     type Error = MotorError;
+    const WIDTH_AIM: f64 = 0.3;
+    const MOST_WORK: f64 = 1.5e5;
 
     fn solve(
         &mut self,
@@ -268,38 +261,26 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn width_aim(&self) -> f64 {
-        0.3
-    }
-
-    fn most_work(&self) -> f64 {
-        1.5e5
-    }
-
-    fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.plan, found);
+    fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
+        let whole = stated(plan, found);
         let grids = extrapolate_means(&found.headlines).error;
-        whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
+        whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
 }
 
 /// A motor from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
+#[derive(Debug)]
 pub struct Transient<'a> {
     motor: &'a Motor,
     plan: Plan,
     levels: Vec<Level>,
     width_error: f64,
-    /// Error of the last cycle's α that finer grids would not make smaller.
-    elsewhere: f64,
-    stats: Stats,
+    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
+    pub elsewhere: f64,
+    /// What it has cost so far, all grids.
+    pub stats: Stats,
     /// Largest residual of any step so far, in ln ζ.
     worst: f64,
-}
-
-impl std::fmt::Debug for Transient<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
-    }
 }
 
 impl<'a> Transient<'a> {
@@ -319,7 +300,7 @@ impl<'a> Transient<'a> {
     ///
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, MotorError> {
         let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
         let (mut alphas, mut ends) = (Vec::new(), Vec::new());
@@ -341,12 +322,12 @@ impl<'a> Transient<'a> {
                 Err(Stop::Failed(error)) => return Err(error),
             };
             let end = level.alpha_now();
-            alphas.push(level.headline().from_to(start, end, level.steps()));
+            alphas.push(level.headline().from_to(start, end, level.steps));
             ends.push(end);
             level.count(&mut self.stats);
         }
         self.stats.cycles += 1;
-        let astray = self.levels.iter().map(Level::residual).fold(tolerance, f64::max);
+        let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
         self.worst = self.worst.max(astray);
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
@@ -362,7 +343,7 @@ impl<'a> Transient<'a> {
         let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
         let error = estimate.error.min(1.0) + (alpha - estimate.value).abs() + self.elsewhere;
         result.set_alpha(self.motor, Estimate { value: alpha, error });
-        Ok(Some((result, recording, change)))
+        Ok(Some((Outcome::Motor(result), recording, change)))
     }
 
     /// What film and contact have to agree to in every step, in ln ζ.
@@ -370,19 +351,9 @@ impl<'a> Transient<'a> {
         0.025 * self.plan.tolerance
     }
 
-    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
-    pub fn elsewhere(&self) -> f64 {
-        self.elsewhere
-    }
-
     /// The largest residual of steps that were taken although film and contact did not agree, and what was allowed, in ln ζ.
     pub fn unsettled(&self) -> Option<(f64, f64)> {
         (self.worst > self.tolerance()).then_some((self.worst, self.tolerance()))
-    }
-
-    /// What it has cost so far, all grids.
-    pub fn stats(&self) -> Stats {
-        self.stats
     }
 }
 

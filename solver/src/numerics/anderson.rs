@@ -27,20 +27,13 @@ impl Anderson {
         }
     }
 
-    /// Forgets the history.
-    pub fn restart(&mut self) {
-        self.previous = None;
-        self.steps.clear();
-        self.changes.clear();
-        self.previous_norm = f64::INFINITY;
-    }
-
     /// Replaces `x` by the next point, given `image` = g(x).
     pub fn advance(&mut self, x: &mut [f64], image: &[f64]) {
         let residual: Vec<f64> = image.iter().zip(x.iter()).map(|(g, x)| g - x).collect();
         let norm = dot(&residual, &residual).sqrt();
         if norm > 3.0 * self.previous_norm {
-            self.restart();
+            // The history is forgotten.
+            *self = Self::new(self.depth, self.longest_step);
         }
         if let Some((last_x, last_residual)) = &self.previous {
             if self.steps.len() == self.depth {

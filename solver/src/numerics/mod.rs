@@ -10,16 +10,7 @@ pub mod rows;
 /// and their order stay the same, and so do the results of `work`, to the last bit, whatever the registers.
 #[inline(always)]
 pub fn vectorised<R>(work: impl FnOnce() -> R) -> R {
-    /// A closure to be compiled anew for each instruction set.
-    struct Inlined<F>(F);
-    impl<R, F: FnOnce() -> R> pulp::NullaryFnOnce for Inlined<F> {
-        type Output = R;
-        #[inline(always)]
-        fn call(self) -> R {
-            (self.0)()
-        }
-    }
-    pulp::Arch::new().dispatch(Inlined(work))
+    pulp::Arch::new().dispatch(work)
 }
 
 /// ∫ f from a to b by Gauss and Legendre's ten points.

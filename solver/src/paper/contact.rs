@@ -129,7 +129,10 @@ impl Contact {
         if left.is_nan() || left <= 0.0 {
             self.rounds += 1;
             self.touching.fill(false);
-            self.rest_on_highest(stator);
+            let offset = self.highest(stator).map_or(0.0, |top| stator[top] - self.base[self.nodes[top]]);
+            for (w, base) in self.rotor.iter_mut().zip(&self.base) {
+                *w = base + offset;
+            }
             return Balance::Overcarried;
         }
         if !self.touching.contains(&true)
@@ -209,13 +212,6 @@ impl Contact {
     fn highest(&self, stator: &[f64]) -> Option<usize> {
         let height = |top: usize| stator[top] - self.base[self.nodes[top]];
         (0..self.nodes.len()).max_by(|&a, &b| height(a).total_cmp(&height(b)))
-    }
-
-    fn rest_on_highest(&mut self, stator: &[f64]) {
-        let offset = self.highest(stator).map_or(0.0, |top| stator[top] - self.base[self.nodes[top]]);
-        for (w, base) in self.rotor.iter_mut().zip(&self.base) {
-            *w = base + offset;
-        }
     }
 }
 

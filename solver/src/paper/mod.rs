@@ -43,7 +43,7 @@ mod record;
 pub use film::FactoredFilm;
 pub use mesh::Mesh;
 
-use crate::control::{Cancel, Observer, Progress};
+use crate::control::{Cancel, Observer, Reporter};
 use crate::digits::percent;
 use crate::estimate::Estimate;
 use crate::problem::{Motor, Numerics, Slip};
@@ -99,8 +99,8 @@ pub fn solve(
 
     // Of a state that is not one, the residual is the only measure there is.
     let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
-    let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error();
-    let recording = recorder.finish();
+    let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error;
+    let recording = recorder.recording;
     let film_load = mean(&recording.film_load);
     let alpha = film_load / motor.load;
     let alpha = Estimate { value: alpha, error: counts.alpha_remaining + relative_error * alpha.abs() };
@@ -229,6 +229,7 @@ impl Counts {
         let (mut p_before, mut h_before) = (march.p.clone(), march.h.clone());
         let (mut film_before, mut change_before) = (0.0, f64::INFINITY);
         let (mut least, mut least_at) = (f64::INFINITY, 0);
+        let mut report = Reporter::new(observer, 0, 1, CYCLE_TOLERANCE);
         // Before the first cycle is over nothing has repeated at all.
         let mut residual = 1.0;
         for cycle in 1..=CYCLES {
@@ -254,20 +255,13 @@ impl Counts {
             residual = change(&march.p, &p_before).max(change(&march.h, &h_before));
             p_before.copy_from_slice(&march.p);
             h_before.copy_from_slice(&march.h);
-            let film = recorder.mean_film_load();
+            let film = mean(&recorder.recording.film_load);
             let moved = (film - film_before).abs() / march.motor.load;
             // Geometric: the changes to come are the last one over (1 − ratio), if the ratio is below one at all.
             let ratio = if moved < change_before { moved / change_before } else { 0.5 };
             self.alpha_remaining = moved / (1.0 - ratio).max(0.01);
             (film_before, change_before) = (film, moved);
-            observer.progress(&Progress {
-                level: 0,
-                levels: 1,
-                iteration: cycle,
-                residual,
-                tolerance: CYCLE_TOLERANCE,
-                film_load: film,
-            });
+            report.round(cycle, residual, film);
 
             if residual < PROGRESS * least {
                 (least, least_at) = (residual, cycle);
@@ -275,14 +269,14 @@ impl Counts {
             let repeats = residual < CYCLE_TOLERANCE;
             if repeats || cycle == CYCLES || cycle - least_at >= STALLED {
                 trouble.warn(march.steps, warnings);
-                if repeats && trouble.is_minor() {
+                // The worst is an inner loop that ended in a small limit cycle.
+                if repeats && trouble.contact + trouble.overcarried == 0 && trouble.change < LIMIT_CYCLE {
                     self.limit_cycle = trouble.change;
                     return Status::Converged;
                 }
-                return match trouble.residual() {
-                    Some(residual) => Status::NotConverged { residual, tolerance: INNER_TOLERANCE },
-                    None => Status::NotConverged { residual, tolerance: CYCLE_TOLERANCE },
-                };
+                let (residual, tolerance) =
+                    trouble.residual().map_or((residual, CYCLE_TOLERANCE), |residual| (residual, INNER_TOLERANCE));
+                return Status::NotConverged { residual, tolerance };
             }
         }
         Status::NotConverged { residual, tolerance: CYCLE_TOLERANCE }
@@ -319,11 +313,6 @@ impl Trouble {
     /// What a solve that is not in order is off by; `None` if all is in order.
     fn residual(&self) -> Option<f64> {
         (self.unsettled + self.contact + self.overcarried > 0).then(|| self.change.max(self.imbalance))
-    }
-
-    /// Whether the worst is an inner loop that ended in a small limit cycle.
-    fn is_minor(&self) -> bool {
-        self.contact + self.overcarried == 0 && self.change < LIMIT_CYCLE
     }
 
     fn warn(&self, steps: usize, warnings: &mut Vec<String>) {

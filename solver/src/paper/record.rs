@@ -12,7 +12,7 @@ use crate::rotor::Compliances;
 /// Fills a [`Recording`] frame by frame; every cycle overwrites the last.
 #[derive(Clone, Debug)]
 pub(super) struct Recorder {
-    recording: Recording,
+    pub(super) recording: Recording,
     /// Where each local node is among the entries of each tooth, `[tooth][node]`.
     places: Vec<Between>,
     /// Per top, where its forces go among the local nodes.
@@ -62,8 +62,6 @@ impl Recorder {
             stator: vec![0.0; lines],
             map_x: (0..nx).map(|i| b * (i as f64 / (nx - 1) as f64 - 0.5)).collect(),
             map_y: (0..ny).map(|j| w * (j as f64 / (ny - 1) as f64 - 0.5)).collect(),
-            half_width: false,
-            half_length: false,
             pressure: vec![0.0; frames * nx * ny],
             film_load: vec![0.0; frames],
             contact_load: vec![0.0; frames],
@@ -120,14 +118,5 @@ impl Recorder {
         recording.teeth_in_contact[frame] = self.touched.iter().filter(|&&touched| touched).count();
         recording.min_film_thickness[frame] = h_m * march.h.iter().copied().fold(f64::INFINITY, f64::min);
         recording.max_pressure[frame] = p_a * march.p.iter().copied().fold(0.0, f64::max);
-    }
-
-    /// Mean film load of the frames as they stand \[N\].
-    pub(super) fn mean_film_load(&self) -> f64 {
-        self.recording.film_load.iter().sum::<f64>() / self.recording.frames as f64
-    }
-
-    pub(super) fn finish(self) -> Recording {
-        self.recording
     }
 }

@@ -11,7 +11,7 @@ pub use reduction::wedge_bound;
 
 use crate::contact::cutoff;
 use crate::fidelity::Fidelity;
-use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
+use crate::problem::{Flow, Numerics, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};
@@ -107,27 +107,23 @@ impl Decision {
 
     /// The key that overrules it, if there is one: "numerics.wedge".
     pub fn key(&self) -> Option<&'static str> {
-        match self.chosen {
-            Choice::Time(_) => Some("numerics.time"),
-            Choice::Flow(_) => Some("numerics.flow"),
-            Choice::Wedge(_) => Some("numerics.wedge"),
-            Choice::Teeth(..) => Some("numerics.teeth"),
-            Choice::Width(_) => Some("numerics.width"),
-            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => None,
-            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
-        }
+        self.switch().map(|(key, _)| key)
     }
 
     /// The value that key would need for the same decision: "off"; empty if there is no key for the part.
     pub fn value(&self) -> &'static str {
+        self.switch().map_or("", |(_, value)| value)
+    }
+
+    fn switch(&self) -> Option<(&'static str, &'static str)> {
         match self.chosen {
-            Choice::Time(time) => time.name(),
-            Choice::Flow(flow) => flow.name(),
-            Choice::Wedge(wedge) => wedge.name(),
-            Choice::Teeth(teeth, _) => teeth.name(),
-            Choice::Width(width) => width.name(),
-            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => "",
-            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
+            Choice::Time(time) => Some(("numerics.time", time.name())),
+            Choice::Flow(flow) => Some(("numerics.flow", flow.name())),
+            Choice::Wedge(wedge) => Some(("numerics.wedge", wedge.name())),
+            Choice::Teeth(teeth, _) => Some(("numerics.teeth", teeth.name())),
+            Choice::Width(width) => Some(("numerics.width", width.name())),
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => None,
+            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
         }
     }
 }

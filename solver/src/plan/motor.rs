@@ -80,12 +80,13 @@ impl Plan {
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;
         let finest = Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction };
+        let teeth = Choice::Teeth(if every_tooth { Teeth::All } else { Teeth::One }, motor.teeth);
+        let width = Choice::Width(if half_width { Width::Half } else { Width::Full });
         let grid = Choice::MotorGrid { grid: finest, layer, edge_fraction: spec.edge_fraction, middle, spectral };
-        let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
-        let decisions: Vec<Decision> = [time, flow, wedge, teeth(numerics, motor), width(numerics), grid]
-            .into_iter()
-            .chain(rotor_error(motor, &rotor, spec, cancel)?)
-            .collect();
+        let mut decisions = vec![time, flow, wedge];
+        let exact = [(teeth, every_tooth), (width, !half_width), (grid, custom(numerics))];
+        decisions.extend(exact.map(|(chosen, overruled)| Decision { overruled, ..Decision::exact(chosen) }));
+        decisions.extend(rotor_error(motor, &rotor, spec, cancel)?);
         // What the trapped limit leaves out, it leaves out once.
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
@@ -135,7 +136,7 @@ fn rotor_error(
     spec: &Spec,
     cancel: &Cancel,
 ) -> Result<Option<Decision>, RotorError> {
-    let error = rotor.relative_error();
+    let error = rotor.relative_error;
     if error == 0.0 {
         return Ok(None);
     }
@@ -143,16 +144,4 @@ fn rotor_error(
     let resonances = if spec.target_error < Fidelity::Draft.accuracy() { motor.resonances(cancel)? } else { None };
     let chosen = Choice::Rotor { error, ring, resonances };
     Ok(Some(Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) }))
-}
-
-fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {
-    let all = numerics.teeth == Teeth::All;
-    let teeth = if all { Teeth::All } else { Teeth::One };
-    Decision { overruled: all, ..Decision::exact(Choice::Teeth(teeth, motor.teeth)) }
-}
-
-fn width(numerics: &Numerics) -> Decision {
-    let full = numerics.width == Width::Full;
-    let width = if full { Width::Full } else { Width::Half };
-    Decision { overruled: full, ..Decision::exact(Choice::Width(width)) }
 }

@@ -48,17 +48,13 @@ impl Plan {
         let layer = reach(plate.length);
         let edge = spec.plate_edge_fraction * layer;
         let spectral = plate.width.is_some_and(|width| !thin(width, plate.length));
-        let (across, clustering_across, robust) = match plate.width {
-            Some(width) => {
+        let robust = plate.width.map_or((0, 0.0), |width| graded(spec.plate, asked_across, 0.5 * width, edge));
+        let (across, clustering_across) = match plate.width {
+            Some(width) if spectral => {
                 let across = asked_across.map_or(spec.across, |asked| asked.max(1));
-                let robust = graded(spec.plate, asked_across, 0.5 * width, edge);
-                if spectral {
-                    (across, spectral_clustering(2.0 * layer / width), robust)
-                } else {
-                    (robust.0, robust.1, robust)
-                }
+                (across, spectral_clustering(2.0 * layer / width))
             }
-            None => (0, 0.0, (0, 0.0)),
+            _ => robust,
         };
         // Near touching, the load is a peak as narrow as √(2(1 − ε)) of a cycle's 2π.
         let excursion = (plate.amplitude / plate.mean_gap).min(1.0);

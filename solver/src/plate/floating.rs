@@ -72,17 +72,8 @@ pub enum FloatError {
     High,
 }
 
-/// A plate that floats: its periodic state at the gap that was found, which the result tells, and the plan by which that was solved.
-#[derive(Clone, Debug)]
-pub struct Floated {
-    /// The periodic state.
-    pub periodic: Periodic,
-    /// Its plan.
-    pub plan: Plan,
-}
-
-/// Finds the mean gap at which the film under `plate` carries its `load` \[N or N/m\]. `rough` plans a plate at a gap coarsely, `asked` as
-/// exactly as is asked for.
+/// Finds the mean gap at which the film under `plate` carries its `load` \[N or N/m\]: the periodic state there, which tells the gap, and the
+/// plan by which that was solved. `rough` plans a plate at a gap coarsely, `asked` as exactly as is asked for.
 ///
 /// # Errors
 /// [`FloatError`]; among them that it was cancelled.
@@ -93,7 +84,7 @@ pub fn float(
     asked: &dyn Fn(&Plate) -> Plan,
     observer: &mut dyn Observer,
     cancel: &Cancel,
-) -> Result<Floated, FloatError> {
+) -> Result<(Periodic, Plan), FloatError> {
     let mut way = Way { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
     if plate.amplitude == 0.0 {
         return Err(way.rests(0.0, rough));
@@ -119,7 +110,7 @@ pub fn float(
     result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
     result.min_film_thickness.error = mean_gap.error;
     periodic.recording.min_film_thickness_error.fill(mean_gap.error);
-    Ok(Floated { periodic, plan })
+    Ok((periodic, plan))
 }
 
 /// A search for the gap.
@@ -152,8 +143,7 @@ impl Way<'_> {
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;
         let plate = &turned(plate, plan);
         let warm = self.warm.take().filter(|warm| warm.spectral == plan.spectral && !plan.turned);
-        let mut search =
-            Search { plate, plan, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
+        let mut search = Search { plate, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
         let found = climb(&mut search, plan, warm.as_ref(), self.cancel)?;
         if found.status == Status::Cancelled {
             return Err(Interrupted::Cancelled.into());

@@ -3,6 +3,7 @@
 use crate::problem::Plate;
 
 /// The frames of a recording, even in time, among the steps of a cycle, which cluster about its middle.
+#[derive(Debug)]
 pub(super) struct Frames {
     /// Gap of each frame \[m\].
     pub(super) gap: Vec<f64>,

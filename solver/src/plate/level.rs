@@ -7,7 +7,7 @@ use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::slip::SlipLaw;
-use crate::film::stepper::FilmState;
+use crate::film::stepper::{Film, FilmState};
 use crate::film::trapped::edge_height;
 use crate::ladder::State;
 use crate::numerics::{anderson::Anderson, grading};
@@ -47,12 +47,13 @@ pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
     let y = match plate.width {
         Some(width) if plan.spectral => Axis::spectral(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
         Some(width) => Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
-        None => Axis::unit(),
+        None => Axis::single(1.0),
     };
     FilmGrid { x, y }
 }
 
 /// The periodic state on one grid.
+#[derive(Debug)]
 pub(super) struct Level {
     /// Length of each step \[s\].
     dt: Vec<f64>,
@@ -86,7 +87,7 @@ impl Level {
         let slip = 6.0 * plate.gas.mean_free_path;
         let mean = |f: &dyn Fn(f64) -> f64| gaps.iter().enumerate().map(|(m, h)| f(*h) * share(m)).sum::<f64>();
         let trapped = trapped_height(mean(&|h| h * h * (0.5 * h + slip)), mean(&|h| h), slip);
-        let mut cycle = FilmCycle::new(nodes, &plate.gas, steps);
+        let mut cycle = FilmCycle::new(Film::new(nodes, &plate.gas), steps);
         cycle.count_outflow();
         Self {
             dt: (0..steps).map(|m| share(m) / plate.frequency).collect(),
@@ -116,9 +117,9 @@ impl Level {
         let first = steps - whole;
         let part = 0.25 * steps as f64 - whole as f64;
         if part > 0.0 {
-            self.advance_by(part * self.dt[first], first, first, stats)?;
+            self.advance(part * self.dt[first], first, first, stats)?;
         }
-        (first + 1..=steps).try_for_each(|step| self.advance(step, step % steps, stats))
+        (first + 1..=steps).try_for_each(|step| self.advance(self.dt[step % steps], step, step % steps, stats))
     }
 
     /// Starts from the state on another grid, or of another gap, interpolated linearly between its nodes.
@@ -163,21 +164,16 @@ impl Level {
             if cancel.is_cancelled() {
                 return Err(Interrupted::Cancelled);
             }
-            self.advance(step, step, stats)?;
+            self.advance(self.dt[step], step, step, stats)?;
         }
         let recording = told(self);
-        self.advance(self.steps(), 0, stats)?;
+        self.advance(self.dt[0], self.steps(), 0, stats)?;
         self.cycle.remember(true);
         Ok((recording, self.state.change_since(&before)))
     }
 
-    /// One step, to step `m` of the cycle.
-    fn advance(&mut self, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
-        self.advance_by(self.dt[m], step, m, stats)
-    }
-
-    /// As [`Level::advance`], in a time of its own \[s\].
-    fn advance_by(&mut self, dt: f64, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
+    /// One step in the time `dt` \[s\], to step `m` of the cycle.
+    fn advance(&mut self, dt: f64, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
         let nx = self.cycle.grid().x.len();
         let here = m * nx..(m + 1) * nx;
         let taken = self
@@ -312,7 +308,7 @@ impl Level {
             pitch: plate.length,
             x: grid.x.nodes.clone(),
             node_length: grid.x.lengths.iter().map(|length| grid.x.copies() * length).collect(),
-            radial: grid.x.is_radial(),
+            radial: grid.x.radial,
             touching_from: 0.0,
             contact: vec![0.0; frames * nx],
             film,
@@ -395,7 +391,7 @@ impl State for Level {
     }
 
     fn count(&self, stats: &mut Stats) {
-        stats.film_nodes = self.cycle.grid().len();
+        stats.film_nodes = self.cycle.grid().nodes();
         stats.steps_per_cycle = self.steps();
     }
 }

@@ -39,7 +39,7 @@ pub fn periodic(
 ) -> Result<Periodic, Interrupted> {
     let plate = &turned(plate, plan);
     let mut stats = Stats::default();
-    let found = climb(&mut Search { plate, plan, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
+    let found = climb(&mut Search { plate, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
     Ok(finish(plate, plan, &found, stats))
 }
 
@@ -50,8 +50,7 @@ pub fn periodic(
 pub fn periodic_near(plate: &Plate, plan: &Plan, cancel: &Cancel) -> Result<(Nested<Periodic>, Plan), Interrupted> {
     let plate = &turned(plate, plan);
     let mut stats = Stats::default();
-    let mut found =
-        climb(&mut Search { plate, plan, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
+    let mut found = climb(&mut Search { plate, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
     let pinned = found.pinned(plan);
     Ok((found.nested(|found| finish(plate, &pinned, found, stats)), pinned))
 }
@@ -133,7 +132,6 @@ fn stated(plate: &Plate, plan: &Plan, found: &Found<Level>) -> Estimate {
 /// One solve of a plate by a plan.
 struct Search<'a> {
     plate: &'a Plate,
-    plan: &'a Plan,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
     stats: &'a mut Stats,
@@ -142,6 +140,10 @@ struct Search<'a> {
 impl Scene for Search<'_> {
     type Level = Level;
     type Error = Interrupted;
+    /// Small, so that spring and damping are as accurate as the mean.
+    const WIDTH_AIM: f64 = 0.02;
+    /// Large, because without contact a few rounds are enough.
+    const MOST_WORK: f64 = 4e5;
 
     fn solve(
         &mut self,
@@ -165,20 +167,10 @@ impl Scene for Search<'_> {
         }
     }
 
-    /// Small, so that spring and damping are as accurate as the mean.
-    fn width_aim(&self) -> f64 {
-        0.02
-    }
-
-    /// Large, because without contact a few rounds are enough.
-    fn most_work(&self) -> f64 {
-        4e5
-    }
-
-    fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.plate, self.plan, found);
+    fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
+        let whole = stated(self.plate, plan, found);
         let unit = found.levels.last().map_or(0.0, Level::unit);
-        whole.error <= self.plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
+        whole.error <= plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
     }
 }
 

@@ -8,22 +8,19 @@ use crate::ladder::State;
 use crate::plan::Plan;
 use crate::problem::Plate;
 use crate::recording::Recording;
-use crate::solution::{PlateResult, Stats};
+use crate::solution::{Outcome, PlateResult, Stats};
 
 /// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
+#[derive(Debug)]
 pub struct Transient {
     plate: Plate,
     turned: bool,
     maps: bool,
     levels: Vec<Level>,
-    width_error: f64,
-    stats: Stats,
-}
-
-impl std::fmt::Debug for Transient {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
-    }
+    /// Error of a cycle's mean load that finer grids would not make smaller: by the nodes across \[N\].
+    pub width_error: f64,
+    /// What it has cost so far, all grids.
+    pub stats: Stats,
 }
 
 impl Transient {
@@ -46,7 +43,7 @@ impl Transient {
     ///
     /// # Errors
     /// [`Interrupted::Failed`] if a film step has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, Interrupted> {
         let finest = self.levels.len() - 1;
         let (mut loads, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
@@ -82,16 +79,6 @@ impl Transient {
         let load = &mut result.film_load;
         load.value += 0.5 * grown / recording.frames as f64;
         load.error = estimate.error + (load.value - estimate.value).abs() + self.width_error;
-        Ok(Some((result, recording, change)))
-    }
-
-    /// Error of a cycle's mean load that finer grids would not make smaller \[N\].
-    pub fn elsewhere(&self) -> f64 {
-        self.width_error
-    }
-
-    /// What it has cost so far, all grids.
-    pub fn stats(&self) -> Stats {
-        self.stats
+        Ok(Some((Outcome::Plate(result), recording, change)))
     }
 }

@@ -7,7 +7,7 @@
 //! the fine grid, the gap is closed there and nowhere less than closed, absolute pressure stays positive. Whatever balance this
 //! costs is put right at the end, with the contact's load or, where there is none, with the film's.
 
-use super::{LineLoads, Recording, offset};
+use super::{LineLoads, Recording};
 use std::ops::{Add, Range};
 
 /// What the lines of a scene have to obey.
@@ -33,7 +33,13 @@ const LARGEST_FACTOR: f64 = 2.0;
 impl LineLoads {
     /// Offset of tooth `tooth`, frame `frame`; `nodes` = `x.len()` values follow it.
     pub fn line_offset(&self, tooth: usize, frame: usize) -> usize {
-        offset([self.stored_teeth, self.teeth, self.frames, self.x.len()], tooth, frame)
+        let frames = self.frames;
+        let (tooth, frame) = if self.stored_teeth == self.teeth {
+            (tooth, frame)
+        } else {
+            (0, (frame + tooth * frames / self.teeth) % frames)
+        };
+        (tooth * frames + frame) * self.x.len()
     }
 
     /// This grid's lines less what the `coarse` one shows to be missing still.

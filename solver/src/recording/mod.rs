@@ -16,11 +16,6 @@ const PEAK: f64 = 8.0;
 /// Least error of a series at any instant, over the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
-fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize) -> usize {
-    let (tooth, frame) = if stored == teeth { (tooth, frame) } else { (0, (frame + tooth * frames / teeth) % frames) };
-    (tooth * frames + frame) * nodes
-}
-
 /// Fields of one cycle of the periodic state, every array flat and in SI units: its [`LineLoads`], to which it dereferences, and
 /// what belongs to them.
 ///

@@ -405,7 +405,6 @@ pub fn middle_gradient(recording: &Recording, tooth: usize, xi: f64, place: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::LineLoads;
 
     #[test]
     fn a_linear_function_is_read_exactly_on_a_graded_grid() {

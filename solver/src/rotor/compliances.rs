@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
 const SMOOTH: usize = 10;
+
 /// Why a rotor has no compliance.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RotorError {
@@ -54,10 +55,10 @@ pub struct Wave {
 pub struct Compliances {
     pub(super) wavelength: f64,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
-    #[serde(with = "harmonics")]
     pub(super) harmonics: Arc<[f64]>,
     pub(super) local: f64,
-    pub(super) relative_error: f64,
+    /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
+    pub relative_error: f64,
 }
 
 impl Compliances {
@@ -80,25 +81,6 @@ impl Compliances {
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
         if self.local > 0.0 { self.local } else { self.harmonic(n) }
-    }
-
-    /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
-    pub fn relative_error(&self) -> f64 {
-        self.relative_error
-    }
-}
-
-/// The harmonics in bytes: as any list.
-mod harmonics {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-    use std::sync::Arc;
-
-    pub(super) fn serialize<S: Serializer>(harmonics: &Arc<[f64]>, to: S) -> Result<S::Ok, S::Error> {
-        harmonics.serialize(to)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<[f64]>, D::Error> {
-        Vec::deserialize(from).map(Arc::from)
     }
 }
 

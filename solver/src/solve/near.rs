@@ -5,7 +5,7 @@
 //! the same grids, which move with what is varied, with the same terms left out, with the same elements of a ring, and, where it can, until the cycle repeats much more
 //! exactly than an accuracy asks for. The error of the grid is then nearly the same in all of them, and cancels in a difference.
 
-use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, perform, plate_plan};
+use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, performed, plate_plan};
 use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::ladder::Nested;
@@ -122,10 +122,9 @@ impl Centre {
                 let plate = &Afloat::at(plate, floating.as_ref().map(|afloat| afloat.gap));
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
-                let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
+                let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel)?;
                 if settled(found.fine.status) {
-                    let (again, exact) =
-                        plate::periodic_near(plate, &tight(&plan), cancel).map_err(SolveError::Plate)?;
+                    let (again, exact) = plate::periodic_near(plate, &tight(&plan), cancel)?;
                     if settled(again.fine.status) && alike(&plan, &exact) {
                         (found, plan) = (again, exact);
                     }
@@ -172,7 +171,7 @@ impl Centre {
                 let _taken = memory::take(memory::plate(&plate, &self.plan), cancel)?;
                 let mut solves = 1;
                 loop {
-                    let (found, used) = plate::periodic_near(&plate, &self.plan, cancel).map_err(SolveError::Plate)?;
+                    let (found, used) = plate::periodic_near(&plate, &self.plan, cancel)?;
                     if !(settled(found.fine.status) && alike(&self.plan, &used)) {
                         return Ok(None);
                     }
@@ -214,9 +213,4 @@ fn settled(status: Status) -> bool {
 /// Whether both have the same grids.
 fn alike(asked: &Plan, used: &Plan) -> bool {
     asked.grids == used.grids && asked.spectral == used.spectral
-}
-
-fn performed(problem: &Problem, mut solution: Solution) -> Solution {
-    perform(problem, &mut solution);
-    solution
 }

@@ -93,20 +93,14 @@ impl Texture {
     }
 }
 
-/// Steps of `stride` points that lead from point to point along an axis, in every line of it: `(first point, points, stride)`.
-fn lines(face: &HeightMap, axis: usize) -> Vec<(usize, usize, usize)> {
-    match axis {
-        0 => (0..face.ny).map(|iy| (iy * face.nx, face.nx, 1)).collect(),
-        _ => (0..face.nx).map(|ix| (ix, face.ny, face.nx)).collect(),
-    }
-}
-
-/// Mean of `of` over all places along an axis that have `reach` points behind them.
+/// Mean of `of` a point and the stride to the next one, over all points along an axis that have `reach` points behind them.
 fn mean_along(face: &HeightMap, axis: usize, reach: usize, of: impl Fn(usize, usize) -> f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0);
-    for (first, points, stride) in lines(face, axis) {
+    let (lines, next, points, stride) =
+        if axis == 0 { (face.ny, face.nx, face.nx, 1) } else { (face.nx, 1, face.ny, face.nx) };
+    for line in 0..lines {
         for i in 0..points.saturating_sub(reach) {
-            sum += of(first + i * stride, stride);
+            sum += of(line * next + i * stride, stride);
             count += 1;
         }
     }

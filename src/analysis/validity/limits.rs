@@ -2,7 +2,7 @@
 
 use crate::digits::brief;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
-use crate::problem::{Gas, Motor, Named, Plate, Slip};
+use crate::problem::{Gas, Motor, Plate, Slip};
 use crate::surface::flow::LEAST_RATIO;
 use std::f64::consts::TAU;
 

@@ -3,7 +3,6 @@
 use super::fukui_kaneko::{FIT_ENDS, FukuiKaneko, flow_rate};
 use super::mobility::Mobility;
 use super::specular::Specular;
-use crate::problem::{Gas, Slip};
 
 /// As [`FukuiKaneko`], between walls that reflect a share of the molecules specularly: more flow.
 #[derive(Clone, Copy, Debug)]
@@ -20,11 +19,6 @@ impl Accommodated {
 }
 
 impl Mobility for Accommodated {
-    fn of(gas: &Gas) -> Option<Self> {
-        let shares = gas.slip == Slip::FukuiKaneko && gas.accommodation < 1.0;
-        (shares && gas.mean_free_path > 0.0).then(|| Self::new(gas.mean_free_path, gas.accommodation))
-    }
-
     fn knudsen_limit(&self) -> f64 {
         FIT_ENDS
     }

@@ -1,7 +1,6 @@
 //! No slip, and slip of first order (Burgdorfer 1959).
 
 use super::mobility::Mobility;
-use crate::problem::{Gas, Slip};
 
 /// ψ = Z + s: no slip (s = 0) and first order (s = 6 λ_a).
 #[derive(Clone, Copy, Debug)]
@@ -11,14 +10,6 @@ pub struct Affine {
 }
 
 impl Mobility for Affine {
-    fn of(gas: &Gas) -> Option<Self> {
-        match gas.slip {
-            Slip::None => Some(Self { offset: 0.0 }),
-            Slip::FirstOrder => Some(Self { offset: 6.0 * gas.mean_free_path }),
-            _ => None,
-        }
-    }
-
     fn knudsen_limit(&self) -> f64 {
         if self.offset == 0.0 { 0.01 } else { 0.1 }
     }

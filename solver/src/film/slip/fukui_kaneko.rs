@@ -2,7 +2,6 @@
 
 use super::mobility::Mobility;
 use crate::numerics::gauss_legendre;
-use crate::problem::{Gas, Slip};
 use std::sync::LazyLock;
 
 /// The flow rate of the linearised Boltzmann equation, as fitted by Fukui and Kaneko (ASME J. Tribology 112, 1990):
@@ -112,12 +111,6 @@ impl FukuiKaneko {
 }
 
 impl Mobility for FukuiKaneko {
-    fn of(gas: &Gas) -> Option<Self> {
-        let mean_free_path = gas.mean_free_path;
-        let diffuse = gas.accommodation >= 1.0;
-        (gas.slip == Slip::FukuiKaneko && diffuse && mean_free_path > 0.0).then_some(Self { mean_free_path })
-    }
-
     fn knudsen_limit(&self) -> f64 {
         FIT_ENDS
     }

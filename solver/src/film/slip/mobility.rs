@@ -1,12 +1,7 @@
 //! What a slip law is.
 
-use crate::problem::Gas;
-
 /// A slip law: ψ and dψ/dZ, and where it holds.
 pub trait Mobility: Copy {
-    /// The law of a gas, if it is this one.
-    fn of(gas: &Gas) -> Option<Self>;
-
     /// `(ψ [m], dψ/dZ)` at trapped height `z` = h p/p_a \[m\], z > 0; |dψ/dZ| ≤ ψ/z.
     fn at(self, z: f64) -> (f64, f64);
 
@@ -15,13 +10,4 @@ pub trait Mobility: Copy {
 
     /// Greatest Kn at which it is within a tenth of the Boltzmann equation's flow; of a fit to that, where the fit ends.
     fn knudsen_limit(&self) -> f64;
-}
-
-/// Work that is compiled for each law.
-pub trait Work {
-    /// What it gives.
-    type Output;
-
-    /// Does it with a law.
-    fn with<L: Mobility>(self, law: L) -> Self::Output;
 }

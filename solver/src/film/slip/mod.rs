@@ -5,7 +5,7 @@
 //! that of rough faces (`surface::flow`), and 1 of smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the
 //! discrete film an M-matrix (`film::stepper`); k does not change that.
 //!
-//! Each law is a file and its line in `laws!`; whatever asks for it (`Mobility`) is compiled for each.
+//! Each law is a file, its line in `laws!` and its arm in [`SlipLaw::of`]; a step of the film is compiled for each (`Film::step`).
 
 mod accommodated;
 mod affine;
@@ -14,11 +14,11 @@ mod mobility;
 mod second_order;
 mod specular;
 
-use crate::problem::Gas;
+use crate::problem::{Gas, Slip};
 pub use accommodated::Accommodated;
 pub use affine::Affine;
 pub use fukui_kaneko::FukuiKaneko;
-pub use mobility::{Mobility, Work};
+pub use mobility::Mobility;
 pub use second_order::SecondOrder;
 
 macro_rules! laws {
@@ -27,20 +27,7 @@ macro_rules! laws {
         #[derive(Clone, Copy, Debug)]
         pub enum SlipLaw { $($(#[$about])* $Law($Law)),* }
 
-        impl SlipLaw {
-            /// Does `work` with the law itself.
-            #[inline(always)]
-            pub fn lend<W: Work>(self, work: W) -> W::Output {
-                match self { $(Self::$Law(law) => work.with(law)),* }
-            }
-        }
-
         impl Mobility for SlipLaw {
-            fn of(gas: &Gas) -> Option<Self> {
-                $(if let Some(law) = $Law::of(gas) { return Some(Self::$Law(law)); })*
-                None
-            }
-
             fn at(self, z: f64) -> (f64, f64) {
                 match self { $(Self::$Law(law) => law.at(z)),* }
             }
@@ -70,7 +57,15 @@ laws! {
 impl SlipLaw {
     /// The law of a gas. Without a mean free path every law is the continuum's.
     pub fn of(gas: &Gas) -> Self {
-        <Self as Mobility>::of(gas).unwrap_or(Self::Affine(Affine { offset: 0.0 }))
+        let mean_free_path = gas.mean_free_path;
+        match gas.slip {
+            _ if mean_free_path <= 0.0 => Self::Affine(Affine { offset: 0.0 }),
+            Slip::None => Self::Affine(Affine { offset: 0.0 }),
+            Slip::FirstOrder => Self::Affine(Affine { offset: 6.0 * mean_free_path }),
+            Slip::SecondOrder => Self::SecondOrder(SecondOrder { mean_free_path }),
+            Slip::FukuiKaneko if gas.accommodation >= 1.0 => Self::FukuiKaneko(FukuiKaneko { mean_free_path }),
+            Slip::FukuiKaneko => Self::Accommodated(Accommodated::new(mean_free_path, gas.accommodation)),
+        }
     }
 }
 

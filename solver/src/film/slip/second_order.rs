@@ -1,7 +1,6 @@
 //! Slip of second order (Hsia and Domoto 1983).
 
 use super::mobility::Mobility;
-use crate::problem::{Gas, Slip};
 
 /// ψ = Z + 6 λ_a + 6 λ_a²/Z (Hsia and Domoto 1983).
 #[derive(Clone, Copy, Debug)]
@@ -11,11 +10,6 @@ pub struct SecondOrder {
 }
 
 impl Mobility for SecondOrder {
-    fn of(gas: &Gas) -> Option<Self> {
-        let mean_free_path = gas.mean_free_path;
-        (gas.slip == Slip::SecondOrder && mean_free_path > 0.0).then_some(Self { mean_free_path })
-    }
-
     fn knudsen_limit(&self) -> f64 {
         0.6
     }

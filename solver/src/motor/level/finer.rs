@@ -74,11 +74,8 @@ impl Level {
 
     /// Writes a field of unknown nodes into one with edges, `[ix][iy]`; edges keep their values.
     fn with_edges(&self, out: &mut [f64], value: impl Fn(usize) -> f64) {
-        let (ux, uy, ny) = (self.grid().x.unknown(), self.grid().y.unknown(), self.grid().y.len());
-        for (row, ix) in ux.enumerate() {
-            for (column, iy) in uy.clone().enumerate() {
-                out[ix * ny + iy] = value(row * uy.len() + column);
-            }
+        for (k, node) in self.grid().rows().flat_map(|(_, row)| row).enumerate() {
+            out[node] = value(k);
         }
     }
 }

@@ -61,7 +61,8 @@ impl Level {
             min_spacing: motor.least_thickness(),
             exclusive: motor.surface.asperities.is_none(),
         };
-        let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
+        let films = if maps { &self.films[..] } else { &[] };
+        let pressure = films.iter().flat_map(|film| film.full_pressure(self.ambient_pressure)).collect();
         let base = Recording {
             touching: Touching { min_spacing: motor.spacing(), compliance: plan.rotor.beyond(plan.most_harmonics) },
             rotor: plan.rotor.clone(),
@@ -72,7 +73,6 @@ impl Level {
             half_width: grid.y.start == Start::Mirror,
             ..Recording::default()
         };
-        let maps = pressure.by_ref().flatten().collect();
-        base.of_lines(self.line_loads(motor), coarser, &balance, maps, grid.y.unknown())
+        base.of_lines(self.line_loads(motor), coarser, &balance, pressure, grid.y.unknown())
     }
 }

@@ -46,11 +46,10 @@ impl Level {
             .map_err(|source| MotorError::Contact { instant: 0, source })?;
         let (nx, steps) = (self.nx, self.steps);
         let columns = self.grid().y.unknown().len();
+        self.keep(0, &fields);
         for tooth in 0..self.teeth {
             let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
             let to = tooth * steps * nx;
-            self.film_thickness[to..to + nx].copy_from_slice(gap);
-            self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
             let trapped: Vec<f64> =
                 self.grid().x.unknown().flat_map(|ix| std::iter::repeat_n(gap[ix], columns)).collect();
             let line = &mut self.line[to..to + nx];
@@ -131,11 +130,6 @@ impl Level {
         Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(accuracy) })
     }
 
-    /// Largest residual of a step of the last cycle, in ln ζ.
-    pub(in crate::motor) fn residual(&self) -> f64 {
-        self.residual
-    }
-
     /// One step, to instant `m` of the cycle.
     fn transient_step(&mut self, m: usize, tolerance: f64, stats: &mut Stats) -> Result<(), Stop> {
         let (teeth, nx, steps, nodes) = (self.teeth, self.nx, self.steps, self.contact.nodes());
@@ -171,11 +165,10 @@ impl Level {
             stats.contact_solves += 1;
             stats.contact_iterations += u64::from(iterations);
             stats.coupling_iterations += 1;
+            self.keep(m, &fields);
             for tooth in 0..teeth {
                 let here = line(tooth, m)..line(tooth, m) + nx;
                 let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
-                self.film_thickness[here.clone()].copy_from_slice(gap);
-                self.contact_load[here.clone()].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
                 self.states[tooth].clone_from(&before[tooth]);
                 let speed = self.speed.as_ref().map(|u| &u[here.clone()]);
                 let taken = self.films[tooth]

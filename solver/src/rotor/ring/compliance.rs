@@ -124,8 +124,7 @@ impl Section {
         );
         let (base, (system, factor)) = (base?, finer?);
         let halved = Halved::new(coarse, fine);
-        let finer = Finer { system: &system, factor: &factor, load: &loads[1], halved: &halved };
-        let refined = base.refined(&finer, &corrected(first, last), cancel)?;
+        let refined = base.refined(&system, &factor, &loads[1], &halved, &corrected(first, last), cancel)?;
         let (coarse, fine) = (&base.equations, &refined);
         let mut harmonics = Vec::with_capacity(count);
         for n in 1..=count.min(resolved) {
@@ -232,15 +231,6 @@ struct Reduced {
     equations: Spanned,
 }
 
-/// A mesh with halved elements.
-struct Finer<'a> {
-    system: &'a System,
-    /// Of one order between the first and the last.
-    factor: &'a Factor,
-    load: &'a [f64],
-    halved: &'a Halved,
-}
-
 impl Reduced {
     fn new(system: &System, load: &[f64], orders: &[f64], cancel: &Cancel) -> Result<Self, RingError> {
         let solved: Result<Vec<_>, RingError> =
@@ -254,9 +244,17 @@ impl Reduced {
         Ok(Self { basis, equations: Spanned { stiffness, load } })
     }
 
-    /// The equations of the finer mesh for what the vectors of this one and their corrections at `orders` span.
-    fn refined(&self, finer: &Finer<'_>, orders: &[f64], cancel: &Cancel) -> Result<Spanned, RingError> {
-        let Finer { system, factor, load, halved } = finer;
+    /// The equations of the mesh with `halved` elements, a `factor` of which is that of one order between the first and the last, for what
+    /// the vectors of this one and their corrections at `orders` span.
+    fn refined(
+        &self,
+        system: &System,
+        factor: &Factor,
+        load: &[f64],
+        halved: &Halved,
+        orders: &[f64],
+        cancel: &Cancel,
+    ) -> Result<Spanned, RingError> {
         let unbalanced = |orders: &[f64]| {
             cancelled(cancel)?;
             let mut moved = vec![vec![0.0; halved.size()]; orders.len()];
@@ -523,8 +521,8 @@ mod tests {
         let coarse = Reduced::new(&systems[0], &loads[0], &samples(first, last), &Cancel::new()).unwrap();
         let factor = systems[1].factor((first * last).sqrt(), 0.0).unwrap();
         let halved = Halved::new(&meshes[0], &meshes[1]);
-        let finer = Finer { system: &systems[1], factor: &factor, load: &loads[1], halved: &halved };
-        let refined = coarse.refined(&finer, &corrected(first, last), &Cancel::new()).unwrap();
+        let orders = corrected(first, last);
+        let refined = coarse.refined(&systems[1], &factor, &loads[1], &halved, &orders, &Cancel::new()).unwrap();
         for n in [1, 2, 3, 4, 6, 9, 14, 20, 30, 45, 70, 100] {
             let order = first * f64::from(n);
             let moved = systems[1].moved(&loads[1], order).unwrap();

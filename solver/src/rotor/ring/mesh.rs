@@ -339,22 +339,15 @@ impl Grid {
             along.extend([part.inner_radius, part.outer_radius]);
             up.extend([part.bottom, part.top]);
         }
-        let within = |edges: &[f64], x: f64| {
+        // Of a support, what is within the section.
+        let add = |edges: &mut Vec<f64>, ends: [f64; 2]| {
             let low = edges.iter().copied().fold(f64::INFINITY, f64::min);
             let high = edges.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            x > low && x < high
+            edges.extend(ends.into_iter().filter(|x| *x > low && *x < high));
         };
         for support in section.supports() {
-            for radius in [support.inner_radius, support.outer_radius] {
-                if within(&along, radius) {
-                    along.push(radius);
-                }
-            }
-            for height in [support.bottom, support.top] {
-                if within(&up, height) {
-                    up.push(height);
-                }
-            }
+            add(&mut along, [support.inner_radius, support.outer_radius]);
+            add(&mut up, [support.bottom, support.top]);
         }
         let (mut fine_along, mut fine_up) = (Vec::new(), Vec::new());
         if let Some(band) = band {
@@ -365,22 +358,19 @@ impl Grid {
             fine_along.extend([(inner, size), (outer, size)]);
             fine_up.push((section.contact_height(), size));
         }
-        Ok(Self::new(section, Lines::new(along, &fine_along), Lines::new(up, &fine_up)))
-    }
-
-    /// Whether both have as many lines, between the same parts.
-    fn is_like(&self, other: &Self) -> bool {
-        self.along.at.len() == other.along.at.len() && self.parts == other.parts
-    }
-
-    fn new(section: &Section, along: Lines, up: Lines) -> Self {
+        let (along, up) = (Lines::new(along, &fine_along), Lines::new(up, &fine_up));
         let within = |ends: &[f64], (low, high): (f64, f64)| (low..high).contains(&(0.5 * (ends[0] + ends[1])));
         let mut parts = Vec::new();
         for high in up.at.windows(2) {
             let here = |wide: &[f64], part: &Part| within(wide, part.radii()) && within(high, part.heights());
             parts.extend(along.at.windows(2).map(|wide| section.parts().iter().position(|part| here(wide, part))));
         }
-        Self { along, up, parts }
+        Ok(Self { along, up, parts })
+    }
+
+    /// Whether both have as many lines, between the same parts.
+    fn is_like(&self, other: &Self) -> bool {
+        self.along.at.len() == other.along.at.len() && self.parts == other.parts
     }
 
     /// Elements with sizes `scale` as large.

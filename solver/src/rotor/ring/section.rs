@@ -402,36 +402,31 @@ impl Support {
 mod tests {
     use super::*;
 
-    fn refused(parts: Vec<Part>, supports: Vec<Support>) -> String {
-        Section::new(parts, supports).unwrap_err().to_string()
-    }
-
     #[test]
     fn a_section_that_is_not_in_order_is_refused_with_what_is_allowed() {
-        assert!(refused(Vec::new(), Vec::new()).contains("no part"));
-        let text = refused(vec![Part::in_mm("web", (29.0, 28.0), (0.0, 1.0))], Vec::new());
-        assert!(text.contains("part web: outer radius = 28 mm: allowed above its inner radius, 29 mm"), "{text}");
-        let text = refused(vec![Part::in_mm("web", (0.0, 28.0), (0.0, 1.0))], Vec::new());
-        assert!(text.contains("inner radius = 0 mm: allowed above 0"), "{text}");
-        let text = refused(vec![Part::in_mm("web", (27.0, 28.0), (f64::NAN, 1.0))], Vec::new());
-        assert!(text.contains("not a number"), "{text}");
+        let web = |radii, heights| Part::in_mm("web", radii, heights);
         let flange = || Part::in_mm("flange", (25.0, 30.0), (1.0, 2.0));
-        let text = refused(vec![flange(), Part::in_mm("web", (28.0, 29.0), (0.0, 1.5))], Vec::new());
-        assert!(text.contains("parts flange and web overlap"), "{text}");
-        let corner = refused(vec![flange(), Part::in_mm("web", (30.0, 31.0), (0.0, 1.0))], Vec::new());
-        assert!(corner.contains("part web is not connected with part flange"), "{corner}");
-        let held = Support {
-            inner_radius: 20e-3,
-            outer_radius: 21e-3,
-            top: 1e-3,
-            ..Support::at_height(0.0, [false, true, false])
-        };
-        let text = refused(vec![flange()], vec![held]);
-        assert!(text.contains("support 1: no part is within r = 20 to 21 mm"), "{text}");
-        let text = refused(vec![flange()], vec![Support { axial: false, ..held }]);
-        assert!(text.contains("support 1: it fixes no direction"), "{text}");
+        let at = Support::at_height(0.0, [false, true, false]);
+        let held = Support { inner_radius: 20e-3, outer_radius: 21e-3, top: 1e-3, ..at };
+        for (parts, supports, expected) in [
+            (vec![], vec![], "no part"),
+            (
+                vec![web((29.0, 28.0), (0.0, 1.0))],
+                vec![],
+                "part web: outer radius = 28 mm: allowed above its inner radius, 29 mm",
+            ),
+            (vec![web((0.0, 28.0), (0.0, 1.0))], vec![], "inner radius = 0 mm: allowed above 0"),
+            (vec![web((27.0, 28.0), (f64::NAN, 1.0))], vec![], "not a number"),
+            (vec![flange(), web((28.0, 29.0), (0.0, 1.5))], vec![], "parts flange and web overlap"),
+            (vec![flange(), web((30.0, 31.0), (0.0, 1.0))], vec![], "part web is not connected with part flange"),
+            (vec![flange()], vec![held], "support 1: no part is within r = 20 to 21 mm"),
+            (vec![flange()], vec![Support { axial: false, ..held }], "support 1: it fixes no direction"),
+        ] {
+            let text = Section::new(parts, supports).unwrap_err().to_string();
+            assert!(text.contains(expected), "{text}");
+        }
         let touching = Support { outer_radius: 25e-3, bottom: 2e-3, top: 2e-3, ..held };
-        assert!(Section::new(vec![flange(), Part::in_mm("web", (28.0, 29.0), (0.0, 1.0))], vec![touching]).is_ok());
+        assert!(Section::new(vec![flange(), web((28.0, 29.0), (0.0, 1.0))], vec![touching]).is_ok());
     }
 
     #[test]
