@@ -181,7 +181,7 @@ impl Fidelity {
 pub const ACCURACY: [f64; 2] = [1e-6, 0.5];
 
 impl Spec {
-    /// A share of the way to a finer specification, in logarithms, for an error of `aim`.
+    /// A share of the way to a finer specification, in logarithms, for an error of `target_error`.
     fn towards(&self, fine: &Self, share: f64, target_error: f64) -> Self {
         let real = |a: f64, b: f64| a * (b / a).powf(share);
         let count = |a: usize, b: usize| real(a as f64, b as f64).round() as usize;

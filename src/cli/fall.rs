@@ -10,6 +10,7 @@ use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
 use crate::export::fall::{Object, Row, figure, floats};
+use crate::export::files::stage_figure;
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
 use crate::fidelity::Fidelity;
@@ -61,7 +62,7 @@ pub(super) fn run(
         staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
         drawn.provenance.fidelity = fidelity.to_string();
-        common.figures.stage(&mut staged, "startup", &drawn)?;
+        stage_figure(&mut staged, "startup", &drawn, &common.figures.formats())?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
         terminal::wrote(folder, &staged.commit()?);
     }

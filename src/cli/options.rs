@@ -3,11 +3,10 @@
 use super::exit::CliError;
 use super::interrupt::cancel_on_interrupt;
 use super::terminal;
-use crate::atomic::{Staged, WriteError, check_writable};
+use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::digits::parse_duration;
-use crate::export::figure::{Figure, Format};
-use crate::export::files::stage_figure;
+use crate::export::figure::Format;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input;
@@ -269,11 +268,6 @@ impl FigureOptions {
     pub(super) fn formats_and_vtk(&self) -> (Vec<Format>, bool) {
         let asked = |name: &str| self.figures.iter().any(|figure| figure == name);
         (Format::ALL.into_iter().filter(|format| asked(format.name())).collect(), asked("vtk"))
-    }
-
-    /// Stages a figure under a name, once in each format.
-    pub(super) fn stage(&self, staged: &mut Staged, name: &str, figure: &Figure) -> Result<(), WriteError> {
-        stage_figure(staged, name, figure, &self.formats())
     }
 }
 

@@ -98,9 +98,10 @@ fn write(
     staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
     staged.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
     staged.add("figures.json", |out| out.write_all(json::document(&Object::new(all), command).as_bytes()))?;
+    let formats = arguments.figures.formats();
     for (number, figure) in figures(all) {
         check()?;
-        arguments.figures.stage(&mut staged, &format!("fig{number}"), &figure)?;
+        files::stage_figure(&mut staged, &format!("fig{number}"), &figure, &formats)?;
     }
     if let Some(gif) = &gif {
         staged.add("cycle.gif", |out| out.write_all(gif))?;

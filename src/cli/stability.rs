@@ -9,6 +9,7 @@ use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
 use crate::atomic::Staged;
 use crate::digits::duration;
+use crate::export::files::stage_figure;
 use crate::export::stability::{CellObject, Object, detail, figure};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -90,7 +91,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
         if complete {
             let drawn = figure(&scene.name, settings.fidelity, &cells);
-            arguments.common.figures.stage(&mut staged, "stability", &drawn)?;
+            stage_figure(&mut staged, "stability", &drawn, &arguments.common.figures.formats())?;
         }
         terminal::wrote(folder, &staged.commit()?);
     }

@@ -10,6 +10,7 @@ use crate::analysis::quantity::force_unit;
 use crate::atomic::Staged;
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
+use crate::export::files::stage_figure;
 use crate::export::json;
 use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
 use crate::fall::CYCLES;
@@ -125,7 +126,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         if let Some(last) = rows.last() {
             drawn.provenance.error = format!("ends at {}", last.main());
         }
-        arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
+        stage_figure(&mut staged, "startup", &drawn, &arguments.common.figures.formats())?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
         terminal::wrote(folder, &staged.commit()?);
     }

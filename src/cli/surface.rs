@@ -7,6 +7,7 @@ use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
+use crate::export::files::stage_figure;
 use crate::export::json;
 use crate::export::surface::{Face, FlowFactors, Object, preset};
 use crate::input::read_text;
@@ -67,8 +68,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut staged = Staged::new(folder)?;
         staged.add("surface.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         staged.add("surface.toml", |out| out.write_all(preset(&pair).as_bytes()))?;
+        let formats = arguments.figures.formats();
         for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
-            arguments.figures.stage(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
+            stage_figure(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture), &formats)?;
         }
         terminal::wrote(folder, &staged.commit()?);
     }

@@ -11,6 +11,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::atomic::Staged;
 use crate::digits::{duration, parse_duration, percent, significant};
+use crate::export::files::stage_figure;
 use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
@@ -105,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
         staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
-        arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
+        stage_figure(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen), &arguments.figures.formats())?;
         terminal::wrote(folder, &staged.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.

@@ -171,14 +171,14 @@ pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
 /// The same of one of its quantities; only the first has another below.
 pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
-    let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
+    let worst = |error: Quantity| rows.iter().filter_map(|row| row.numbers.get(error)).fold(0.0, f64::max);
     let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
     let provenance = Provenance {
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
-        error: format!("errors up to {worst:.1e}"),
+        error: quantity.error().map_or_else(String::new, |error| format!("errors up to {:.1e}", worst(error))),
         note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
         ..Provenance::named(&show_text(&sweep.scene().name))
     };

@@ -400,7 +400,7 @@ fn describe(
     }
     if let Some((at, there)) = better {
         warnings.push(format!(
-            "{} is better, {}, at {at}, the others unchanged: this is not the optimum within the bounds; give more --starts",
+            "{} is better, {}, at {at}, the others unchanged: this is not the optimum within the bounds; more starts may find it (--starts)",
             goal.quantity.name(),
             short(there, 6)
         ));

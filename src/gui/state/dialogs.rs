@@ -87,7 +87,7 @@ impl Export {
             }
             Self::Figures => "The figures of the run on screen as SVG, PNG and PDF, ready to print",
             Self::Fields => "All fields over one cycle as NumPy arrays in one file, .npz",
-            Self::Animation => "One cycle as moving pictures: a GIF, or an animated PNG with all colours",
+            Self::Animation => "One cycle as moving pictures: a GIF, an animated PNG with all colours, or an MP4 video",
             Self::Report => "One HTML file with the numbers and figures of this run; it opens without a network",
             Self::Comparison => "The report, tables, overlaid figures and one cycle in phase of the pinned runs",
             Self::ComparisonReport => {

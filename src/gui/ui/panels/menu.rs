@@ -9,8 +9,9 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::{presets, show_text};
+use crate::scene::{Scene, presets, show_text};
 use eframe::egui::{self, Button, Response};
+use std::sync::LazyLock;
 
 /// Shows the menus.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
@@ -189,12 +190,13 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 /// All built-in presets; `command` is asked with the one that is clicked.
 pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
+    // Built-in presets parse: a test opens every one.
+    static ALL: LazyLock<Vec<(&presets::BuiltIn, Scene)>> =
+        LazyLock::new(|| presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?))).collect());
     let room = 0.85 * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
-        // Built-in presets parse: a test opens every one.
-        let all = presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?)));
         let mut last = None;
-        for (preset, scene) in all {
+        for (preset, scene) in ALL.iter() {
             if last.replace(preset.group).is_some_and(|group| group != preset.group) {
                 ui.separator();
             }

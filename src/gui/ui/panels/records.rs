@@ -129,7 +129,8 @@ fn cell(
             let response = beside(ui.clip_rect(), response.accessible_name(spoken), of.about);
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
-                return (edited != *text).then_some((Value::Text(edited), false));
+                let kept = edited != *text && !ui.input(|input| input.key_pressed(egui::Key::Escape));
+                return kept.then_some((Value::Text(edited), false));
             }
             if response.has_focus() {
                 ui.data_mut(|data| data.insert_temp(id, edited));
