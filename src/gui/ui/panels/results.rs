@@ -32,7 +32,9 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         ui.spacing_mut().item_spacing.y = 4.0;
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);
-        cx.warn(ui, beside_headline(&run.validity).as_slice());
+        if let Some(words) = beside_headline(&run.validity) {
+            cx.note(ui, capitalised(&words));
+        }
         let shown = Shown { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
         match (&run.problem.scenario, &run.solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, &shown, motor, result, cx),
