@@ -4,6 +4,14 @@
 use npyz::NpyFile;
 use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
+use squeezefilm::analysis::compare::runs;
+use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::control::Cancel;
+use squeezefilm::export::compare::all_figures;
+use squeezefilm::export::figure::Layer;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::scene::presets;
+use squeezefilm::solve::Settings;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
@@ -206,19 +214,20 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
             "parameters.csv",
             "report.html",
             "teeth.svg",
+            "torque.svg",
             "waves.svg"
         ]
     );
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
     let page = page(&html);
-    assert_eq!((count(&page, "svg"), count(&page, "img")), (4, 1));
+    assert_eq!((count(&page, "svg"), count(&page, "img")), (5, 1));
     // Each curve of each run is in the figure of the waves: tops, rotor, and one in either panel of pressures.
     let figure = page.descendants().find(|node| node.tag_name().name() == "svg").unwrap();
     let areas = figure.descendants().filter(|node| node.attribute("data-area").is_some()).count();
     assert_eq!(areas, 3);
     let tables = tables(&page);
     let [parameters, results] = &tables[..] else { panic!("{} tables", tables.len()) };
-    assert!(parameters.iter().any(|row| row[..] == ["film.min_spacing_nm, nm", "200", "100", "200"]), "{parameters:?}");
+    assert!(parameters.iter().any(|row| row[..] == ["film.min_spacing_nm", "200", "100", "200"]), "{parameters:?}");
     let film = results.iter().find(|row| row[0].starts_with("film load")).unwrap();
     assert!(film[1].contains(" ± ") && film[3].ends_with(" %"), "{film:?}");
     // The animation in the page is the file beside it.
@@ -245,7 +254,37 @@ fn motors_and_plates_are_compared_as_far_as_they_go() {
     let said = String::from_utf8_lossy(&said.stdout).into_owned();
     assert!(said.contains("plate.length_mm") && said.contains("film.slip"), "{said}");
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert_eq!((count(&page(&html), "svg"), count(&page(&html), "img")), (8, 2));
+    assert_eq!((count(&page(&html), "svg"), count(&page(&html), "img")), (9, 2));
+}
+
+#[test]
+fn curves_of_torque_and_power_begin_and_end_where_the_numbers_say() {
+    let scenes = ["fundamental", "min-spacing-100nm"].map(|name| presets::find(name).unwrap());
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let compared = runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap();
+    let (_, figure) = all_figures(&compared).into_iter().find(|(name, _)| name == "torque").unwrap();
+    let curves: Vec<Vec<[f64; 2]>> = figure
+        .panels
+        .iter()
+        .flat_map(|panel| &panel.layers)
+        .filter_map(|layer| match layer {
+            Layer::Line(line) if !line.name.is_empty() => Some(line.points.clone()),
+            _ => None,
+        })
+        .collect();
+    let [first, second, power, other_power] = &curves[..] else { panic!("{} curves", curves.len()) };
+    let number = |run: usize, quantity| compared[run].numbers().get(quantity).unwrap();
+    for (run, torque) in [first, second].into_iter().enumerate() {
+        // In mN·m.
+        assert!((torque[0][1] - 1e3 * number(run, Quantity::StallTorque)).abs() < 1e-9, "{:?}", torque[0]);
+        assert!((torque.last().unwrap()[0] - number(run, Quantity::NoLoadSpeed)).abs() < 0.02, "{:?}", torque.last());
+        assert!(torque.iter().all(|[_, torque]| *torque >= 0.0));
+    }
+    for (run, power) in [power, other_power].into_iter().enumerate() {
+        let most = power.iter().map(|[_, power]| *power).fold(0.0, f64::max);
+        let told = number(run, Quantity::MaxPower);
+        assert!((most / told - 1.0).abs() < 2e-3, "{most} and {told}");
+    }
 }
 
 #[test]

@@ -141,11 +141,6 @@ pub struct ParameterRow {
 }
 
 impl ParameterRow {
-    /// The key, with its unit after a comma.
-    pub fn label(&self) -> String {
-        labelled(self.parameter.key, self.parameter.unit)
-    }
-
     /// Whether the scenes differ in it.
     pub fn differs(&self) -> bool {
         self.values.windows(2).any(|pair| pair[0] != pair[1])

@@ -86,21 +86,12 @@ impl TorqueCurves {
         let with_film = Scaled::with_film(motor, result, recording);
         let without_film = Scaled::without_film(motor, dry);
         let share = (1.0 - result.alpha.value).max(0.0);
-        let v0 = motor.stator_speed();
-        let mut speeds: Vec<f64> = if v0 > 0.0 {
-            let marked = [with_film.no_load_speed(), without_film.no_load_speed(), Some(motor.rotor_speed)];
-            let even = (0..SPEEDS).map(|i| v0 * i as f64 / (SPEEDS - 1) as f64);
-            even.chain(marked.into_iter().flatten().filter(|speed| (0.0..=v0).contains(speed))).collect()
-        } else {
-            Vec::new()
-        };
-        speeds.sort_by(f64::total_cmp);
-        speeds.dedup();
+        let speeds = speeds(motor, &[with_film.no_load_speed(), without_film.no_load_speed()]);
         Self {
             with_film: with_film.performance(&speeds),
             without_film: without_film.performance(&speeds),
             radius: motor.contact_radius,
-            stator_speed: v0,
+            stator_speed: motor.stator_speed(),
             dry_equivalent: Estimate { value: share, ..result.alpha } * motor.dry_friction,
             film_power: film_power(motor, recording),
             viscous_drag: viscous_drag(motor, recording),
@@ -112,6 +103,27 @@ impl TorqueCurves {
     pub fn rpm(&self, speed: f64) -> f64 {
         rpm(speed, self.radius)
     }
+}
+
+/// With the film alone, from a solve of `motor`; the whole ring.
+pub fn with_film(motor: &Motor, result: &MotorResult, recording: &Recording) -> Performance {
+    let scaled = Scaled::with_film(motor, result, recording);
+    scaled.performance(&speeds(motor, &[scaled.no_load_speed()]))
+}
+
+/// Speeds of a curve \[m/s\], ascending: equally spaced from rest to the stator's greatest, those `marked` and that of the rotor. None if the
+/// stator does not move.
+fn speeds(motor: &Motor, marked: &[Option<f64>]) -> Vec<f64> {
+    let v0 = motor.stator_speed();
+    if v0 <= 0.0 {
+        return Vec::new();
+    }
+    let even = (0..SPEEDS).map(|i| v0 * i as f64 / (SPEEDS - 1) as f64);
+    let marked = marked.iter().copied().flatten().chain([motor.rotor_speed]);
+    let mut speeds: Vec<f64> = even.chain(marked.filter(|speed| (0.0..=v0).contains(speed))).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
 }
 
 /// [`TorqueCurves::speed_effect`]: a bound from the problem alone where that is small, and otherwise what a solve at the speed farthest from

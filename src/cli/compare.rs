@@ -33,7 +33,7 @@ Files of --out:
   parameters.csv   a row for each key in which they differ (--all: each key)
   compare.json     what --json prints
   cycle.gif        one cycle of all runs in phase
-  waves, loads, maps, teeth (.svg .png)
+  waves, loads, torque, maps, teeth (.svg .png)
                    figures, runs laid over each other; of plates
                    profiles, loads, loops, maps";
 
@@ -117,7 +117,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         listed += 1;
         let shown = |value: &Option<Value>| value.as_ref().map_or_else(|| "none".to_owned(), Value::to_string);
-        columns.row(std::iter::once(row.label()).chain(row.values.iter().map(shown)));
+        columns.row(std::iter::once(row.parameter.key.to_owned()).chain(row.values.iter().map(shown)));
     }
     let right: Vec<usize> = (1..=2 * runs.len()).collect();
     text.push('\n');

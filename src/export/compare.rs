@@ -14,13 +14,14 @@ use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow,
 use crate::analysis::decision::{effort, exactness, sentences};
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
+use crate::analysis::torque::with_film;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::digits::{change, significant, with_error};
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
-use crate::solution::{Status, StoppedBy};
+use crate::solution::{Outcome, Performance, Status, StoppedBy};
 use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
@@ -198,6 +199,18 @@ fn motors_and_plates(runs: &[ComparedRun]) -> (Vec<MotorRun<'_>>, Vec<PlateRun<'
     (motors, plates)
 }
 
+/// Torque and power of the motors that have fields.
+fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
+    let performance = |run: &ComparedRun| {
+        let solution = run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?;
+        match (&run.problem.scenario, &solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => Some(with_film(motor, result, &solution.recording)),
+            _ => None,
+        }
+    };
+    runs.iter().filter_map(performance).collect()
+}
+
 /// Where the numbers of a comparison come from.
 pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
@@ -225,8 +238,9 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
 pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
     let (motors, plates) = motors_and_plates(runs);
     let prefix = if motors.is_empty() { "" } else { "plate-" };
+    let of_motors = figures::motors(&motors, &performances(runs));
     let mut all: Vec<(String, Figure)> =
-        figures::motors(&motors).into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
+        of_motors.into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
     all.extend(figures::plates(&plates).into_iter().map(|(name, figure)| (format!("{prefix}{name}"), figure)));
     let provenance = provenance(runs);
     for (_, figure) in &mut all {
@@ -435,7 +449,7 @@ fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a Para
             Some(shown) => (Kind::Strong, shown.to_string()),
             None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
         });
-        table.row([(Kind::Words, row.label())].into_iter().chain(values));
+        table.row([(Kind::Words, row.parameter.key.to_owned())].into_iter().chain(values));
     }
     table
 }

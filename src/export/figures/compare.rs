@@ -8,9 +8,10 @@ use super::series::{
 };
 use super::unit::prefixed;
 use crate::export::figure::{Axis, Figure, Legend, Line, Map, Marker, Panel, Points, Range, Style, Width, extent};
-use crate::problem::{Motor, Plate};
+use crate::problem::{Motor, Plate, rpm};
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
+use crate::solution::{Performance, Point};
 
 /// One run: of a motor, or of a plate.
 #[derive(Clone, Copy, Debug)]
@@ -35,17 +36,23 @@ pub fn style(index: usize) -> Style {
     Style { marker: None, ..Style::nth(index) }
 }
 
+/// Whose numbers a caption is about, if there are several.
+fn of_every<S>(runs: &[DrawnRun<'_, S>]) -> &'static str {
+    if runs.len() > 1 { " of every run" } else { "" }
+}
+
 /// At most this many maps are moved.
 const MOVING_MAPS: usize = 4;
 
-/// All figures of several motors, each with the name of its file. No runs, no figures.
-pub fn motors(runs: &[MotorRun<'_>]) -> Vec<(&'static str, Figure)> {
+/// All figures of several motors, each with the name of its file; `performances`: of each run. No runs, no figures.
+pub fn motors(runs: &[MotorRun<'_>], performances: &[Performance]) -> Vec<(&'static str, Figure)> {
     let Some(first) = runs.first() else { return Vec::new() };
     let frame = crest_in_the_middle(first.recording);
     let phase = phase_of(first.recording, frame);
     vec![
         ("waves", waves(runs, phase)),
         ("loads", loads(runs)),
+        ("torque", torques(runs, performances)),
         ("maps", maps(runs, phase)),
         ("teeth", teeth(runs, phase)),
     ]
@@ -94,7 +101,8 @@ pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     figure.width = Width::Millimetres(150.0);
     figure.caption = format!(
         "Rotor (thick) and tooth tops (thin) (a), contact pressure (b) and gauge pressure of the air film (c), both averaged over the \
-         contact width, along one wavelength at t/T = {phase:.3} of every run."
+         contact width, along one wavelength at t/T = {phase:.3}{}.",
+        of_every(runs)
     );
     figure
 }
@@ -168,8 +176,42 @@ pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
         Figure::new("loads over the cycle").panel(film.legend(Legend::Above)).panel(contact.legend(Legend::None));
     figure.share_x = true;
     figure.width = Width::Millimetres(110.0);
+    let of_every = of_every(runs);
     figure.caption =
-        "Load of the air film (a) and contact load (b) on one wavelength, over one cycle of every run.".to_owned();
+        format!("Load of the air film (a) and contact load (b) on one wavelength, over one cycle{of_every}.");
+    figure
+}
+
+/// Torque and power over the speed of the rotor.
+pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
+    let speed = |run: &MotorRun<'_>, speed: f64| rpm(speed, run.scene.contact_radius);
+    let fastest = runs.iter().map(|run| speed(run, run.scene.stator_speed())).fold(f64::MIN_POSITIVE, f64::max);
+    let panel = |title: &str, name: &str, unit: &str, value: fn(&Point) -> f64| {
+        let values = performances.iter().flat_map(|found| &found.curve).map(value);
+        let (unit, scale) = prefixed(span(values, 0.0)[1], unit);
+        let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
+        let mut panel = Panel::new(title, x, Axis::new(name, unit).including([0.0])).height(36.0);
+        panel = panel.layer(rest(0.0, ""));
+        for (run, found) in runs.iter().zip(performances) {
+            let points = found.curve.iter().map(|point| [speed(run, point.speed), value(point) * scale]);
+            // What brakes the rotor is left out.
+            let driven: Vec<_> = points.filter(|point| point[1] >= 0.0).collect();
+            panel = panel.layer(Line::new(run.name, driven, run.style));
+        }
+        panel
+    };
+    let torque = panel("(a) torque of the ring", "torque", "N·m", |point| point.torque.value);
+    let power = panel("(b) power given to the rotor", "power", "W", |point| point.output.value);
+    let mut figure = Figure::new("torque and power over speed")
+        .panel(torque.legend(Legend::Above))
+        .panel(power.legend(Legend::None));
+    figure.share_x = true;
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = format!(
+        "Torque (a) and power given to the rotor (b) of the whole ring over the speed of the rotor{}, with the air film, for Coulomb \
+         friction at every point of contact; as far as the rotor is driven.",
+        of_every(runs)
+    );
     figure
 }
 
@@ -190,8 +232,8 @@ pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     }
     figure.width = Width::Page;
     figure.caption = format!(
-        "Absolute pressure of the air film under all teeth at t/T = {phase:.3} of every run; one scale of colours covers the whole cycle \
-         of all."
+        "Absolute pressure of the air film under all teeth at t/T = {phase:.3}{}; one scale of colours covers the whole cycle.",
+        of_every(runs)
     );
     figure
 }
@@ -212,8 +254,8 @@ pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     figure.columns = runs.len().clamp(1, 2);
     figure.width = Width::Page;
     figure.caption = format!(
-        "Absolute pressure of the air film under the tooth in the middle, with lines of equal pressure, at t/T = {phase:.3}; one scale \
-         of colours for all."
+        "Absolute pressure of the air film under the tooth in the middle, with lines of equal pressure, at t/T = {phase:.3}{}.",
+        if runs.len() > 1 { "; one scale of colours for all" } else { "" }
     );
     figure
 }
@@ -265,8 +307,10 @@ pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
     let mut figure = Figure::new("pressure along the plate").panel(wide).panel(narrow);
     figure.share_x = true;
     figure.width = Width::Millimetres(110.0);
-    figure.caption =
-        "Absolute pressure along every plate, in its middle, at the greatest and at the least gap.".to_owned();
+    figure.caption = format!(
+        "Absolute pressure along the middle of {} plate, at the greatest and at the least gap.",
+        if runs.len() > 1 { "every" } else { "the" }
+    );
     figure
 }
 
@@ -287,7 +331,7 @@ pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
     }
     let mut figure = Figure::new("load over the cycle").panel(panel.legend(Legend::Above));
     figure.width = Width::Millimetres(110.0);
-    figure.caption = "Load of the film above ambient, over the area, over one cycle of every run.".to_owned();
+    figure.caption = format!("Load of the film above ambient, over the area, over one cycle{}.", of_every(runs));
     figure
 }
 
@@ -307,7 +351,8 @@ pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
     }
     let mut figure = Figure::new("pressure against gap").panel(panel.legend(Legend::Above));
     figure.width = Width::Millimetres(110.0);
-    figure.caption = "Mean gauge pressure of the film against the gap, once round the cycle of every run.".to_owned();
+    figure.caption =
+        format!("Mean gauge pressure of the film against the gap, once round the cycle{}.", of_every(runs));
     figure
 }
 
@@ -328,9 +373,10 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     }
     figure.columns = runs.len().clamp(1, 2);
     figure.width = Width::Page;
-    figure.caption =
-        "Absolute pressure along the middle of every plate and over one cycle; one scale of colours for all."
-            .to_owned();
+    figure.caption = format!(
+        "Absolute pressure along the middle of {} and over one cycle.",
+        if runs.len() > 1 { "every plate, with one scale of colours for all," } else { "the plate" }
+    );
     figure
 }
 
