@@ -12,7 +12,7 @@ use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
-/// Tries lessons of your own, and prints lessons on paper
+/// Tries lessons of your own, prints lessons on paper, and sums up what a class saved
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm lessons check my-course
