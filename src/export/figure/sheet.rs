@@ -61,6 +61,11 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
 
 /// A sheet in type of this size: the body of each of its pages.
 fn set(sheet: &[Piece], size: f64) -> Vec<String> {
+    filled(sheet, size).pages.into_iter().map(|page| page.body).collect()
+}
+
+/// What set a sheet in type of this size.
+fn filled(sheet: &[Piece], size: f64) -> Setter {
     let mut setter = Setter { pages: vec![Svg::default()], column: 0, y: MARGIN, size };
     for (i, piece) in sheet.iter().enumerate() {
         let [heading, paragraph, choice] = ABOVE;
@@ -80,7 +85,7 @@ fn set(sheet: &[Piece], size: f64) -> Vec<String> {
             Piece::Axes(names) => setter.axes(names),
         }
     }
-    setter.pages.into_iter().map(|page| page.body).collect()
+    setter
 }
 
 /// The height \[pt\] of the first of these pieces and of what is not parted from it: a heading from what it is about, a paragraph from its choices, its
@@ -218,6 +223,25 @@ mod tests {
             pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
             1
         );
+    }
+
+    #[test]
+    fn what_is_kept_together_is_as_high_as_it_is_set() {
+        let size = SIZES[1];
+        // Of every length, so that some lines break because of an indent.
+        for words in 1..60 {
+            let text = || "seven ".repeat(words);
+            let choice = || Piece::Choice(text(), false);
+            let axes = Piece::Axes(["x".into(), "y".into()]);
+            for pieces in [
+                vec![Piece::Heading(text()), Piece::Text(text()), choice(), choice()],
+                vec![Piece::Heading(text()), Piece::Text(text()), axes],
+                vec![Piece::Text(text())],
+            ] {
+                let high = filled(&pieces, size).y - MARGIN;
+                assert!((together(&pieces, size) - high).abs() < 1e-9, "{pieces:?}");
+            }
+        }
     }
 
     #[test]

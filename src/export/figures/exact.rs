@@ -86,3 +86,33 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
         .layer(Line::new("computed", over_cycle(load, scale), Style::solid(Colour::FILM)))
         .legend(Legend::Above)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Cancel;
+    use crate::export::figure::Range;
+    use crate::problem::{Problem, Scenario};
+    use crate::scene::presets;
+    use crate::solution::Outcome;
+    use crate::solve::{Settings, solve};
+
+    #[test]
+    fn the_present_squeeze_number_is_well_inside_the_curves() {
+        for khz in ["0.001", "1", "10000"] {
+            let mut scene = presets::find("plate-crossover").unwrap();
+            scene.set("plate.frequency_khz", khz).unwrap();
+            let problem = Problem::try_from(&scene).unwrap();
+            let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
+            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
+                panic!("a plate")
+            };
+            let found = Comparison::of(plate, result.film_load, &solution.recording);
+            let panel = coefficients(plate, &found);
+            let (present, Range::Fixed(from, to)) = (found.effective_squeeze_number, &panel.x.range) else {
+                panic!("{:?}", panel.x.range)
+            };
+            assert!(*from <= 0.26 * present && 3.9 * present <= *to, "{from} {present} {to}");
+        }
+    }
+}
