@@ -242,9 +242,12 @@ impl Svg {
         if style.anchor != "start" {
             let _ = write!(self.body, r#" text-anchor="{}""#, style.anchor);
         }
-        // Where another font stands in for the first one, it is fitted into the place that was laid out.
-        let place = coordinate(width(text, style.size));
-        let _ = write!(self.body, r#" textLength="{place}" lengthAdjust="spacingAndGlyphs""#);
+        // Where another font stands in for the first one, it is fitted into the place that was laid out. Readers of SVG do not agree on
+        // what that means for a text of several pieces.
+        if pieces.len() == 1 {
+            let place = coordinate(width(text, style.size));
+            let _ = write!(self.body, r#" textLength="{place}" lengthAdjust="spacingAndGlyphs""#);
+        }
         if style.colour != Colour::BLACK {
             let _ = write!(self.body, r#" fill="{}""#, style.colour.hex());
         }
