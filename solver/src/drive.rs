@@ -441,7 +441,8 @@ fn greatest_error(shares: &[Estimate]) -> f64 {
 /// The warnings of a motor whose teeth touch all round the wave, so that it gives less than the bound, and of one whose torque is not known.
 pub fn warnings(motor: &Motor, result: &MotorResult, found: &Performance) -> Vec<String> {
     let (stall, all_touch) = (found.stall_torque, result.teeth_in_contact.value >= motor.teeth as f64);
-    let unresolved = !result.levitated && stall.error >= stall.value.abs() && stall.error.is_finite();
+    let unresolved =
+        !result.levitated && stall.error > 0.0 && stall.error >= stall.value.abs() && stall.error.is_finite();
     let unresolved = unresolved.then(|| {
         format!("the stall torque, {stall} N·m, is not resolved at this fidelity: its error is as large as itself")
     });

@@ -70,12 +70,13 @@ const SLOWEST: f64 = 1.3;
 const BEFORE: f64 = 0.025;
 /// Of a smooth approach: what a third-order term leaves of the spread; share of the spread and of the last correction for the orders
 /// after it, times the spacing; the ratio of changes above which it counts as smooth; least share of the spread where it turns back; and
-/// least share of what the mean on the middle grid gained by its new instants.
+/// least shares of what the means on the middle and on the first grid gained by their new instants.
 const THIRD_ORDER: f64 = 1.0 / 7.0;
 const HIGHER_ORDERS: f64 = 0.6;
 const NEARLY_SECOND_ORDER: f64 = 3.5;
 const TURNING: f64 = 0.4;
 const SAMPLING: f64 = 0.1;
+const FIRST_SAMPLING: f64 = 0.02;
 
 /// A cycle mean on one grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -133,7 +134,8 @@ pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
         } else {
             share.max(TURNING) * steps.spread
         };
-        left.max((HIGHER_ORDERS * spacing * steps.correction().abs()).max(SAMPLING * steps.sampling.abs()))
+        let sampled = (SAMPLING * steps.sampling.abs()).max(FIRST_SAMPLING * steps.first_sampling.abs());
+        left.max((HIGHER_ORDERS * spacing * steps.correction().abs()).max(sampled))
     })
 }
 
@@ -149,8 +151,9 @@ fn extrapolate_by(means: &[Mean], error: impl Fn(&Changes) -> f64) -> Estimate {
         [.., first, second, third] => {
             let (earlier, change) = (second.shared - first.all, third.shared - second.all);
             let (before, value) = (second.all + earlier / 3.0, third.all + change / 3.0);
-            let (spread, sampling) = ((value - before).abs(), second.all - second.shared);
-            Estimate { value, error: error(&Changes { earlier, change, spread, sampling }) }
+            let spread = (value - before).abs();
+            let [first_sampling, sampling] = [first, second].map(|mean| mean.all - mean.shared);
+            Estimate { value, error: error(&Changes { earlier, change, spread, sampling, first_sampling }) }
         }
     }
 }
@@ -161,8 +164,10 @@ struct Changes {
     change: f64,
     /// By how much the extrapolated mean differs from what the two coarser grids give.
     spread: f64,
-    /// What the second mean gains by the instants that the first grid has not.
+    /// What the second mean gains by the instants that the first grid has not, and the first by every other of its own: where a plate
+    /// nearly touches, the steps of the first grid may be as long as that lasts.
     sampling: f64,
+    first_sampling: f64,
 }
 
 impl Changes {

@@ -144,6 +144,11 @@ pub struct Floating {
 }
 
 impl Floating {
+    /// Whether the film carries less at a greater gap.
+    pub fn is_stable(&self) -> bool {
+        self.stiffness.value > self.stiffness.error
+    }
+
     /// A `damping` of slow motion \[N s/m\] over the one at which the mass no longer swings: c ω/2k.
     pub fn damping_ratio(&self, damping: f64) -> f64 {
         damping * std::f64::consts::TAU * self.natural_frequency.value / (2.0 * self.stiffness.value)

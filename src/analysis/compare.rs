@@ -215,7 +215,8 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
 
 /// A value and its error.
 fn side(numbers: &Numbers, quantity: Quantity) -> (Option<f64>, Option<f64>) {
-    (numbers.get(quantity), quantity.error().and_then(|error| numbers.get(error)))
+    let value = numbers.get(quantity);
+    (value, value.and(quantity.error()).and_then(|error| numbers.get(error)))
 }
 
 /// 100 (b/a − 1), and the sum of what the two errors make of it.

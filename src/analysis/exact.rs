@@ -23,6 +23,10 @@ use std::f64::consts::TAU;
 
 /// Samples of a cycle for exact means: spectrally accurate.
 const SAMPLES: usize = 1024;
+/// Least share of the mean error of the load over the cycle that a part of it has (calibrated: docs/validation.md).
+const HARMONIC_SHARE: f64 = 0.35;
+/// Damping over spring below which the gas was taken for trapped: rounding.
+const IN_PHASE: f64 = 1e-9;
 
 /// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist. Or the same over the
 /// amplitude and over the greatest speed: stiffness \[N/m\] and damping \[N s/m\], of a strip per metre of width.
@@ -110,11 +114,22 @@ impl Comparison {
 pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>> {
     let excursion = plate.amplitude / plate.mean_gap;
     let scale = plate.gas.ambient_pressure * plate.area() * excursion;
+    let errors = &recording.film_load_error;
+    let of_load = HARMONIC_SHARE * errors.iter().sum::<f64>() / errors.len().max(1) as f64 / scale;
     let of = |part: fn(&Harmonic<f64>) -> f64| {
-        recording.estimate(|lines| part(&first_harmonic(&lines.film_loads())) / scale)
+        let found = recording.estimate(|lines| part(&first_harmonic(&lines.film_loads())) / scale);
+        Estimate { error: found.error.max(of_load), ..found }
     };
-    (excursion > 0.0 && !recording.film_load.is_empty())
-        .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) })
+    (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
+        let (mut spring, mut damping) = (of(|h| h.spring), of(|h| h.damping));
+        if damping.value.abs() < IN_PHASE * spring.value.abs() {
+            // What leaks, which is left out, damps, and softens the spring by as much: at no amplitude more than at a small one.
+            let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;
+            spring.error += leaks * spring.value.abs();
+            damping.error += leaks;
+        }
+        Harmonic { spring, damping }
+    })
 }
 
 /// σ/Q about which spring and damping of a small amplitude are alike.

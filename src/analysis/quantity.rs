@@ -108,6 +108,7 @@ numbers! {
     MeanGap "mean_gap_um" "floating mean gap" "µm" Plate;
     MeanGapError "mean_gap_error_um" "error of the mean gap" "µm" Plate;
     NaturalFrequency "natural_frequency_hz" "natural frequency" "Hz" Plate;
+    NaturalFrequencyError "natural_frequency_error_hz" "error of the natural frequency" "Hz" Plate;
     LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;
     LoadRatioError "mean_load_ratio_error" "error of the load ratio" "" Plate;
     LoadRatioMin "load_ratio_min" "least load ratio" "" Plate;
@@ -139,7 +140,9 @@ impl Quantity {
         };
         let floats = matches!(problem.scenario, Scenario::Plate(Plate { load: Some(_), .. }));
         let all = TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0);
-        all.filter(move |quantity| floats || !matches!(quantity, MeanGap | MeanGapError | NaturalFrequency))
+        all.filter(move |quantity| {
+            floats || !matches!(quantity, MeanGap | MeanGapError | NaturalFrequency | NaturalFrequencyError)
+        })
     }
 
     /// Its unit in the results of `problem`; empty for a pure number. Forces of a strip are per metre of width.
@@ -298,7 +301,9 @@ impl Numbers {
         }
         if let Some(floating) = result.floating {
             self.set_estimate(MeanGap, floating.mean_gap * 1e6);
-            self.set(NaturalFrequency, floating.natural_frequency.value);
+            if floating.is_stable() {
+                self.set_estimate(NaturalFrequency, floating.natural_frequency);
+            }
         }
     }
 }

@@ -1,11 +1,11 @@
 //! What the dimensionless numbers of a scene say about its film, and whether the film matters, in words.
 
 use super::validity::mach;
-use crate::digits::{percent, rounded};
+use crate::digits::{as_given, brief, rounded, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::problem::{Problem, Scenario};
-use crate::solution::{Outcome, PlateResult};
+use crate::problem::{Motor, Problem, Scenario};
+use crate::solution::{MotorResult, Outcome, PlateResult};
 use std::f64::consts::SQRT_2;
 
 /// A share of the load, or of p_a × area, below which a film hardly matters.
@@ -13,20 +13,33 @@ const HARDLY: f64 = 1e-3;
 /// No film has an effect as small as this.
 const NOTHING: f64 = 1e-6;
 
-/// What the film is: from how much of its shorter side gas leaks in a cycle.
-pub fn squeeze(problem: &Problem) -> String {
+/// What the film is: how far from its edges gas leaks in a cycle, beside its shorter side. Of a rotor that floats, where the film is
+/// thinnest, since it never has the minimum spacing.
+pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
+    if let (Scenario::Motor(motor), Outcome::Motor(result @ MotorResult { levitated: true, .. })) =
+        (&problem.scenario, outcome)
+    {
+        let thinnest = result.min_film_thickness.value;
+        let scenario = Scenario::Motor(Motor { min_spacing: thinnest, ..motor.clone() });
+        let says = leaks(&Problem { scenario, ..problem.clone() });
+        return format!("where the film is thinnest, {} nm, {says}", brief(thinnest * 1e9));
+    }
+    leaks(problem)
+}
+
+fn leaks(problem: &Problem) -> String {
     let shorter = match &problem.scenario {
         Scenario::Motor(motor) => motor.tooth_width.min(motor.contact_width),
         Scenario::Plate(plate) => plate.squeezed_length().min(plate.width.unwrap_or(f64::INFINITY)),
     };
-    let share = Dimensionless::of(problem).boundary_layer / shorter;
-    let outer = percent(share);
-    match share {
-        _ if share > SQRT_2 => "in a cycle gas flows out and back in everywhere: the film is a damper".to_owned(),
-        _ if share > SQRT_2 / 10.0 => {
-            format!("in a cycle gas leaks from the outer {outer} of the film: it is both spring and damper")
+    let layer = Dimensionless::of(problem).boundary_layer;
+    let within = format!("within {} µm of the edges", significant(layer * 1e6, 2));
+    match layer / shorter {
+        share if share > SQRT_2 => "in a cycle gas flows out and back in everywhere: the film is a damper".to_owned(),
+        share if share > SQRT_2 / 10.0 => {
+            format!("in a cycle gas leaks {within}: the film is both spring and damper")
         }
-        _ => format!("in a cycle gas leaks only from the outer {outer} of the film: it is a spring"),
+        _ => format!("in a cycle gas leaks only {within}: the film is a spring"),
     }
 }
 
@@ -43,7 +56,11 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
         // A solver answers in kind.
         _ => return String::new(),
     };
-    let percent = format!("{} %", rounded(100.0 * share.abs(), 2));
+    // Nearly all is not all.
+    let percent = match 100.0 * share.abs() {
+        percent if percent > 99.0 && percent < 100.0 => format!("{} %", as_given(100.0 - rounded(100.0 - percent, 2))),
+        percent => format!("{} %", rounded(percent, 2)),
+    };
     match share {
         _ if !share.is_finite() => "what it carries here is not known".to_owned(),
         _ if sucks(Estimate { value: share, error }) => {
@@ -75,10 +92,13 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
 }
 
 /// What the Knudsen number says, and of which film it is.
-pub fn knudsen(problem: &Problem) -> String {
-    let at = match problem.scenario {
-        Scenario::Motor(_) => "at the minimum spacing",
-        Scenario::Plate(_) => "at the mean gap",
+pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
+    let at = match (&problem.scenario, outcome) {
+        (_, Outcome::Motor(MotorResult { levitated: true, .. })) => {
+            "at the minimum spacing, above which the rotor floats"
+        }
+        (Scenario::Motor(_), _) => "at the minimum spacing",
+        (Scenario::Plate(_), _) => "at the mean gap",
     };
     let says = match Dimensionless::of(problem).knudsen_number {
         kn if kn < 0.01 => "slip at the walls hardly matters",
@@ -93,7 +113,6 @@ pub fn knudsen(problem: &Problem) -> String {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::solution::MotorResult;
 
     fn words(alpha: f64, alpha_error: f64, changes: &[(&str, &str)]) -> String {
         let mut scene = Scene::motor();
@@ -106,6 +125,7 @@ mod tests {
     fn words_follow_the_result() {
         for (alpha, error, said) in [
             (0.246, 1e-3, "here it carries 25 % of the load: contact carries the rest"),
+            (0.99717, 1e-4, "here it carries 99.72 % of the load: contact carries the rest"),
             (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load: contact carries the rest"),
             (4e-7, 1e-6, "here its load cannot be distinguished from zero"),
             (-0.002, 0.0021, "here its load cannot be distinguished from zero"),
@@ -124,20 +144,31 @@ mod tests {
         let said = |scene: &Scene, key, value| {
             let mut scene = scene.clone();
             scene.set(key, value).unwrap();
-            squeeze(&Problem::try_from(&scene).unwrap())
+            let problem = Problem::try_from(&scene).unwrap();
+            let outcome = match &problem.scenario {
+                Scenario::Motor(_) => Outcome::Motor(MotorResult::default()),
+                Scenario::Plate(_) => Outcome::Plate(PlateResult::default()),
+            };
+            squeeze(&problem, &outcome)
         };
         let (motor, strip) = (Scene::motor(), Scene::plate());
-        for (scene, khz, outer, is) in [
+        for (scene, khz, within, is) in [
             // 24.04 µm of a contact width of 0.3 mm; it grows with 1/√f.
-            (&motor, "30", "only from the outer 8.0 %", "a spring"),
-            (&motor, "3", "from the outer 25 %", "both spring and damper"),
+            (&motor, "30", "only within 24 µm", "a spring"),
+            (&motor, "3", "within 76 µm", "both spring and damper"),
             (&motor, "0.05", "out and back in everywhere", "a damper"),
-            (&strip, "30", "only from the outer 8.3 %", "a spring"),
+            (&strip, "30", "only within 83 µm", "a spring"),
         ] {
             let key = if std::ptr::eq(scene, &motor) { "stator.frequency_khz" } else { "plate.frequency_khz" };
             let words = said(scene, key, khz);
-            assert!(words.contains(outer) && words.ends_with(is), "{khz} kHz: {words}");
+            assert!(words.contains(within) && words.ends_with(is), "{khz} kHz: {words}");
         }
+        // √(h² + 6λh), from 200 nm to 749 nm.
+        let floating = Problem::try_from(&motor).unwrap();
+        let result =
+            MotorResult { levitated: true, min_film_thickness: Estimate::exact(749e-9), ..MotorResult::default() };
+        let words = squeeze(&floating, &Outcome::Motor(result));
+        assert!(words.starts_with("where the film is thinnest, 749 nm,") && words.contains("within 66 µm"), "{words}");
         // A narrow rectangle leaks along its length.
         assert!(said(&strip, "plate.width_mm", "0.1").contains("both spring and damper"));
     }

@@ -11,6 +11,7 @@
 //! | `sound` | s over the wavelength of sound | 1; ½ if Re is above its limit | the edges are at ambient pressure; waves stand in the film |
 //! | `sound` | sliding speed over that of sound | 1 | shear heats the gas by 4 % |
 //! | `rotor-resonance` | harmonic's frequency over the lowest natural one of its shape | 0.3 | a rotor with mass yields a tenth more |
+//! | `dense-gas` | highest pressure of the gas | 5 MPa | air is 5 % more viscous than at ambient pressure |
 //! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields |
 //! | `roughness` | rms roughness over the separation of the mean planes, closed | 2 | Patir and Cheng's factors end there |
 //! | `thinness` | h/s | 0.025 | the gas beyond the edges adds 3 % to s, 10 % to the damping |
@@ -31,7 +32,7 @@ pub use limits::{Excess, NAMES, mach};
 use crate::plan::Choice;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution, settled};
-use limits::{Film, nearness, resonance, roughness, sliding, stress};
+use limits::{Film, dense, nearness, resonance, roughness, sliding, stress};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -41,7 +42,7 @@ pub fn outside(problem: &Problem, solution: Option<&Solution>) -> Vec<Excess> {
     let problem = &*solution.map_or(Cow::Borrowed(problem), |solution| settled(problem, &solution.outcome));
     match &problem.scenario {
         Scenario::Motor(motor) => of_motor(motor, solution),
-        Scenario::Plate(plate) => of_plate(plate),
+        Scenario::Plate(plate) => of_plate(plate, solution),
     }
 }
 
@@ -90,6 +91,7 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
         film.slip(),
         film.sound(),
         sliding(motor),
+        dense(highest_pressure(solution)),
         natural.and_then(|natural| resonance(motor, &natural)),
         stress(contact / motor.contact_width),
         roughness(motor, closed),
@@ -98,7 +100,15 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
     found.into_iter().flatten().collect()
 }
 
-fn of_plate(plate: &Plate) -> Vec<Excess> {
+/// Highest pressure of the gas \[Pa\], as far as it is known.
+fn highest_pressure(solution: Option<&Solution>) -> f64 {
+    solution.map_or(0.0, |solution| match &solution.outcome {
+        Outcome::Motor(result) => result.max_pressure.value,
+        Outcome::Plate(result) => result.max_pressure.value,
+    })
+}
+
+fn of_plate(plate: &Plate, solution: Option<&Solution>) -> Vec<Excess> {
     let film = Film {
         gas: &plate.gas,
         omega: TAU * plate.frequency,
@@ -108,7 +118,8 @@ fn of_plate(plate: &Plate) -> Vec<Excess> {
         amplitude: plate.amplitude,
         body: "plate",
     };
-    let found = [film.inertia(), film.heat(), film.slip(), film.sound(), film.thinness(), nearness(plate)];
+    let dense = dense(highest_pressure(solution));
+    let found = [film.inertia(), film.heat(), film.slip(), film.sound(), dense, film.thinness(), nearness(plate)];
     found.into_iter().flatten().collect()
 }
 

@@ -289,12 +289,12 @@ fn gas_row(columns: &mut Columns, problem: &Problem) {
 
 fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
     let numbers = &Dimensionless::of(problem);
-    columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), &regime::squeeze(problem)]);
+    columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), &regime::squeeze(problem, outcome)]);
     columns.row(["", "", &regime::weight(problem, outcome)]);
     if let Scenario::Motor(_) = problem.scenario {
         columns.row(["bearing number  Λ", &shown(numbers.bearing_number), regime::bearing(numbers)]);
     }
-    columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), &regime::knudsen(problem)]);
+    columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), &regime::knudsen(problem, outcome)]);
 }
 
 /// Where the model is out of its depth; nothing if it is not.

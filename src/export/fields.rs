@@ -10,6 +10,8 @@
 //! | `map_x_m`, `map_y_m` | | where the pressure is, of a symmetric film only the half that was solved |
 //! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
 //! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`) |
+//! | `min_film_thickness_nm`, `max_pressure_kpa` | frames | the least film thickness and the highest pressure at every instant |
+//! | `film_load_error_n`, `min_film_thickness_error_nm`, `max_pressure_error_kpa` | frames | stated errors, absolute |
 
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -78,10 +80,14 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field("film_thickness_nm", axes, Box::new(lines(recording, &recording.film_thickness, 1e9))),
         field(film, axes, Box::new(lines(recording, &recording.film, 1.0))),
         field(load, FRAMES, of(&recording.film_load, 1.0)),
+        field("min_film_thickness_nm", FRAMES, of(&recording.min_film_thickness, 1e9)),
+        field("max_pressure_kpa", FRAMES, of(&recording.max_pressure, 1e-3)),
     ]);
-    for (name, errors, unit) in
-        [(error, &recording.film_load_error, 1.0), ("max_pressure_error_kpa", &recording.max_pressure_error, 1e-3)]
-    {
+    for (name, errors, unit) in [
+        (error, &recording.film_load_error, 1.0),
+        ("min_film_thickness_error_nm", &recording.min_film_thickness_error, 1e9),
+        ("max_pressure_error_kpa", &recording.max_pressure_error, 1e-3),
+    ] {
         // Of a recording on one mesh there is none.
         all.push(Field { name, axes: FRAMES, shape: vec![errors.len()], values: of(errors, unit) });
     }

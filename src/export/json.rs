@@ -154,7 +154,7 @@ impl FloatingObject {
         Self {
             load,
             found,
-            stable: found.stiffness.value > found.stiffness.error,
+            stable: found.is_stable(),
             damping: slow_damping(plate),
             trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
             small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,

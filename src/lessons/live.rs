@@ -16,6 +16,7 @@ numbers! {
     Readings: &str;
     HeldGap "hold.gap_um" "held gap" "µm" Plate "Hold";
     HeldPressure "hold.pressure_kpa" "mean pressure" "kPa" Plate "Hold";
+    HeldPeak "hold.highest_kpa" "highest mean pressure" "kPa" Plate "Hold";
     Cycles "startup.cycles" "cycles since rest" "" Any "Start-up";
     Remaining "startup.remaining" "change to come" "" Any "Start-up";
     StartAlpha "startup.alpha" "film share of the load α" "" Motor "Start-up";
@@ -59,10 +60,13 @@ impl Live {
 }
 
 impl Readings {
-    /// Takes the numbers of a plate held by hand: its gap \[m\], and the mean absolute pressure \[Pa\] below it.
+    /// Takes the numbers of a plate held by hand: its gap \[m\], and the mean absolute pressure \[Pa\] below it; the
+    /// highest so far is kept.
     pub fn read_held(&mut self, gap: f64, mean_pressure: f64) {
         self.set(Live::HeldGap, gap * 1e6);
         self.set(Live::HeldPressure, mean_pressure * 1e-3);
+        let peak = self.get(Live::HeldPeak).unwrap_or(0.0);
+        self.set(Live::HeldPeak, peak.max(mean_pressure * 1e-3));
     }
 
     /// Takes the numbers of a cycle of a start-up: its number, the change that is still to come, and its result.

@@ -22,6 +22,8 @@ const WAVELENGTHS_IN_THE_FILM: f64 = 0.5;
 const MACH: f64 = 1.0;
 /// Greatest frequency over a natural one: there the rotor answers a tenth more than it does at rest, 1/(1 − 0.3²).
 const RESONANCE: f64 = 0.3;
+/// Greatest pressure \[MPa\] up to which the gas counts as ideal, and its viscosity as constant: about 5 % more viscous there.
+const DENSE_MPA: f64 = 5.0;
 /// Yield stress of aluminium 6061-T6 \[MPa\].
 const YIELD_MPA: f64 = 276.0;
 /// Greatest rms roughness over the separation of the faces.
@@ -36,11 +38,12 @@ const ELONGATION: f64 = 1.3;
 pub(super) const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
-pub const NAMES: [&str; 9] = [
+pub const NAMES: [&str; 10] = [
     "gas-inertia",
     "isothermal",
     "slip-law",
     "sound",
+    "dense-gas",
     "rotor-resonance",
     "contact-stress",
     "roughness",
@@ -234,6 +237,16 @@ pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
         brief(1e-3 * natural),
     );
     excess("rotor-resonance", value, RESONANCE, "", text)
+}
+
+/// `pressure`: the highest of the gas \[Pa\].
+pub(super) fn dense(pressure: f64) -> Option<Excess> {
+    let value = pressure * 1e-6;
+    let text = format!(
+        "The gas is pressed to {} MPa, where it is neither ideal nor as viscous as at ambient pressure, as the film equation has it.",
+        brief(value)
+    );
+    excess("dense-gas", value, DENSE_MPA, "MPa", text)
 }
 
 /// `pressure`: the greatest contact pressure \[Pa\].

@@ -197,6 +197,23 @@ fn sliding_faster_than_sound() {
 }
 
 #[test]
+fn a_gas_that_is_no_longer_ideal() {
+    let problem = Problem::try_from(&Scene::motor()).unwrap();
+    let with = |pressure: f64| {
+        let mut solution = solution(2e-7);
+        let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
+        result.max_pressure.value = pressure;
+        outside(&problem, Some(&solution))
+    };
+    assert!(!names(&with(4.9e6)).contains(&"dense-gas"));
+    check(&with(20e6), "dense-gas", 20.0, 5.0);
+    let mut scene = presets::find("plate-trapped").unwrap();
+    scene.set("plate.amplitude_um", "0.999").unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
+    assert!(names(&outside(&problem, Some(&solve_draft(&problem)))).contains(&"dense-gas"));
+}
+
+#[test]
 fn contact_against_yield() {
     let problem = Problem::try_from(&Scene::motor()).unwrap();
     // On 0.3 mm 82.8 kN/m are 276 MPa.

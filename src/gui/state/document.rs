@@ -128,6 +128,12 @@ impl Document {
         }
     }
 
+    /// Replaces the scene by that of a step of a lesson: its parameters are reset to what they are in it.
+    pub fn practise(&mut self, scene: Scene) {
+        self.change(scene.clone(), self.target);
+        self.saved = scene;
+    }
+
     /// Whether a pointer holds a parameter.
     pub fn is_dragging(&self) -> bool {
         self.dragging.is_some()

@@ -4,7 +4,7 @@ use super::hold::HoldState;
 use super::startup::StartupState;
 use super::torque::TorqueState;
 use crate::job::SolvedScene;
-use crate::lessons::live::Readings;
+use crate::lessons::live::{Live, Readings};
 use crate::problem::Scenario;
 use std::sync::Arc;
 
@@ -38,13 +38,14 @@ pub struct OffTabs {
 impl OffTabs {
     /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
     pub fn read(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
-        self.now = Readings::default();
+        let before = std::mem::take(&mut self.now);
         if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
             let (plate, now) = (hold.plate(), hold.now().reading);
             self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
             let rest = (plate.mean_gap, plate.gas.ambient_pressure);
             let present = if self.rested { (now.gap, now.mean_pressure) } else { rest };
             self.start.read_held(rest.0, rest.1);
+            self.now.set(Live::HeldPeak, before.get(Live::HeldPeak).unwrap_or(0.0));
             self.now.read_held(present.0, present.1);
         }
         if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {

@@ -339,7 +339,7 @@ impl LessonState {
         running.reveal = if step.light.is_empty() { 0 } else { REVEALED };
         let changed = scene && *document.scene() != step.scene;
         if scene {
-            document.change(step.scene.clone(), document.target());
+            document.practise(step.scene.clone());
         }
         running.start = StartingPoint::of(document.scene().clone());
         running.done = None;

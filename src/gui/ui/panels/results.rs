@@ -164,11 +164,12 @@ fn limits(ui: &mut egui::Ui, validity: &[Excess], cx: &DrawContext<'_>) {
 
 fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let numbers = &Dimensionless::of(&run.problem);
-    let weight = regime::weight(&run.problem, &run.solution.outcome);
+    let outcome = &run.solution.outcome;
+    let weight = regime::weight(&run.problem, outcome);
     let rows = [
-        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(&run.problem), weight]),
+        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(&run.problem, outcome), weight]),
         ("Bearing number Λ", numbers.bearing_number, vec![regime::bearing(numbers).to_owned()]),
-        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(&run.problem)]),
+        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(&run.problem, outcome)]),
     ];
     // A plate does not slide.
     for (name, value, phrases) in rows.into_iter().filter(|(_, value, _)| *value > 0.0) {
