@@ -3,10 +3,9 @@
 use crate::scene::{Scene, cancelled, checked};
 use crate::{Counted, How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
-use squeezefilm::analysis::fit::{
-    self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, MOST_STARTS, Measured, Model,
-};
-use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
+use squeezefilm::analysis::error::AnalysisError;
+use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured, Model};
+use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::fit::{Object as Fit, OptimumObject};
 use squeezefilm::export::sensitivity::Found;
@@ -48,9 +47,7 @@ pub(crate) fn sensitivity(
     apart_on_all_cores(py, told, move |cancel, tell| {
         let (solved, drawn) = (Counted::default(), Counted::default());
         let found = Sensitivity::of(&scene, &keys, &settings, cancel, &|all| solved.one_more(all, tell));
-        let bad_input =
-            |error: &SensitivityError| !matches!(error, SensitivityError::Solve(error) if !error.is_bad_input());
-        let found = found.map_err(|error| error_of(bad_input(&error), error))?.ok_or_else(cancelled)?;
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
         let one_more = || drawn.one_more(draws, tell);
         let carlo = match draws {
             0 => None,
@@ -65,7 +62,7 @@ fn starts_of(starts: i64) -> PyResult<usize> {
     within("starts", starts, 1..=i64::from(MOST_STARTS)).map(|starts| starts as usize)
 }
 
-fn fit_error(error: FitError) -> PyErr {
+fn analysis_error(error: AnalysisError) -> PyErr {
     error_of(error.is_bad_input(), error)
 }
 
@@ -90,12 +87,13 @@ pub(crate) fn fit(
         (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::try_from(&scene).map_err(scene_error)?),
         (name, None) => Measured::find(&name, &scene, settings.method),
     };
-    let measured = measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(fit_error)?;
+    let measured =
+        measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(analysis_error)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
         let model = Model::new(&scene, &bounds, &settings).and_then(|model| model.under(&measured));
-        let model = model.map_err(fit_error)?;
+        let model = model.map_err(analysis_error)?;
         let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
-        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
         let object = json::document(&Fit::new(&scene.name, &found, &measured), &[]);
         Ok((object, Scene(found.scene)))
     })?
@@ -116,12 +114,12 @@ pub(crate) fn optimise(
 ) -> PyResult<(String, Scene)> {
     let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
     let (scene, bounds, limits) = (scene.0.clone(), parsed::<Bounds>(&vary)?, parsed::<Limit>(&limits)?);
-    let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(fit_error)?;
+    let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(analysis_error)?;
     let starts = starts_of(starts)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
-        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
         Ok((json::document(&OptimumObject::new(&scene.name, &found), &[]), Scene(found.scene)))
     })?
 }

@@ -4,15 +4,15 @@
 //! the last bit, whatever it is compared with and however many threads there are. A run that fails says so, and the others
 //! go on. Differences are against the first run.
 
-use super::attempt::attempt;
+use super::attempt::{RunStatus, attempt};
+use super::error::AnalysisError;
 use super::quantity::{Numbers, Quantity, labelled};
 use super::validity::{names, outside};
-use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::problem::Problem;
-use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
+use crate::scene::{PARAMETERS, Parameter, Scene, Value, show_text};
 use crate::solution::{Solution, settled};
-use crate::solve::{Settings, SolveError, check};
+use crate::solve::{Settings, check};
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -76,28 +76,17 @@ impl ComparedRun {
     }
 }
 
-/// What cannot be compared. Found before anything is solved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CompareError {
-    /// A scene that is not one.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A method that does not apply.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
-
 /// Solves the scenes, several at a time on rayon's pool, and returns the runs in the order of the scenes. `finished` is told
 /// of each run as it ends, from whichever thread.
 ///
 /// # Errors
-/// [`CompareError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
+/// [`AnalysisError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
 pub fn runs(
     scenes: &[Scene],
     settings: &Settings,
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
-) -> Result<Vec<ComparedRun>, CompareError> {
+) -> Result<Vec<ComparedRun>, AnalysisError> {
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     problems.iter().try_for_each(|problem| check(problem, settings))?;
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
@@ -235,7 +224,7 @@ mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
-    use crate::solve::solve;
+    use crate::solve::{SolveError, solve};
 
     fn draft() -> Settings {
         Settings { fidelity: Fidelity::Draft, ..Settings::default() }
@@ -295,6 +284,6 @@ mod tests {
         let scenes = ["fundamental", "plate-viscous"].map(|name| presets::find(name).unwrap());
         let settings = Settings { method: crate::solve::Method::Paper, ..draft() };
         let refused = runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap_err();
-        assert_eq!(refused, CompareError::Solve(SolveError::PaperPlate));
+        assert_eq!(refused, AnalysisError::Solve(SolveError::PaperPlate));
     }
 }

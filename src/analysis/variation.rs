@@ -14,6 +14,7 @@
 //! and its error the difference to (f(h) − f(0))/h.
 
 use super::attempt::told;
+use super::error::AnalysisError;
 use crate::control::Cancel;
 use crate::ladder::Nested;
 use crate::problem::{Problem, RotorCompliance, Scenario};
@@ -39,17 +40,6 @@ pub struct Variation {
     scene: Scene,
     #[serde(deserialize_with = "Parameter::from_keys")]
     parameters: Vec<&'static Parameter>,
-}
-
-/// Why keys cannot be varied.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum VariationError {
-    /// An unknown key, or one that the scene does not have.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// A key that has no derivative, has no value, or is named twice; the key, and what is allowed.
-    #[error("{0}")]
-    Key(String),
 }
 
 /// What a derivative was taken over.
@@ -119,8 +109,8 @@ impl Variation {
     /// Of keys of `scene` by name.
     ///
     /// # Errors
-    /// [`VariationError`], which names the key and what is allowed.
-    pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, VariationError> {
+    /// A key that the scene does not have, that has no derivative or no value, or that is named twice.
+    pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, AnalysisError> {
         let all = Self::all(scene).parameters;
         let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
         let mut parameters: Vec<&'static Parameter> = Vec::new();
@@ -133,7 +123,7 @@ impl Variation {
                 continue;
             };
             if !matches!(parameter.kind, ParameterKind::Number { .. }) || parameter.table() == "numerics" {
-                return Err(VariationError::Key(format!(
+                return Err(AnalysisError::Input(format!(
                     "{key}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}",
                     parameter.accepts(),
                     allowed()
@@ -142,12 +132,12 @@ impl Variation {
             if !all.contains(&parameter) {
                 set?;
                 let allowed = allowed();
-                return Err(VariationError::Key(format!(
+                return Err(AnalysisError::Input(format!(
                     "{key}: it is not given in this scene; allowed here: {allowed}"
                 )));
             }
             if parameters.contains(&parameter) {
-                return Err(VariationError::Key(format!("{key}: given twice: the keys have to differ")));
+                return Err(AnalysisError::Input(format!("{key}: given twice: the keys have to differ")));
             }
             parameters.push(parameter);
         }

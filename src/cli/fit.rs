@@ -121,7 +121,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let measured = Measured::find(data, &scene, settings.method)?;
             call.fit(&measured.without(&arguments.skip)?.with_errors(&arguments.error)?)
         }
-        (None, None) => Err(CliError::Usage("give --data, --maximise or --minimise")),
+        (None, None) => Err(CliError::usage("give --data, --maximise or --minimise")),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::digits::parse_duration;
 use crate::export::figure::Format;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
-use crate::input;
+use crate::input::{self, ReadError};
 use crate::memory;
 use crate::platform::timed;
 use crate::scene::{Scene, presets};
@@ -77,8 +77,13 @@ pub(super) const STANDARD_INPUT: &str = "-";
 /// The largest preset on standard input \[MB\].
 const LARGEST: u64 = 16;
 
+/// The fault of what was read from standard input.
+pub(super) fn from_input(fault: ReadError) -> CliError {
+    CliError::Input(format!("standard input: {fault}"))
+}
+
 fn from_standard_input() -> Result<Scene, CliError> {
-    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(CliError::Input)?;
+    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(from_input)?;
     Ok(Scene::from_toml(&text, "standard input")?)
 }
 
@@ -144,10 +149,9 @@ impl SolveOptions {
     /// The same, with these for what was not chosen. Starts the threads and allows the memory.
     pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(usize::from(threads))
-                .build_global()
-                .map_err(|source| CliError::Threads { threads, source })?;
+            rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|fault| {
+                CliError::System(format!("--threads {threads}: the threads cannot be started: {fault}"))
+            })?;
         }
         self.memory.apply();
         let method = self.method.unwrap_or(method);

@@ -52,7 +52,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     if arguments.solve.method.is_some() {
-        return Err(CliError::Usage("reproduce solves by both methods: leave --method out"));
+        return Err(CliError::usage("reproduce solves by both methods: leave --method out"));
     }
     // Finds out whether it can be written before anything is solved.
     check_writable(&arguments.out)?;

@@ -85,10 +85,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let (folder, settings, cancel) = arguments.common.begin()?;
     if settings.method == Method::Paper {
-        return Err(CliError::Usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
+        return Err(CliError::usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
     }
     if arguments.common.solve.accuracy.budget.is_some() {
-        return Err(CliError::Usage(
+        return Err(CliError::usage(
             "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
         ));
     }

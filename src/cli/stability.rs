@@ -57,7 +57,7 @@ fn map() -> ValueParser {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
-        return Err(CliError::Usage("stability maps the parameters of a motor, and this preset is a plate"));
+        return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
     let (folder, settings, cancel) = arguments.common.begin()?;
     let methods =

@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problem = Problem::try_from(&scene)?;
     let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
-        return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
+        return Err(CliError::usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
     let cycles = |otherwise| arguments.cycles.map_or(otherwise, |cycles| cycles as usize);
     let dropped = Dropped {

@@ -78,8 +78,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 }
 
 fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
-    let text = read_text(file, LARGEST).map_err(|source| CliError::File { path: file.to_owned(), source })?;
-    measured(&text, usize::from(degree)).map_err(|error| CliError::Answers(format!("{}: {error}", file.display())))
+    let text = read_text(file, LARGEST).map_err(|fault| CliError::file(file, fault))?;
+    measured(&text, usize::from(degree)).map_err(|fault| CliError::file(file, fault))
 }
 
 fn text(object: &Object) -> String {

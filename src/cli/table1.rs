@@ -44,7 +44,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if arguments.converged && arguments.solve.method == Some(Method::Paper) {
-        return Err(CliError::Usage("--converged is method auto, and --method paper was asked for: keep one"));
+        return Err(CliError::usage("--converged is method auto, and --method paper was asked for: keep one"));
     }
     let folder = arguments.output.folder()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
