@@ -54,7 +54,7 @@ pub(crate) fn sensitivity(
             _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
         };
         let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-        Ok(json::document(&found.object(&settings.fidelity.to_string()), &[]))
+        Ok(json::document(&found, &[]))
     })?
 }
 
@@ -94,7 +94,7 @@ pub(crate) fn fit(
         let model = model.map_err(analysis_error)?;
         let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
         let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
-        let object = json::document(&Fit::new(&scene.name, &found, &measured), &[]);
+        let object = json::document(&Fit { preset: &scene.name, fitted: &found, measured: &measured }, &[]);
         Ok((object, Scene(found.scene)))
     })?
 }
@@ -120,7 +120,7 @@ pub(crate) fn optimise(
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
         let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
-        Ok((json::document(&OptimumObject::new(&scene.name, &found), &[]), Scene(found.scene)))
+        Ok((json::document(&OptimumObject { preset: &scene.name, found: &found }, &[]), Scene(found.scene)))
     })?
 }
 

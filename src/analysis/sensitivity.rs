@@ -182,6 +182,11 @@ impl Sensitivity {
         &self.problem
     }
 
+    /// How it was solved.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// How the solve in the middle ended.
     pub fn status(&self) -> Status {
         self.status

@@ -44,6 +44,7 @@ pub struct Variation {
 
 /// What a derivative was taken over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Sides {
     /// Steps to both sides.
     Both,

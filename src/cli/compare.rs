@@ -86,8 +86,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = folder {
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
-        let how = (&settings, arguments.all, command);
-        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control)?;
+        let out = arguments.common.figures.folder(folder, command);
+        let paths = files::comparison(&out, &runs, &settings, arguments.all, &control)?;
         drop(bar);
         terminal::wrote(folder, &paths);
     }

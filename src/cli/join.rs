@@ -47,8 +47,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let Joined { sweep, rows, command } = join(&parts).map_err(CliError::Input)?;
     let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
     if let Some(folder) = folder {
-        let paths = files::swept(folder, &sweep, &rows, &command, &arguments.figures.formats())?;
-        terminal::wrote(folder, &paths);
+        let out = arguments.figures.folder(folder, &command);
+        terminal::wrote(folder, &files::swept(&out, &sweep, &rows)?);
     }
     Ok(exit)
 }

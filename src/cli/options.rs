@@ -7,6 +7,7 @@ use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::digits::parse_duration;
 use crate::export::figure::Format;
+use crate::export::files::Folder;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input::{self, ReadError};
@@ -259,8 +260,12 @@ pub(super) struct FigureOptions {
 }
 
 impl FigureOptions {
-    /// The formats asked for, of a command that has no fields.
-    pub(super) fn formats(&self) -> Vec<Format> {
+    /// A folder of `--out` for results of this command line, with figures in the formats asked for; of a command that has no fields.
+    pub(super) fn folder<'a>(&self, path: &'a Path, command: &'a [String]) -> Folder<'a> {
+        Folder { path, command, formats: self.formats() }
+    }
+
+    fn formats(&self) -> Vec<Format> {
         let (formats, vtk) = self.formats_and_vtk();
         if vtk {
             terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");

@@ -9,7 +9,7 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use crate::digits::duration;
-use crate::export::files::{self, Control, ExportError, Solved};
+use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
 use crate::problem::Problem;
@@ -156,7 +156,8 @@ fn one(
         }
         let control = Control { cancel, drawn: &|_, _| () };
         let (formats, vtk) = arguments.common.figures.formats_and_vtk();
-        let written_files = files::solve(folder, &solved, &result, &formats, &control).and_then(|mut paths| {
+        let out = Folder { path: folder, command, formats };
+        let written_files = files::solve(&out, &solved, &result, &control).and_then(|mut paths| {
             // Of many instants their series is named.
             paths.extend(if vtk { files::vtk(folder, &solved, &control)?.pop() } else { None });
             Ok(paths)

@@ -7,9 +7,8 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
-use crate::atomic::Staged;
 use crate::digits::duration;
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::stability::{CellObject, Object, detail, figure};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -85,15 +84,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
     }
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
-        let mut staged = Staged::new(folder)?;
+        let out = arguments.common.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
         // What was cancelled does not pass for a map.
         let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-        staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
+        files.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
         if complete {
-            let drawn = figure(&scene.name, settings.fidelity, &cells);
-            stage_figure(&mut staged, "stability", &drawn, &arguments.common.figures.formats())?;
+            files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }
-        terminal::wrote(folder, &staged.commit()?);
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }

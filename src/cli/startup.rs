@@ -7,10 +7,9 @@ use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
-use crate::atomic::Staged;
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::json;
 use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
 use crate::fall::CYCLES;
@@ -118,17 +117,18 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
-        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let out = arguments.common.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
+        files.json("startup.json", &object)?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some(last) = rows.last() {
             drawn.provenance.error = format!("ends at {}", last.main());
         }
-        stage_figure(&mut staged, "startup", &drawn, &arguments.common.figures.formats())?;
-        staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::wrote(folder, &staged.commit()?);
+        files.figure("startup", &drawn)?;
+        files.text("scene.toml", &scene.to_toml())?;
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(Exit::of(&ended.status))
 }

@@ -245,7 +245,7 @@ impl<'a> Folder<'a> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
-        let paths = files::swept(self.path, self.sweep, rows, self.command, &figures.formats())?;
+        let paths = files::swept(&figures.folder(self.path, self.command), self.sweep, rows)?;
         let path = self.path.join(unfinished(self.part));
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),

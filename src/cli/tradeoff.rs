@@ -9,9 +9,8 @@ use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
-use crate::atomic::Staged;
 use crate::digits::{duration, parse_duration, percent, significant};
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
@@ -102,12 +101,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
-        staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let out = arguments.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
+        files.json("tradeoff.json", &object)?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
-        stage_figure(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen), &arguments.figures.formats())?;
-        terminal::wrote(folder, &staged.commit()?);
+        files.figure("tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
+        terminal::wrote(folder, &files.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());

@@ -266,7 +266,7 @@ mod tests {
         let other = Part::all(2).last().unwrap();
         assert_eq!(super::read(&ours, other, &text), Err("it is part 1/1 of the sweep, not 2/2".to_owned()));
         let cut = &text[..text.len() - 20];
-        assert!(read(&ours, cut).unwrap_err().starts_with("line 5: "), "{:?}", read(&ours, cut));
+        assert!(read(&ours, cut).unwrap_err().starts_with("line 6: "), "{:?}", read(&ours, cut));
         let third = text.lines().nth(2).unwrap();
         let twice = read(&ours, &format!("{text}{third}\n")).unwrap_err();
         assert!(twice.ends_with("point 0 is not expected here"), "{twice}");
