@@ -149,7 +149,8 @@ pub(crate) fn startup(
         };
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
-            let object = fallen::Object::new(&scene, fidelity, &ended, &rows, began.elapsed().as_secs_f64());
+            let wall_s = began.elapsed().as_secs_f64();
+            let object = fallen::Object { scene: &scene, fidelity, ended: &ended, rows: &rows, wall_s };
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();
@@ -161,7 +162,9 @@ pub(crate) fn startup(
         let ended = transient::startup(&problem, &settings, &mut each, cancel);
         let ended = ended.map_err(|error| error_of(error.is_bad_input(), error))?;
         let wall_s = began.elapsed().as_secs_f64();
-        Ok(json::document(&export::Object::new(&scene, &problem, &settings, &ended, &rows, wall_s), &[]))
+        let (scene, problem, settings) = (&scene, &problem, &settings);
+        let object = export::Object { scene, problem, settings, ended: &ended, rows: &rows, wall_s };
+        Ok(json::document(&object, &[]))
     })?
 }
 

@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::document(&Object::new(&runs, &settings), command);
+    let object = || json::document(&Object { runs: &runs, settings: &settings }, command);
     terminal::result(arguments.common.output.json, object, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });

@@ -50,8 +50,8 @@ pub(super) fn run(
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let (floats, object) = (floats(&ended), Object::new(scene, fidelity, &ended, &rows, wall_s));
-    object.warnings.iter().for_each(|warning| terminal::warning(warning));
+    let (floats, object) = (floats(&ended), Object { scene, fidelity, ended: &ended, rows: &rows, wall_s });
+    ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats);
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));

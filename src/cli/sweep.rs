@@ -160,8 +160,7 @@ pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: 
             terminal::error(&told);
         }
     }
-    let object = Object::new(sweep, rows);
-    terminal::result(json, || json::document(&object, command), || text(sweep, rows, budget));
+    terminal::result(json, || json::document(&Object { sweep, rows }, command), || text(sweep, rows, budget));
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 

@@ -273,7 +273,7 @@ pub fn comparison(
     files.text("report.html", &report(runs, settings, all, &movies, folder.command))?;
     files.add("compare.csv", |out| compare::write_csv(runs, out))?;
     files.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
-    files.json("compare.json", &compare::Object::new(runs, settings))?;
+    files.json("compare.json", &compare::Object { runs, settings })?;
     for (name, gif) in &movies {
         files.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
     }
@@ -310,7 +310,7 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(
 pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row]) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    files.json("sweep.json", &sweep::Object::new(swept, rows))?;
+    files.json("sweep.json", &sweep::Object { sweep: swept, rows })?;
     files.figure("sweep", &sweep::figure(swept, rows))?;
     files.text("scene.toml", &swept.scene().to_toml())?;
     files.commit()
