@@ -47,9 +47,6 @@ impl std::fmt::Display for RunStatus {
 }
 
 /// Solves; an error, and a panic of the solver, is told in words.
-///
-/// # Errors
-/// Why there is no solution.
 pub fn attempt(
     problem: &Problem,
     settings: &Settings,
@@ -60,9 +57,6 @@ pub fn attempt(
 }
 
 /// As [`attempt`], started from what the last solve left in `warm`.
-///
-/// # Errors
-/// Why there is no solution.
 pub fn attempt_from(
     warm: &mut Warm,
     problem: &Problem,
@@ -73,18 +67,12 @@ pub fn attempt_from(
     told(|| solve_from(warm, problem, settings, observer, cancel))
 }
 
-/// What `solve` returns.
-///
-/// # Errors
-/// Its error, or its panic, in words.
+/// What `solve` returns; its error, or its panic, in words.
 pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
     caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }
 
-/// What `work` returns.
-///
-/// # Errors
-/// The text of its panic.
+/// What `work` returns, or the text of its panic.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<&str>().copied();

@@ -174,7 +174,7 @@ impl Sensitivity {
 
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        self.variation.scene()
+        &self.variation.scene
     }
 
     /// The problem.
@@ -328,7 +328,7 @@ impl<'de> Deserialize<'de> for Sensitivity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
         let (variation, settings, status, warnings, values, columns, coarse) = carried;
-        let problem = Problem::try_from(variation.scene()).map_err(D::Error::custom)?;
+        let problem = Problem::try_from(&variation.scene).map_err(D::Error::custom)?;
         let (outputs, centre) = (Output::of(&problem), OnceLock::new());
         Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
     }
@@ -445,7 +445,7 @@ impl Uncertainties {
 
     /// Each key, its value in the scene, and its uncertainty.
     pub fn iter(&self) -> impl Iterator<Item = (&'static Parameter, f64, Uncertainty)> {
-        let keys = self.variation.parameters().iter().zip(self.variation.values()).zip(&self.given);
+        let keys = self.variation.parameters.iter().zip(self.variation.values()).zip(&self.given);
         keys.map(|((parameter, at), given)| (*parameter, at, *given))
     }
 

@@ -96,9 +96,6 @@ impl Sweep {
     }
 
     /// The same of which only a part is to be solved: that alone has to be small enough.
-    ///
-    /// # Errors
-    /// Those of [`Sweep::new`].
     pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, AnalysisError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
             let found = vary.len();

@@ -64,9 +64,6 @@ impl TorqueCurves {
     }
 
     /// Of a solve at `fidelity`; `None` of a plate, and if cancelled.
-    ///
-    /// # Errors
-    /// As [`Self::of`].
     pub fn of_solve(
         problem: &Problem,
         fidelity: Fidelity,

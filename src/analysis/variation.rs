@@ -37,9 +37,11 @@ const BELOW: [i32; 2] = [-1, -2];
 /// A scene and the keys that are varied in it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Variation {
-    scene: Scene,
+    /// The scene.
+    pub scene: Scene,
+    /// The keys.
     #[serde(deserialize_with = "Parameter::from_keys")]
-    parameters: Vec<&'static Parameter>,
+    pub parameters: Vec<&'static Parameter>,
 }
 
 /// What a derivative was taken over.
@@ -155,16 +157,6 @@ impl Variation {
                 && scene.get(parameter.key).is_some()
         };
         Self { scene: scene.clone(), parameters: scene.parameters().filter(acts).collect() }
-    }
-
-    /// The scene.
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// The keys.
-    pub fn parameters(&self) -> &[&'static Parameter] {
-        &self.parameters
     }
 
     /// The values of the keys in the scene, each in its unit.
@@ -369,7 +361,7 @@ mod tests {
 
     #[test]
     fn all_keys_are_those_that_act() {
-        let keys = |scene: &Scene| -> Vec<&str> { Variation::all(scene).parameters().iter().map(|p| p.key).collect() };
+        let keys = |scene: &Scene| -> Vec<&str> { Variation::all(scene).parameters.iter().map(|p| p.key).collect() };
         let mut scene = Scene::motor();
         assert!(keys(&scene).contains(&"film.viscosity_upa_s") && !keys(&scene).contains(&"motor.load_n"));
         scene.set_all([("film.gas", "air"), ("film.altitude_m", "2000"), ("motor.load_n", "20")]).unwrap();

@@ -125,9 +125,6 @@ pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>
 }
 
 /// Writes the measurements beside what is computed.
-///
-/// # Errors
-/// Those of writing.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
     let in_csv = |row: RowObject<'_>| {
         let [name, status] = [&row.row, &row.status].map(|words| csv::words(words).into_owned().into());
@@ -316,9 +313,6 @@ struct LineRow {
 }
 
 /// Writes the lines through the optimum.
-///
-/// # Errors
-/// Those of writing.
 pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()> {
     let rows = found.lines.iter().flat_map(|line| {
         line.points.iter().map(|(value, computed)| LineRow {

@@ -40,9 +40,6 @@ struct Head {
 }
 
 /// Writes rows of a part of a sweep, to go on with or to be joined. `command`: the command line that solves the whole, if there is one.
-///
-/// # Errors
-/// Those of writing.
 pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &mut dyn Write) -> io::Result<()> {
     let fingerprint = sweep.fingerprint();
     let head = Head {

@@ -209,7 +209,7 @@ pub fn fit(
     let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
     let first = in_order(measured, &first);
     let used: Vec<usize> = (0..first.len()).filter(|i| first[*i].is_ok()).collect();
-    let unknowns = model.unknowns().len();
+    let unknowns = model.unknowns.len();
     if used.len() < unknowns {
         let fault = first.iter().find_map(|found| found.as_ref().err());
         let left_out = fault.map_or_else(String::new, |why| {
@@ -287,7 +287,7 @@ fn coarse(
     starts: usize,
     cancel: &Cancel,
 ) -> Option<Vec<Vec<f64>>> {
-    let points = spread(model.unknowns().len(), starts.saturating_sub(1));
+    let points = spread(model.unknowns.len(), starts.saturating_sub(1));
     let solved = model.drafts(&points, cancel)?;
     let judged = solved
         .iter()
@@ -323,7 +323,7 @@ fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> 
         match minima.iter_mut().find(same) {
             Some((_, minimum)) => minimum.starts += 1,
             None => {
-                let values = model.unknowns().iter().zip(x).map(|(unknown, x)| unknown.value(*x)).collect();
+                let values = model.unknowns.iter().zip(x).map(|(unknown, x)| unknown.value(*x)).collect();
                 minima.push((x, Minimum { chi_squared: *chi_squared, values, starts: 1 }));
             }
         }
@@ -354,7 +354,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
     let scatter = (degrees_of_freedom > 0).then(|| (chi_squared / degrees_of_freedom as f64).sqrt());
     let error_scale = if measured.errors_known { Some(1.0) } else { scatter };
     let scale = error_scale.unwrap_or(1.0);
-    let slope: Vec<f64> = model.unknowns().iter().zip(&x).map(|(unknown, x)| unknown.slope(*x)).collect();
+    let slope: Vec<f64> = model.unknowns.iter().zip(&x).map(|(unknown, x)| unknown.slope(*x)).collect();
     let mut covariance = vec![vec![f64::NAN; count]; count];
     let mut correlation = covariance.clone();
     let lost = |k: usize| certainty.undetermined.iter().any(|direction| direction[k].abs() > 0.3);
@@ -370,7 +370,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
     }
     let unknowns: Vec<FittedUnknown> = (0..count)
         .map(|k| {
-            let unknown = model.unknowns()[k].clone();
+            let unknown = model.unknowns[k].clone();
             let error = covariance[k][k].sqrt();
             FittedUnknown {
                 value: unknown.value(x[k]),

@@ -25,8 +25,10 @@ pub type Computed = Result<Estimate, String>;
 #[derive(Debug)]
 pub struct Model<'a> {
     scene: &'a Scene,
-    settings: Settings,
-    unknowns: Vec<Unknown>,
+    /// How it is solved.
+    pub(super) settings: Settings,
+    /// The keys that are chosen.
+    pub(super) unknowns: Vec<Unknown>,
     conditions: Vec<Condition>,
     /// Of each condition, what is asked of it.
     asked: Vec<Vec<Observable>>,
@@ -104,16 +106,6 @@ impl<'a> Model<'a> {
     pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
         self.asked = vec![numbers];
         self
-    }
-
-    /// The keys that are chosen.
-    pub fn unknowns(&self) -> &[Unknown] {
-        &self.unknowns
-    }
-
-    /// How it is solved.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
     }
 
     /// How many solves there have been.

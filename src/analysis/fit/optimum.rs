@@ -334,7 +334,7 @@ fn describe(
         }));
         places.push(along);
     }
-    let Some(solved) = model.at(&points, model.settings(), cancel) else { return Ok(None) };
+    let Some(solved) = model.at(&points, &model.settings, cancel) else { return Ok(None) };
     let mut found = solved.into_iter().map(|mut solved| solved.swap_remove(0));
     let (here, before) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
     let value = |computed: &[Computed]| computed.first().and_then(|found| found.as_ref().ok()).copied();
@@ -345,7 +345,7 @@ fn describe(
     let mut lines = Vec::new();
     let mut better: Option<(String, f64)> = None;
     for (k, places) in places.iter().enumerate() {
-        let unknown = model.unknowns()[k].clone();
+        let unknown = model.unknowns[k].clone();
         let numbers: Vec<(f64, Vec<Computed>)> =
             places.iter().zip(&mut found).map(|(place, found)| (*place, found)).collect();
         for (place, computed) in &numbers {
@@ -408,7 +408,7 @@ fn describe(
     }
     let scene = model.fitted(&x, "optimised")?;
     // What is said of it wherever it is solved.
-    if let Ok(solution) = attempt(&Problem::try_from(&scene)?, model.settings(), &mut (), cancel) {
+    if let Ok(solution) = attempt(&Problem::try_from(&scene)?, &model.settings, &mut (), cancel) {
         warnings.extend(solution.warnings);
     }
     Ok(Some(Optimum {
