@@ -12,7 +12,7 @@ use crate::export::animation::Options;
 use crate::export::compare::{LIMITS, Object, difference_text, frames, mark, parameter_rows, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
-use crate::scene::{Scene, Value};
+use crate::scene::Value;
 use crate::solve::Settings;
 use clap::Args;
 use std::time::Duration;
@@ -56,11 +56,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes = arguments
-        .presets
-        .iter()
-        .map(|preset| arguments.common.scene.scene(preset))
-        .collect::<Result<Vec<Scene>, _>>()?;
+    let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let (folder, settings, cancel) = arguments.common.begin()?;
 
     let (solved, wall_s) =

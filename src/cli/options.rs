@@ -39,6 +39,11 @@ impl SceneOptions {
         self.original_and_changed(preset).map(|(_, scene)| scene)
     }
 
+    /// The scenes of several PRESET arguments, likewise.
+    pub(super) fn scenes(&self, presets: &[String]) -> Result<Vec<Scene>, CliError> {
+        presets.iter().map(|preset| self.scene(preset)).collect()
+    }
+
     /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };

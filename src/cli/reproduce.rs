@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let all = solved?;
     let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
-    terminal::result(arguments.json, || json::document(&Object::new(&all), command), || text(&all));
+    terminal::result(arguments.json, || json::document(&Object(&all), command), || text(&all));
     terminal::wrote(&arguments.out, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
@@ -97,7 +97,7 @@ fn write(
     let mut files = Files::new(&out)?;
     files.text("report.html", &report(all, gif.as_deref(), command))?;
     files.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
-    files.json("figures.json", &Object::new(all))?;
+    files.json("figures.json", &Object(all))?;
     for (number, figure) in figures(all) {
         check()?;
         files.figure(&format!("fig{number}"), &figure)?;

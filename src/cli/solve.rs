@@ -65,11 +65,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes = arguments
-        .presets
-        .iter()
-        .map(|preset| arguments.common.scene.scene(preset))
-        .collect::<Result<Vec<Scene>, _>>()?;
+    let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     let (folder, settings, cancel) = arguments.common.begin()?;
     problems.iter().try_for_each(|problem| check(problem, &settings))?;

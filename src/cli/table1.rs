@@ -155,7 +155,7 @@ mod tests {
         let computed = |status: &Status| {
             let alpha = Estimate { value: 0.25, error: f64::INFINITY };
             let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
-            Computed { status: *status, result, load: 2.45, warnings: Vec::new() }
+            Computed { status: *status, result, warnings: Vec::new() }
         };
         published()
             .into_iter()

@@ -1,6 +1,7 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use super::estimates::{self, finite};
+use super::torque::Merit;
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
@@ -116,7 +117,7 @@ impl Serialize for Summary {
             }
             map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
         }
-        map.serialize_entry("merit", &self.torque)?;
+        map.serialize_entry("merit", &self.torque.as_ref().map(Merit))?;
         map.serialize_entry("exact", &self.exact)?;
         map.serialize_entry("stats", &StatsObject { wall_s: self.wall_s, counted: self.stats })?;
         map.serialize_entry("model", &ModelObject(&self.model))?;
