@@ -1,10 +1,9 @@
 //! One solve among many: whatever becomes of it, the others go on.
 
 use crate::control::{Cancel, Observer};
-use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::solution::{Solution, Status};
-use crate::solve::{Settings, SolveError, solve_from};
+use crate::solve::{Settings, SolveError, solve};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -53,18 +52,7 @@ pub fn attempt(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    attempt_from(&mut Warm::default(), problem, settings, observer, cancel)
-}
-
-/// As [`attempt`], started from what the last solve left in `warm`.
-pub fn attempt_from(
-    warm: &mut Warm,
-    problem: &Problem,
-    settings: &Settings,
-    observer: &mut dyn Observer,
-    cancel: &Cancel,
-) -> Result<Solution, String> {
-    told(|| solve_from(warm, problem, settings, observer, cancel))
+    told(|| solve(problem, settings, observer, cancel))
 }
 
 /// What `solve` returns; its error, or its panic, in words.

@@ -15,7 +15,7 @@ pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, Values, Vary, spaced};
 pub use part::Part;
 use part::{CHUNK, chunk, count};
 
-use super::attempt::{RunStatus, attempt_from};
+use super::attempt::{RunStatus, told};
 use super::error::AnalysisError;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
@@ -25,7 +25,7 @@ use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::{Scene, SceneError};
 use crate::solution::{Status, StoppedBy};
-use crate::solve::{Method, Record, Settings, check};
+use crate::solve::{Method, Record, Settings, check, solve_from};
 use fnv::FnvHasher;
 use rayon::prelude::*;
 use serde::de::Error as _;
@@ -293,7 +293,7 @@ impl Sweep {
                 outside: Vec::new(),
             };
             let solved = problem.and_then(|problem| {
-                let solution = attempt_from(&mut warm, &problem, &settings, &mut (), cancel)?;
+                let solution = told(|| solve_from(&mut warm, &problem, &settings, &mut (), cancel))?;
                 Ok((problem, solution))
             });
             match solved {

@@ -3,7 +3,6 @@
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::error::AnalysisError;
 use crate::atomic::WriteError;
-use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
 use crate::scene::SceneError;
 use crate::solution::Status;
@@ -70,9 +69,6 @@ pub(super) enum CliError {
     /// A file or folder of `--out`.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A figure of `--out`.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
     /// What `--out` writes.
     #[error(transparent)]
     Export(#[from] ExportError),
@@ -118,7 +114,7 @@ impl CliError {
             Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Scene(_) | Self::Solve(_) | Self::Analysis(_) | Self::Input(_) => Exit::BadInput,
             Self::Export(ExportError::Extension { .. }) => Exit::BadInput,
-            Self::Write(_) | Self::Figure(_) | Self::Export(_) | Self::System(_) | Self::Output(_) => Exit::Other,
+            Self::Write(_) | Self::Export(_) | Self::System(_) | Self::Output(_) => Exit::Other,
         }
     }
 }

@@ -6,6 +6,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};
 use crate::export::figure::{Piece, sheets_to_pdf};
+use crate::export::files::ExportError;
 use crate::gui::state::lessons::window_names;
 use crate::lessons::record::RecordError;
 use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
@@ -113,7 +114,7 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
             lessons.iter().map(|lesson| handout::sheet(lesson, answers, &cancel)).collect();
         let sheets = sheets.map_err(CliError::Input)?;
         let html = handout::to_html(title, &sheets).into_bytes();
-        let pdf = sheets_to_pdf(title, &sheets)?;
+        let pdf = sheets_to_pdf(title, &sheets).map_err(ExportError::from)?;
         for (bytes, extension) in [(html, "html"), (pdf, "pdf")] {
             staged.add(format!("{name}.{extension}"), |file| file.write_all(&bytes))?;
         }

@@ -6,7 +6,7 @@ use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::exactness;
-use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
+use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
 use crate::digits::duration;
 use crate::export::files::Files;
 use crate::export::stability::{CellObject, Object, detail, figure};
@@ -63,15 +63,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
     let maps: Vec<&'static Map> =
         if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
-    let count = usize::from(arguments.cells);
-
-    let total = number_of_cells(&scene, &maps, &methods, count);
-    let (solved, wall_s) = Bar::points(total, 0).timed(|bar| {
-        survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
+    let asked = cells(&scene, &maps, &methods, usize::from(arguments.cells));
+    let total = asked.len();
+    let (cells, wall_s) = Bar::points(total, 0).timed(|bar| {
+        survey(&scene, asked, &settings, &cancel, &|cell| {
             bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
         })
     });
-    let cells = solved?;
 
     let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);

@@ -228,6 +228,7 @@ mod tests {
     use super::*;
     use crate::analysis::fit::{Goal, optimise};
     use crate::analysis::tradeoff::{Effort, candidates, measure};
+    use crate::job::work::tests::{carried, draft, posed};
     use crate::problem::Problem;
     use crate::scene::presets;
     use crate::solve::solve;
@@ -245,12 +246,11 @@ mod tests {
     /// Makes the files of this name here and elsewhere, and compares them. Returns how many there are.
     fn made_twice(name: &str, content: &dyn Fn() -> Content) -> usize {
         let folder = tempfile::tempdir().unwrap();
-        let made = |place: &str, carried: bool| {
+        let made = |place: &str, sent: bool| {
             let path = folder.path().join(place).join(name);
             std::fs::create_dir(path.parent().unwrap()).unwrap();
             let files = Files { path: path.clone(), content: content() };
-            let there = || postcard::from_bytes(&postcard::to_stdvec(&files).unwrap()).unwrap();
-            let files: Files = if carried { there() } else { files };
+            let files = if sent { carried(&files) } else { files };
             files.run(&Cancel::new(), &|_| ()).unwrap();
             read(&path)
         };
@@ -262,13 +262,9 @@ mod tests {
         here.len()
     }
 
-    fn draft() -> Settings {
-        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
-    }
-
     #[test]
     fn files_of_a_run_that_are_made_elsewhere_are_the_same() {
-        let posed = Posed::try_from(presets::find("floating-disc").unwrap()).unwrap();
+        let posed = posed("floating-disc");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, false, 0.5);
         let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
