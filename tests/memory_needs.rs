@@ -8,7 +8,7 @@ mod scenes;
 use scenes::problem;
 use squeezefilm::budget::Purpose;
 use squeezefilm::control::{Cancel, Progress};
-use squeezefilm::export::files::{self, Control, Solved};
+use squeezefilm::export::files::{self, Control, Folder, Solved};
 use squeezefilm::export::json::Summary;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::memory;
@@ -214,7 +214,8 @@ fn the_size_of_the_files_is_known_before_they_are_written() {
         let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
         let folder = tempfile::tempdir().unwrap();
         let control = Control { cancel: &Cancel::new(), drawn: &|_, _| () };
-        let paths = files::solve(folder.path(), &solved, &summary, &[], &control).unwrap();
+        let out = Folder { path: folder.path(), command: &[], formats: Vec::new() };
+        let paths = files::solve(&out, &solved, &summary, &control).unwrap();
         let written: u64 = paths.iter().map(|path| path.metadata().unwrap().len()).sum();
         let ratio = files::expected_size(&problem, &solution.recording) as f64 / written as f64;
         println!("{preset} {set:?}: {written} bytes written, expected {ratio:.3} of them");

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use serde_json::Value;
-use squeezefilm::analysis::stability::{Cell, MAPS, Verdict, survey};
+use squeezefilm::analysis::stability::{self, Cell, MAPS, Verdict, survey};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::scene::Scene;
@@ -18,7 +18,8 @@ fn a_survey_does_not_depend_on_threads_and_keeps_what_is_done_when_cancelled() {
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let cells = |threads: usize, cancel: &Cancel, finished: &(dyn Fn(&Cell) + Sync)| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| survey(&Scene::motor(), &[&MAPS[1]], &[Method::Auto], 3, &settings, cancel, finished)).unwrap()
+        let asked = stability::cells(&Scene::motor(), &[&MAPS[1]], &[Method::Auto], 3);
+        pool.install(|| survey(&Scene::motor(), asked, &settings, cancel, finished))
     };
     let all = cells(1, &Cancel::new(), &|_| ());
     assert_eq!((all.len(), &cells(3, &Cancel::new(), &|_| ())), (9, &all));

@@ -10,7 +10,7 @@ use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::fields::fields;
 use squeezefilm::export::figure::{Figure, Format, to_bytes};
 use squeezefilm::export::figures;
-use squeezefilm::export::files::{self, Control, ExportError, Solved};
+use squeezefilm::export::files::{self, Control, ExportError, Folder, Solved};
 use squeezefilm::export::json::{self, Summary};
 use squeezefilm::export::torque;
 use squeezefilm::problem::Problem;
@@ -173,7 +173,7 @@ impl Run {
                 torque: summary.torque.as_ref(),
             };
             let (folder, control) = (Path::new(&folder), Control { cancel, drawn: &|_, _| () });
-            let mut paths = files::solve(folder, &solved, summary, &formats, &control)?;
+            let mut paths = files::solve(&Folder { path: folder, command: &[], formats }, &solved, summary, &control)?;
             if !vtk.is_empty() {
                 paths.extend(files::vtk(folder, &solved, &control)?);
             }

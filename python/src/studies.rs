@@ -3,10 +3,9 @@
 use crate::scene::{Scene, cancelled, checked};
 use crate::{Counted, How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
-use squeezefilm::analysis::fit::{
-    self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, MOST_STARTS, Measured, Model,
-};
-use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
+use squeezefilm::analysis::error::AnalysisError;
+use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured, Model};
+use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::fit::{Object as Fit, OptimumObject};
 use squeezefilm::export::sensitivity::Found;
@@ -48,16 +47,14 @@ pub(crate) fn sensitivity(
     apart_on_all_cores(py, told, move |cancel, tell| {
         let (solved, drawn) = (Counted::default(), Counted::default());
         let found = Sensitivity::of(&scene, &keys, &settings, cancel, &|all| solved.one_more(all, tell));
-        let bad_input =
-            |error: &SensitivityError| !matches!(error, SensitivityError::Solve(error) if !error.is_bad_input());
-        let found = found.map_err(|error| error_of(bad_input(&error), error))?.ok_or_else(cancelled)?;
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
         let one_more = || drawn.one_more(draws, tell);
         let carlo = match draws {
             0 => None,
             _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
         };
         let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-        Ok(json::document(&found.object(&settings.fidelity.to_string()), &[]))
+        Ok(json::document(&found, &[]))
     })?
 }
 
@@ -65,7 +62,7 @@ fn starts_of(starts: i64) -> PyResult<usize> {
     within("starts", starts, 1..=i64::from(MOST_STARTS)).map(|starts| starts as usize)
 }
 
-fn fit_error(error: FitError) -> PyErr {
+fn analysis_error(error: AnalysisError) -> PyErr {
     error_of(error.is_bad_input(), error)
 }
 
@@ -90,13 +87,14 @@ pub(crate) fn fit(
         (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::try_from(&scene).map_err(scene_error)?),
         (name, None) => Measured::find(&name, &scene, settings.method),
     };
-    let measured = measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(fit_error)?;
+    let measured =
+        measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(analysis_error)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
         let model = Model::new(&scene, &bounds, &settings).and_then(|model| model.under(&measured));
-        let model = model.map_err(fit_error)?;
+        let model = model.map_err(analysis_error)?;
         let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
-        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
-        let object = json::document(&Fit::new(&scene.name, &found, &measured), &[]);
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
+        let object = json::document(&Fit { preset: &scene.name, fitted: &found, measured: &measured }, &[]);
         Ok((object, Scene(found.scene)))
     })?
 }
@@ -116,13 +114,13 @@ pub(crate) fn optimise(
 ) -> PyResult<(String, Scene)> {
     let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
     let (scene, bounds, limits) = (scene.0.clone(), parsed::<Bounds>(&vary)?, parsed::<Limit>(&limits)?);
-    let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(fit_error)?;
+    let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(analysis_error)?;
     let starts = starts_of(starts)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
-        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
-        Ok((json::document(&OptimumObject::new(&scene.name, &found), &[]), Scene(found.scene)))
+        let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
+        Ok((json::document(&OptimumObject { preset: &scene.name, found: &found }, &[]), Scene(found.scene)))
     })?
 }
 
@@ -151,7 +149,8 @@ pub(crate) fn startup(
         };
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
-            let object = fallen::Object::new(&scene, fidelity, &ended, &rows, began.elapsed().as_secs_f64());
+            let wall_s = began.elapsed().as_secs_f64();
+            let object = fallen::Object { scene: &scene, fidelity, ended: &ended, rows: &rows, wall_s };
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();
@@ -163,7 +162,9 @@ pub(crate) fn startup(
         let ended = transient::startup(&problem, &settings, &mut each, cancel);
         let ended = ended.map_err(|error| error_of(error.is_bad_input(), error))?;
         let wall_s = began.elapsed().as_secs_f64();
-        Ok(json::document(&export::Object::new(&scene, &problem, &settings, &ended, &rows, wall_s), &[]))
+        let (scene, problem, settings) = (&scene, &problem, &settings);
+        let object = export::Object { scene, problem, settings, ended: &ended, rows: &rows, wall_s };
+        Ok(json::document(&object, &[]))
     })?
 }
 

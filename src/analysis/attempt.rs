@@ -1,10 +1,9 @@
 //! One solve among many: whatever becomes of it, the others go on.
 
 use crate::control::{Cancel, Observer};
-use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::solution::{Solution, Status};
-use crate::solve::{Settings, SolveError, solve_from};
+use crate::solve::{Settings, SolveError, solve};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -47,44 +46,21 @@ impl std::fmt::Display for RunStatus {
 }
 
 /// Solves; an error, and a panic of the solver, is told in words.
-///
-/// # Errors
-/// Why there is no solution.
 pub fn attempt(
     problem: &Problem,
     settings: &Settings,
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    attempt_from(&mut Warm::default(), problem, settings, observer, cancel)
+    told(|| solve(problem, settings, observer, cancel))
 }
 
-/// As [`attempt`], started from what the last solve left in `warm`.
-///
-/// # Errors
-/// Why there is no solution.
-pub fn attempt_from(
-    warm: &mut Warm,
-    problem: &Problem,
-    settings: &Settings,
-    observer: &mut dyn Observer,
-    cancel: &Cancel,
-) -> Result<Solution, String> {
-    told(|| solve_from(warm, problem, settings, observer, cancel))
-}
-
-/// What `solve` returns.
-///
-/// # Errors
-/// Its error, or its panic, in words.
+/// What `solve` returns; its error, or its panic, in words.
 pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
     caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }
 
-/// What `work` returns.
-///
-/// # Errors
-/// The text of its panic.
+/// What `work` returns, or the text of its panic.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<&str>().copied();

@@ -4,15 +4,16 @@
 //! the last bit, whatever it is compared with and however many threads there are. A run that fails says so, and the others
 //! go on. Differences are against the first run.
 
-use super::attempt::attempt;
+use super::attempt::{RunStatus, attempt};
+use super::error::AnalysisError;
 use super::quantity::{Numbers, Quantity, labelled};
 use super::validity::{names, outside};
-use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::problem::Problem;
-use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
+use crate::scene::{PARAMETERS, Parameter, Scene, Value, show_text};
 use crate::solution::{Solution, settled};
-use crate::solve::{Settings, SolveError, check};
+use crate::solve::{Settings, check};
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -76,28 +77,17 @@ impl ComparedRun {
     }
 }
 
-/// What cannot be compared. Found before anything is solved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CompareError {
-    /// A scene that is not one.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A method that does not apply.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
-
 /// Solves the scenes, several at a time on rayon's pool, and returns the runs in the order of the scenes. `finished` is told
 /// of each run as it ends, from whichever thread.
 ///
 /// # Errors
-/// [`CompareError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
+/// [`AnalysisError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
 pub fn runs(
     scenes: &[Scene],
     settings: &Settings,
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
-) -> Result<Vec<ComparedRun>, CompareError> {
+) -> Result<Vec<ComparedRun>, AnalysisError> {
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     problems.iter().try_for_each(|problem| check(problem, settings))?;
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
@@ -175,37 +165,32 @@ impl ResultRow {
     }
 }
 
-/// A quantity of one run. What is not there, and what is not finite, is `None`.
+/// A quantity of one run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ResultCell {
-    /// Its value, in the quantity's unit of this run's problem.
-    pub value: Option<f64>,
+    /// Its value with its estimated numerical error, in the quantity's unit of this run's problem; `None` if the run does not have it.
+    pub found: Option<Estimate>,
     /// That unit; empty for a pure number.
     pub unit: &'static str,
-    /// Its estimated numerical error, absolute, if there is an estimate.
-    pub error: Option<f64>,
-    /// By how much it exceeds that of the first run \[%\]; of the first run itself, and of one in another unit, `None`.
-    pub difference_percent: Option<f64>,
-    /// Error of that difference \[percentage points\]: both errors, added up.
-    pub difference_error_percent: Option<f64>,
+    /// By how much it exceeds that of the first run \[%\], with both errors added up \[percentage points\]; of the first run itself, of one in another
+    /// unit, and where the first is nothing but its error, `None`.
+    pub difference_percent: Option<Estimate>,
 }
 
 /// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
 pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     let numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
     let row = |quantity: Quantity| {
-        let first = numbers.first().map(|numbers| side(numbers, quantity)).unwrap_or_default();
+        let first = numbers.first().and_then(|numbers| numbers.estimate(quantity));
         let units: Vec<&'static str> = runs.iter().map(|run| quantity.unit(&run.problem)).collect();
         let cell = |(i, numbers): (usize, &Numbers)| {
-            let own = side(numbers, quantity);
+            let found = numbers.estimate(quantity);
             // N/m less N is nothing.
-            let alike = i > 0 && units[i] == units[0];
-            let (difference_percent, difference_error_percent) =
-                if alike { difference(first, own) } else { (None, None) };
-            ResultCell { value: own.0, unit: units[i], error: own.1, difference_percent, difference_error_percent }
+            let alike = first.zip(found).filter(|_| i > 0 && units[i] == units[0]);
+            ResultCell { found, unit: units[i], difference_percent: alike.and_then(|(a, b)| difference(a, b)) }
         };
         let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
-        let mut there = cells.iter().filter(|cell| cell.value.is_some()).map(|cell| cell.unit);
+        let mut there = cells.iter().filter(|cell| cell.found.is_some()).map(|cell| cell.unit);
         let unit = there.next()?;
         let unit = there.all(|other| other == unit).then_some(unit);
         Some(ResultRow { quantity, unit, cells })
@@ -213,22 +198,15 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()
 }
 
-/// A value and its error.
-fn side(numbers: &Numbers, quantity: Quantity) -> (Option<f64>, Option<f64>) {
-    let value = numbers.get(quantity);
-    (value, value.and(quantity.error()).and_then(|error| numbers.get(error)))
-}
-
 /// 100 (b/a − 1), and the sum of what the two errors make of it.
-fn difference(a: (Option<f64>, Option<f64>), b: (Option<f64>, Option<f64>)) -> (Option<f64>, Option<f64>) {
-    let (Some(first), Some(own)) = (a.0, b.0) else { return (None, None) };
-    // Of what may be nothing at all there is no share.
-    if first.abs() <= a.1.unwrap_or(0.0) {
-        return (None, None);
+fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
+    // Of what may be nothing at all there is no share; an error that is not known hides nothing.
+    if a.value.abs() <= a.error.max(0.0) {
+        return None;
     }
-    let finite = |value: f64| value.is_finite().then_some(value);
-    let error = a.1.zip(b.1).map(|(ea, eb)| 100.0 * (eb.abs() + (own / first).abs() * ea.abs()) / first.abs());
-    (finite(100.0 * (own / first - 1.0)), error.and_then(finite))
+    let ratio = b.value / a.value;
+    let error = 100.0 * (b.error.abs() + ratio.abs() * a.error.abs()) / a.value.abs();
+    Some(Estimate { value: 100.0 * (ratio - 1.0), error }).filter(|found| found.value.is_finite())
 }
 
 #[cfg(test)]
@@ -236,7 +214,7 @@ mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
-    use crate::solve::solve;
+    use crate::solve::{SolveError, solve};
 
     fn draft() -> Settings {
         Settings { fidelity: Fidelity::Draft, ..Settings::default() }
@@ -256,14 +234,14 @@ mod tests {
         let results = results(&runs);
         let alpha = results.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
         let [first, second, plate] = &alpha.cells[..] else { panic!("{alpha:?}") };
-        let exact = 100.0 * (second.value.unwrap() / first.value.unwrap() - 1.0);
-        assert_eq!((first.difference_percent, second.difference_percent), (None, Some(exact)));
-        assert!(second.difference_error_percent.unwrap() > 100.0 * second.error.unwrap() / first.value.unwrap());
+        let (one, other, apart) = (first.found.unwrap(), second.found.unwrap(), second.difference_percent.unwrap());
+        assert_eq!((first.difference_percent, apart.value), (None, 100.0 * (other.value / one.value - 1.0)));
+        assert!(apart.error > 100.0 * other.error / one.value);
         assert_eq!(*plate, ResultCell::default());
         // A strip's force is per metre: it has a unit of its own, and no difference from a motor's.
         let load = results.iter().find(|row| row.quantity == Quantity::FilmLoad).unwrap();
         let [_, second, strip] = &load.cells[..] else { panic!("{load:?}") };
-        assert!(second.difference_percent.is_some() && strip.value.is_some(), "{load:?}");
+        assert!(second.difference_percent.is_some() && strip.found.is_some(), "{load:?}");
         assert_eq!((strip.difference_percent, strip.unit, load.unit), (None, "N/m", None));
         assert!(results.iter().all(|row| !row.quantity.name().contains("_error")));
     }
@@ -286,9 +264,12 @@ mod tests {
 
     #[test]
     fn what_is_zero_or_unknown_has_no_difference() {
-        assert_eq!(difference((Some(0.0), None), (Some(1.0), None)), (None, None));
-        assert_eq!(difference((Some(2.0), None), (Some(3.0), Some(0.1))), (Some(50.0), None));
-        assert_eq!(difference((Some(2.0), Some(0.1)), (Some(2.0), Some(0.1))), (Some(0.0), Some(10.0)));
+        let unknown = |value: f64| Estimate { value, error: f64::NAN };
+        let with = |value: f64, error: f64| Estimate { value, error };
+        assert_eq!(difference(unknown(0.0), unknown(1.0)), None);
+        let found = difference(unknown(2.0), with(3.0, 0.1)).unwrap();
+        assert!(found.value == 50.0 && found.error.is_nan());
+        assert_eq!(difference(with(2.0, 0.1), with(2.0, 0.1)), Some(with(0.0, 10.0)));
     }
 
     #[test]
@@ -296,6 +277,6 @@ mod tests {
         let scenes = ["fundamental", "plate-viscous"].map(|name| presets::find(name).unwrap());
         let settings = Settings { method: crate::solve::Method::Paper, ..draft() };
         let refused = runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap_err();
-        assert_eq!(refused, CompareError::Solve(SolveError::PaperPlate));
+        assert_eq!(refused, AnalysisError::Solve(SolveError::PaperPlate));
     }
 }

@@ -15,9 +15,6 @@ const CLOSE: f64 = 2e-3;
 
 /// The motor of `answers`, with the friction and the amplitude at which it has, once solved, the stall torque and the speed without load of the
 /// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`].
-///
-/// # Errors
-/// As [`NewMotor::of`].
 pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
     let least = NewMotor::of(answers)?;
     let wanted = [(Quantity::StallTorque, "stall-torque-nm"), (Quantity::NoLoadSpeed, "no-load-speed-rpm")]

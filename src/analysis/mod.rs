@@ -7,6 +7,7 @@ pub mod attempt;
 pub mod compare;
 pub mod data_sheet;
 pub mod decision;
+pub mod error;
 pub mod exact;
 pub mod fit;
 pub mod quantity;

@@ -166,6 +166,16 @@ impl Quantity {
         }
     }
 
+    /// For people: with its error if it is of those that have one, a count as a whole number; nothing if it is not known.
+    pub fn text(self, found: Option<Estimate>) -> String {
+        match found {
+            None => String::new(),
+            Some(Estimate { value, .. }) if self.is_count() => value.to_string(),
+            Some(Estimate { value, .. }) if self.error().is_none() => significant(value, 4),
+            Some(found) => found.to_string(),
+        }
+    }
+
     /// Whether it counts something: whole numbers.
     pub fn is_count(self) -> bool {
         matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)
@@ -207,14 +217,9 @@ impl Numbers {
         self.get(number).map(|value| Estimate { value, error })
     }
 
-    /// One of them for people: with its error if it is of those that have one, a count as a whole number; nothing if it is not known.
+    /// One of them for people, as [`Quantity::text`].
     pub fn text(&self, number: Quantity) -> String {
-        match self.estimate(number) {
-            None => String::new(),
-            Some(Estimate { value, .. }) if number.is_count() => value.to_string(),
-            Some(Estimate { value, .. }) if number.error().is_none() => significant(value, 4),
-            Some(found) => found.to_string(),
-        }
+        number.text(self.estimate(number))
     }
 
     /// Of a solution of `problem`.

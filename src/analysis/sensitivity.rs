@@ -10,14 +10,15 @@
 //! them and does not add to their spread. It is stated beside the uncertainty, never in it.
 
 use super::attempt::told;
+use super::error::AnalysisError;
 use super::exact::{Harmonic, solved, units};
 use super::quantity::{Numbers, Quantity, labelled};
-use super::variation::{Column, Jacobian, Slope, Variation, VariationError};
+use super::variation::{Column, Jacobian, Slope, Variation};
 use crate::control::Cancel;
 use crate::digits::as_given;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
-use crate::scene::{Parameter, ParameterKind, Scene, SceneError};
+use crate::scene::{Parameter, ParameterKind, Scene};
 use crate::solution::{Solution, Status, settled};
 use crate::solve::near::Centre;
 use crate::solve::{Settings, SolveError};
@@ -112,23 +113,6 @@ fn values(problem: &Problem, solution: &Solution) -> Vec<f64> {
     read(problem, solution).into_iter().map(|found| found.value).collect()
 }
 
-/// Why there is no sensitivity.
-#[derive(Debug, thiserror::Error)]
-pub enum SensitivityError {
-    /// The scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The keys.
-    #[error(transparent)]
-    Keys(#[from] VariationError),
-    /// An uncertainty that means nothing for its key.
-    #[error("{0}")]
-    Uncertainty(String),
-    /// The solver.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
-
 /// Results of a scene, and their derivatives by its keys.
 #[derive(Debug)]
 pub struct Sensitivity {
@@ -154,14 +138,14 @@ impl Sensitivity {
     /// will be. `None` if cancelled.
     ///
     /// # Errors
-    /// [`SensitivityError`]: a key that has no derivative, or a scene that cannot be solved.
+    /// [`AnalysisError`]: a key that has no derivative, or a scene that cannot be solved.
     pub fn of<S: AsRef<str>>(
         scene: &Scene,
         keys: &[S],
         settings: &Settings,
         cancel: &Cancel,
         solved: &(dyn Fn(usize) + Sync),
-    ) -> Result<Option<Self>, SensitivityError> {
+    ) -> Result<Option<Self>, AnalysisError> {
         let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
         let centre = Centre::new(&problem, settings, None, cancel)?;
@@ -190,12 +174,17 @@ impl Sensitivity {
 
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        self.variation.scene()
+        &self.variation.scene
     }
 
     /// The problem.
     pub fn problem(&self) -> &Problem {
         &self.problem
+    }
+
+    /// How it was solved.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// How the solve in the middle ended.
@@ -339,7 +328,7 @@ impl<'de> Deserialize<'de> for Sensitivity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
         let (variation, settings, status, warnings, values, columns, coarse) = carried;
-        let problem = Problem::try_from(variation.scene()).map_err(D::Error::custom)?;
+        let problem = Problem::try_from(&variation.scene).map_err(D::Error::custom)?;
         let (outputs, centre) = (Output::of(&problem), OnceLock::new());
         Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
     }
@@ -439,7 +428,7 @@ impl Uncertainties {
     ///
     /// # Errors
     /// A key that cannot be varied, or an uncertainty that means nothing for it.
-    pub fn new<S: AsRef<str>>(scene: &Scene, given: &[(S, Uncertainty)]) -> Result<Self, SensitivityError> {
+    pub fn new<S: AsRef<str>>(scene: &Scene, given: &[(S, Uncertainty)]) -> Result<Self, AnalysisError> {
         let keys: Vec<&str> = given.iter().map(|(key, _)| key.as_ref()).collect();
         let given = given.iter().map(|(_, uncertainty)| *uncertainty).collect();
         let found = Self { variation: Variation::new(scene, &keys)?, given };
@@ -447,7 +436,7 @@ impl Uncertainties {
             given.relative && (*at == 0.0 || parameter.unit == "°C")
         };
         if let Some((Parameter { key, unit, .. }, at, given)) = found.iter().find(meaningless) {
-            return Err(SensitivityError::Uncertainty(format!(
+            return Err(AnalysisError::Input(format!(
                 "uncertainty of {key} = {given}: its value is {at} {unit}, of which a share means nothing; give it in {unit}"
             )));
         }
@@ -456,7 +445,7 @@ impl Uncertainties {
 
     /// Each key, its value in the scene, and its uncertainty.
     pub fn iter(&self) -> impl Iterator<Item = (&'static Parameter, f64, Uncertainty)> {
-        let keys = self.variation.parameters().iter().zip(self.variation.values()).zip(&self.given);
+        let keys = self.variation.parameters.iter().zip(self.variation.values()).zip(&self.given);
         keys.map(|((parameter, at), given)| (*parameter, at, *given))
     }
 

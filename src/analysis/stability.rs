@@ -292,39 +292,26 @@ const FEWEST_CYCLES: usize = 30;
 /// Where a cycle still changes by more than this after so many, the rounds do not settle, and none will.
 const ASTRAY: (usize, f64) = (12, 0.1);
 
-/// Solves `count` × `count` cells of each map by each method, several at a time on rayon's pool. In the order of maps,
-/// methods, y and x; if it is cancelled, without the cells that were not reached. `finished` is told of each as it ends, from
-/// whichever thread.
-///
-/// # Errors
-/// Faults of `scene`. A cell that fails is a [`Cell`] that says so.
+/// Solves cells, several at a time on rayon's pool, and returns them in their order; if it is cancelled, without those that were not reached.
+/// `finished` is told of each as it ends, from whichever thread. A cell that fails is a [`Cell`] that says so.
 pub fn survey(
     scene: &Scene,
-    maps: &[&'static Map],
-    methods: &[Method],
-    count: usize,
+    cells: Vec<Cell>,
     settings: &Settings,
     cancel: &Cancel,
     finished: &(dyn Fn(&Cell) + Sync),
-) -> Result<Vec<Cell>, SceneError> {
-    Problem::try_from(scene)?;
-    let cells = places(scene, maps, methods, count);
+) -> Vec<Cell> {
     // One at a time: some cells take a thousand times as long as others.
     let solved = cells.into_par_iter().with_max_len(1).map(|cell| {
         let cell = solve_cell(scene, cell, settings, cancel)?;
         finished(&cell);
         Some(cell)
     });
-    Ok(solved.collect::<Vec<_>>().into_iter().flatten().collect())
+    solved.collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// Number of cells of a survey.
-pub fn number_of_cells(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> usize {
-    places(scene, maps, methods, count).len()
-}
-
-/// The cells, yet to be solved.
-fn places(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> Vec<Cell> {
+/// The cells of maps of `scene`, `count` along each axis, by each method; yet to be solved. In the order of maps, methods, y and x.
+pub fn cells(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> Vec<Cell> {
     let mut cells = Vec::new();
     for map in maps {
         let (along, up) = (map.values(0, scene, count), map.values(1, scene, count));
@@ -488,10 +475,10 @@ mod tests {
                 assert_eq!((values.first(), values.last()), (Some(&range.min), Some(&last)), "{}", map.name);
                 assert!(values.windows(2).all(|pair| pair[0] < pair[1]) && values.len() == 5);
             }
-            for cell in places(&scene, &[map], &[Method::Auto], 4) {
+            for cell in cells(&scene, &[map], &[Method::Auto], 4) {
                 assert!(changed(&scene, &cell.changes).is_ok(), "{}", cell.options());
             }
         }
-        assert_eq!(number_of_cells(&scene, &[&MAPS[0], &MAPS[4]], &[Method::Auto, Method::Paper], 3), 36);
+        assert_eq!(cells(&scene, &[&MAPS[0], &MAPS[4]], &[Method::Auto, Method::Paper], 3).len(), 36);
     }
 }

@@ -11,21 +11,21 @@
 mod axis;
 mod part;
 
-pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, SweepError, Values, Vary, spaced};
+pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, Values, Vary, spaced};
 pub use part::Part;
 use part::{CHUNK, chunk, count};
 
-use super::attempt::attempt_from;
+use super::attempt::{RunStatus, told};
+use super::error::AnalysisError;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
 use super::validity;
-use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::{Scene, SceneError};
 use crate::solution::{Status, StoppedBy};
-use crate::solve::{Method, Record, Settings, check};
+use crate::solve::{Method, Record, Settings, check, solve_from};
 use fnv::FnvHasher;
 use rayon::prelude::*;
 use serde::de::Error as _;
@@ -90,28 +90,33 @@ impl Sweep {
     /// a rule between keys become rows that say so.
     ///
     /// # Errors
-    /// [`SweepError`], which names the key, the value and what is allowed; if no point can be solved, that of the first.
-    pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, SweepError> {
+    /// [`AnalysisError`], which names the key, the value and what is allowed; if no point can be solved, that of the first.
+    pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, AnalysisError> {
         Self::of_part(scene, vary, settings, Part::WHOLE)
     }
 
     /// The same of which only a part is to be solved: that alone has to be small enough.
-    ///
-    /// # Errors
-    /// Those of [`Sweep::new`].
-    pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, SweepError> {
+    pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, AnalysisError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
-            return Err(SweepError::Axes { found: vary.len() });
+            let found = vary.len();
+            return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_KEYS}")));
         }
         let axes = vary.iter().map(|vary| Axis::new(scene, vary)).collect::<Result<Vec<_>, _>>()?;
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.parameter.key == axis.parameter.key) {
-                return Err(SweepError::Twice { key: axis.parameter.key.to_owned() });
+                let key = axis.parameter.key;
+                return Err(AnalysisError::Field {
+                    told: format!("vary {key}: given twice: the keys have to differ"),
+                    in_place: "Both axes vary the same parameter: choose another".to_owned(),
+                });
             }
         }
         let found = part.points(&axes).len();
         if found > MOST_POINTS {
-            return Err(SweepError::Points { found, parts: part.of() });
+            let parts = if part.of() == 1 { String::new() } else { format!(" in one of {} parts", part.of()) };
+            return Err(AnalysisError::Input(format!(
+                "vary: {found} points{parts}: allowed up to {MOST_POINTS}, or as many in each part of sweep --part"
+            )));
         }
         let mut fault = None;
         // Of a larger sweep some points, which are those of every part.
@@ -125,7 +130,7 @@ impl Sweep {
                 }
             }
         });
-        let first = first.ok_or(fault.unwrap_or(SweepError::Axes { found: 0 }))?;
+        let first = first.ok_or_else(|| fault.unwrap_or(AnalysisError::Input("vary: no points".to_owned())))?;
         Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes })
     }
 
@@ -288,7 +293,7 @@ impl Sweep {
                 outside: Vec::new(),
             };
             let solved = problem.and_then(|problem| {
-                let solution = attempt_from(&mut warm, &problem, &settings, &mut (), cancel)?;
+                let solution = told(|| solve_from(&mut warm, &problem, &settings, &mut (), cancel))?;
                 Ok((problem, solution))
             });
             match solved {
@@ -321,7 +326,7 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
 }
 
 /// The problem at these values, checked.
-fn solvable(scene: &Scene, axes: &[Axis], values: &[f64], settings: &Settings) -> Result<Problem, SweepError> {
+fn solvable(scene: &Scene, axes: &[Axis], values: &[f64], settings: &Settings) -> Result<Problem, AnalysisError> {
     let problem = Problem::try_from(&varied(scene, axes, values)?)?;
     check(&problem, &Settings { record: Record::Numbers, ..*settings })?;
     Ok(problem)
@@ -352,7 +357,7 @@ mod tests {
     use crate::fidelity::Fidelity;
     use crate::scene::{Scale, Value, presets};
 
-    fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
+    fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, AnalysisError> {
         let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
         let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
         Sweep::new(&presets::find(preset).unwrap(), &vary, &settings)

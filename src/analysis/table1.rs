@@ -4,7 +4,7 @@
 //! mesh-converged: a row's `[numerics]` table is dropped, so that `doubled-mesh` is then the fundamental case again.
 
 use crate::control::Cancel;
-use crate::problem::{Numerics, Problem, Scenario};
+use crate::problem::{Numerics, Problem};
 use crate::scene::table1::{PublishedRow, published};
 use crate::scene::{Scene, SceneError, Value, presets};
 use crate::solution::{MotorResult, Outcome, Status};
@@ -27,8 +27,6 @@ pub struct Computed {
     pub status: Status,
     /// The numbers.
     pub result: MotorResult,
-    /// Axial load on one wavelength \[N\], of which `result.alpha` is the film's share.
-    pub load: f64,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -114,11 +112,9 @@ pub struct Published {
 
 fn compute(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Computed, SolveError> {
     let solution = solve(problem, settings, &mut (), cancel)?;
-    match (&problem.scenario, solution.outcome) {
-        (Scenario::Motor(motor), Outcome::Motor(result)) => {
-            Ok(Computed { status: solution.status, result, load: motor.load, warnings: solution.warnings })
-        }
+    match solution.outcome {
+        Outcome::Motor(result) => Ok(Computed { status: solution.status, result, warnings: solution.warnings }),
         // Every row is a motor, and no change makes it a plate.
-        _ => Err(SolveError::PaperPlate),
+        Outcome::Plate(_) => Err(SolveError::PaperPlate),
     }
 }

@@ -14,6 +14,7 @@ use crate::problem::{Motor, Numerics, Problem, Scenario, Wedge, rpm};
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Outcome, Performance, Solution, Status};
 use crate::solve::{Record, Settings, solve};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// An effect of the speed on the torque that is not worth a solve.
@@ -22,7 +23,7 @@ const SMALL_EFFECT: f64 = 0.01;
 const SPEEDS: usize = 121;
 
 /// What a designer wants of a motor; the whole ring.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TorqueCurves {
     /// With the film.
     pub with_film: Performance,
@@ -64,9 +65,6 @@ impl TorqueCurves {
     }
 
     /// Of a solve at `fidelity`; `None` of a plate, and if cancelled.
-    ///
-    /// # Errors
-    /// As [`Self::of`].
     pub fn of_solve(
         problem: &Problem,
         fidelity: Fidelity,

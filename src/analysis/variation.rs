@@ -14,6 +14,7 @@
 //! and its error the difference to (f(h) − f(0))/h.
 
 use super::attempt::told;
+use super::error::AnalysisError;
 use crate::control::Cancel;
 use crate::ladder::Nested;
 use crate::problem::{Problem, RotorCompliance, Scenario};
@@ -36,24 +37,16 @@ const BELOW: [i32; 2] = [-1, -2];
 /// A scene and the keys that are varied in it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Variation {
-    scene: Scene,
+    /// The scene.
+    pub scene: Scene,
+    /// The keys.
     #[serde(deserialize_with = "Parameter::from_keys")]
-    parameters: Vec<&'static Parameter>,
-}
-
-/// Why keys cannot be varied.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum VariationError {
-    /// An unknown key, or one that the scene does not have.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// A key that has no derivative, has no value, or is named twice; the key, and what is allowed.
-    #[error("{0}")]
-    Key(String),
+    pub parameters: Vec<&'static Parameter>,
 }
 
 /// What a derivative was taken over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Sides {
     /// Steps to both sides.
     Both,
@@ -119,8 +112,8 @@ impl Variation {
     /// Of keys of `scene` by name.
     ///
     /// # Errors
-    /// [`VariationError`], which names the key and what is allowed.
-    pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, VariationError> {
+    /// A key that the scene does not have, that has no derivative or no value, or that is named twice.
+    pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, AnalysisError> {
         let all = Self::all(scene).parameters;
         let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
         let mut parameters: Vec<&'static Parameter> = Vec::new();
@@ -133,7 +126,7 @@ impl Variation {
                 continue;
             };
             if !matches!(parameter.kind, ParameterKind::Number { .. }) || parameter.table() == "numerics" {
-                return Err(VariationError::Key(format!(
+                return Err(AnalysisError::Input(format!(
                     "{key}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}",
                     parameter.accepts(),
                     allowed()
@@ -142,12 +135,12 @@ impl Variation {
             if !all.contains(&parameter) {
                 set?;
                 let allowed = allowed();
-                return Err(VariationError::Key(format!(
+                return Err(AnalysisError::Input(format!(
                     "{key}: it is not given in this scene; allowed here: {allowed}"
                 )));
             }
             if parameters.contains(&parameter) {
-                return Err(VariationError::Key(format!("{key}: given twice: the keys have to differ")));
+                return Err(AnalysisError::Input(format!("{key}: given twice: the keys have to differ")));
             }
             parameters.push(parameter);
         }
@@ -164,16 +157,6 @@ impl Variation {
                 && scene.get(parameter.key).is_some()
         };
         Self { scene: scene.clone(), parameters: scene.parameters().filter(acts).collect() }
-    }
-
-    /// The scene.
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// The keys.
-    pub fn parameters(&self) -> &[&'static Parameter] {
-        &self.parameters
     }
 
     /// The values of the keys in the scene, each in its unit.
@@ -378,7 +361,7 @@ mod tests {
 
     #[test]
     fn all_keys_are_those_that_act() {
-        let keys = |scene: &Scene| -> Vec<&str> { Variation::all(scene).parameters().iter().map(|p| p.key).collect() };
+        let keys = |scene: &Scene| -> Vec<&str> { Variation::all(scene).parameters.iter().map(|p| p.key).collect() };
         let mut scene = Scene::motor();
         assert!(keys(&scene).contains(&"film.viscosity_upa_s") && !keys(&scene).contains(&"motor.load_n"));
         scene.set_all([("film.gas", "air"), ("film.altitude_m", "2000"), ("motor.load_n", "20")]).unwrap();

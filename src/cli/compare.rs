@@ -12,7 +12,7 @@ use crate::export::animation::Options;
 use crate::export::compare::{LIMITS, Object, difference_text, frames, mark, parameter_rows, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
-use crate::scene::{Scene, Value};
+use crate::scene::Value;
 use crate::solve::Settings;
 use clap::Args;
 use std::time::Duration;
@@ -56,11 +56,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes = arguments
-        .presets
-        .iter()
-        .map(|preset| arguments.common.scene.scene(preset))
-        .collect::<Result<Vec<Scene>, _>>()?;
+    let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let (folder, settings, cancel) = arguments.common.begin()?;
 
     let (solved, wall_s) =
@@ -77,7 +73,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::document(&Object::new(&runs, &settings), command);
+    let object = || json::document(&Object { runs: &runs, settings: &settings }, command);
     terminal::result(arguments.common.output.json, object, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
@@ -86,8 +82,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = folder {
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
-        let how = (&settings, arguments.all, command);
-        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control)?;
+        let out = arguments.common.figures.folder(folder, command);
+        let paths = files::comparison(&out, &runs, &settings, arguments.all, &control)?;
         drop(bar);
         terminal::wrote(folder, &paths);
     }

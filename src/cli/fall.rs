@@ -5,12 +5,11 @@ use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
 use super::terminal;
-use crate::atomic::Staged;
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
 use crate::export::fall::{Object, Row, figure, floats};
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
 use crate::fidelity::Fidelity;
@@ -51,20 +50,21 @@ pub(super) fn run(
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let (floats, object) = (floats(&ended), Object::new(scene, fidelity, &ended, &rows, wall_s));
-    object.warnings.iter().for_each(|warning| terminal::warning(warning));
+    let (floats, object) = (floats(&ended), Object { scene, fidelity, ended: &ended, rows: &rows, wall_s });
+    ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats);
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("startup.csv", |out| csv::rows(&rows, out))?;
-        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let out = common.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.add("startup.csv", |out| csv::rows(&rows, out))?;
+        files.json("startup.json", &object)?;
         let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
         drawn.provenance.fidelity = fidelity.to_string();
-        stage_figure(&mut staged, "startup", &drawn, &common.figures.formats())?;
-        staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::wrote(folder, &staged.commit()?);
+        files.figure("startup", &drawn)?;
+        files.text("scene.toml", &scene.to_toml())?;
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(Some(Exit::of(&ended.status)))
 }

@@ -121,7 +121,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let measured = Measured::find(data, &scene, settings.method)?;
             call.fit(&measured.without(&arguments.skip)?.with_errors(&arguments.error)?)
         }
-        (None, None) => Err(CliError::Usage("give --data, --maximise or --minimise")),
+        (None, None) => Err(CliError::usage("give --data, --maximise or --minimise")),
     }
 }
 
@@ -145,16 +145,14 @@ impl Call<'_> {
             })
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
-        let object = Object::new(&self.scene.name, &fitted, measured);
+        let object = Object { preset: &self.scene.name, fitted: &fitted, measured };
         let json = self.arguments.common.output.json;
         terminal::result(json, || json::document(&object, self.command), || text(self.scene, &fitted, measured));
         fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
-            let problem = Problem::try_from(&fitted.scene)?;
-            let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
-            let paths = files::fitted(folder, of, (&fitted, measured), self.command, &formats)?;
-            terminal::wrote(folder, &paths);
+            let out = self.arguments.common.figures.folder(folder, self.command);
+            terminal::wrote(folder, &files::fitted(&out, &Problem::try_from(&fitted.scene)?, &object)?);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -170,14 +168,14 @@ impl Call<'_> {
         });
         let Some(found) = found? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&found.scene)?;
-        let object = OptimumObject::new(&self.scene.name, &found);
+        let object = OptimumObject { preset: &self.scene.name, found: &found };
         let json = self.arguments.common.output.json;
         terminal::result(json, || json::document(&object, self.command), || optimum_text(self.scene, &problem, &found));
         found.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
-            let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
-            terminal::wrote(folder, &files::optimum(folder, of, &found, self.command, &formats)?);
+            let out = self.arguments.common.figures.folder(folder, self.command);
+            terminal::wrote(folder, &files::optimum(&out, &problem, &object)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }

@@ -47,10 +47,10 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let linked = arguments.preset.as_deref().filter(|preset| Link::is_link(preset));
-    let link = linked.map(Link::read).transpose().map_err(CliError::Link)?;
+    let link = linked.map(Link::read).transpose().map_err(|fault| CliError::Input(fault.to_string()))?;
     let opened = match &arguments.preset {
         Some(_) if link.is_some() && !arguments.scene.changes.is_empty() => {
-            return Err(CliError::Usage("a link says itself what is changed: leave --set away"));
+            return Err(CliError::usage("a link says itself what is changed: leave --set away"));
         }
         Some(_) if link.is_some() => None,
         Some(preset) => {
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
             Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset))))
         }
         None if !arguments.scene.changes.is_empty() => {
-            return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));
+            return Err(CliError::usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));
         }
         None => None,
     };
@@ -86,7 +86,9 @@ fn no_window(reason: String) -> CliError {
     } else {
         ""
     };
-    CliError::Window { reason, advice }
+    CliError::System(format!(
+        "no window can be opened here: {reason}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help{advice}"
+    ))
 }
 
 /// Whether it is known beforehand that no window can be opened.

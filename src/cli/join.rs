@@ -41,14 +41,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let folder = arguments.output.folder()?;
     let read = |path: &PathBuf| match read_text(path, LARGEST) {
         Ok(text) => Ok((path.display().to_string(), text)),
-        Err(source) => Err(CliError::File { path: path.clone(), source }),
+        Err(fault) => Err(CliError::file(path, fault)),
     };
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let Joined { sweep, rows, command } = join(&parts)?;
+    let Joined { sweep, rows, command } = join(&parts).map_err(CliError::Input)?;
     let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
     if let Some(folder) = folder {
-        let paths = files::swept(folder, &sweep, &rows, &command, &arguments.figures.formats())?;
-        terminal::wrote(folder, &paths);
+        let out = arguments.figures.folder(folder, &command);
+        terminal::wrote(folder, &files::swept(&out, &sweep, &rows)?);
     }
     Ok(exit)
 }

@@ -6,6 +6,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};
 use crate::export::figure::{Piece, sheets_to_pdf};
+use crate::export::files::ExportError;
 use crate::gui::state::lessons::window_names;
 use crate::lessons::record::RecordError;
 use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
@@ -111,9 +112,9 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
     for (name, title, answers) in [("worksheets", "Worksheets", false), ("answers", "Answers", true)] {
         let sheets: Result<Vec<Vec<Piece>>, String> =
             lessons.iter().map(|lesson| handout::sheet(lesson, answers, &cancel)).collect();
-        let sheets = sheets.map_err(CliError::Answers)?;
+        let sheets = sheets.map_err(CliError::Input)?;
         let html = handout::to_html(title, &sheets).into_bytes();
-        let pdf = sheets_to_pdf(title, &sheets)?;
+        let pdf = sheets_to_pdf(title, &sheets).map_err(ExportError::from)?;
         for (bytes, extension) in [(html, "html"), (pdf, "pdf")] {
             staged.add(format!("{name}.{extension}"), |file| file.write_all(&bytes))?;
         }
@@ -125,7 +126,7 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
 
 fn summary(records: &[PathBuf], out: &Path) -> Result<Exit, CliError> {
     let class: Result<Vec<_>, RecordError> = records.iter().map(|path| record::read(path)).collect();
-    let page = record::summary(&class?);
+    let page = record::summary(&class.map_err(|fault| CliError::Input(fault.to_string()))?);
     write_file(out, |file| file.write_all(page.as_bytes()))?;
     terminal::note(&out.display().to_string());
     Ok(Exit::Solved)

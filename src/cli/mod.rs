@@ -180,7 +180,8 @@ const STACK: usize = 8 << 20;
 fn on_a_thread(command: impl FnOnce() -> Result<Exit, CliError> + Send) -> Result<Exit, CliError> {
     thread::scope(|scope| {
         let thread = thread::Builder::new().name("squeezefilm-command".to_owned()).stack_size(STACK);
-        let thread = thread.spawn_scoped(scope, command).map_err(CliError::Thread)?;
+        let thread = thread.spawn_scoped(scope, command);
+        let thread = thread.map_err(|fault| CliError::System(format!("no thread can be started: {fault}")))?;
         thread.join().unwrap_or_else(|panic| panic::resume_unwind(panic))
     })
 }

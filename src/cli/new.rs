@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::options::from_input;
 use super::terminal;
 use crate::analysis::data_sheet::agreeing;
 use crate::control::Cancel;
@@ -75,10 +76,7 @@ impl FromArgMatches for Given {
 /// Nothing is lost by writing `file`, unless that is wished.
 pub(super) fn free(file: &Path, replace: bool) -> Result<(), CliError> {
     if file.exists() && !replace {
-        return Err(CliError::Answers(format!(
-            "{}: there is such a file already; --replace replaces it",
-            file.display()
-        )));
+        return Err(CliError::file(file, "there is such a file already; --replace replaces it"));
     }
     Ok(())
 }
@@ -87,14 +85,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if let Some(file) = &arguments.file {
         free(file, arguments.replace)?;
         if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
-            return Err(CliError::Answers(format!("{}: there is no such folder", folder.display())));
+            return Err(CliError::file(folder, "there is no such folder"));
         }
     }
     let mut answers = arguments.answers.0.clone();
     if QUESTIONS.iter().any(|question| question.otherwise.is_none() && !answers.contains_key(question.name)) {
         ask(&mut answers)?;
     }
-    let motor = agreeing(&answers, &Cancel::new()).map_err(CliError::Answers)?;
+    let motor = agreeing(&answers, &Cancel::new()).map_err(CliError::Input)?;
     told(&motor);
     match &arguments.file {
         Some(file) => {
@@ -118,7 +116,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                 None => format!("{}: ", question.title()),
             });
             let Some(line) = lines.next() else { return Ok(()) };
-            let answer = line.map_err(|error| CliError::Input(ReadError::System(error.to_string())))?.trim().to_owned();
+            let answer = line.map_err(|error| from_input(ReadError::System(error.to_string())))?.trim().to_owned();
             match question.check(&answer) {
                 _ if answer.is_empty() && question.otherwise.is_some() => {}
                 _ if answer.is_empty() => {

@@ -7,9 +7,10 @@ use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::digits::parse_duration;
 use crate::export::figure::Format;
+use crate::export::files::Folder;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
-use crate::input;
+use crate::input::{self, ReadError};
 use crate::memory;
 use crate::platform::timed;
 use crate::scene::{Scene, presets};
@@ -36,6 +37,11 @@ impl SceneOptions {
     /// The scene of a PRESET argument with the changes made, and a name that says so.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
         self.original_and_changed(preset).map(|(_, scene)| scene)
+    }
+
+    /// The scenes of several PRESET arguments, likewise.
+    pub(super) fn scenes(&self, presets: &[String]) -> Result<Vec<Scene>, CliError> {
+        presets.iter().map(|preset| self.scene(preset)).collect()
     }
 
     /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
@@ -77,8 +83,13 @@ pub(super) const STANDARD_INPUT: &str = "-";
 /// The largest preset on standard input \[MB\].
 const LARGEST: u64 = 16;
 
+/// The fault of what was read from standard input.
+pub(super) fn from_input(fault: ReadError) -> CliError {
+    CliError::Input(format!("standard input: {fault}"))
+}
+
 fn from_standard_input() -> Result<Scene, CliError> {
-    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(CliError::Input)?;
+    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(from_input)?;
     Ok(Scene::from_toml(&text, "standard input")?)
 }
 
@@ -144,10 +155,9 @@ impl SolveOptions {
     /// The same, with these for what was not chosen. Starts the threads and allows the memory.
     pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(usize::from(threads))
-                .build_global()
-                .map_err(|source| CliError::Threads { threads, source })?;
+            rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|fault| {
+                CliError::System(format!("--threads {threads}: the threads cannot be started: {fault}"))
+            })?;
         }
         self.memory.apply();
         let method = self.method.unwrap_or(method);
@@ -255,8 +265,12 @@ pub(super) struct FigureOptions {
 }
 
 impl FigureOptions {
-    /// The formats asked for, of a command that has no fields.
-    pub(super) fn formats(&self) -> Vec<Format> {
+    /// A folder of `--out` for results of this command line, with figures in the formats asked for; of a command that has no fields.
+    pub(super) fn folder<'a>(&self, path: &'a Path, command: &'a [String]) -> Folder<'a> {
+        Folder { path, command, formats: self.formats() }
+    }
+
+    fn formats(&self) -> Vec<Format> {
         let (formats, vtk) = self.formats_and_vtk();
         if vtk {
             terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");

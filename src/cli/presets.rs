@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     match &arguments.preset {
         Some(preset) => print_one(preset, arguments)?,
         None if !arguments.scene.changes.is_empty() => {
-            return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm presets fundamental --set …"));
+            return Err(CliError::usage("--set needs a PRESET to change: squeezefilm presets fundamental --set …"));
         }
         None => print_all(arguments.json)?,
     }

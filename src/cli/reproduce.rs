@@ -6,11 +6,11 @@ use super::options::{FigureOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
-use crate::atomic::{Staged, check_writable};
+use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::digits::{duration, with_error};
 use crate::export::animation::{Options, cycle, frames};
-use crate::export::files::{self, ExportError};
+use crate::export::files::{self, ExportError, Files};
 use crate::export::reproduce::{Object, RowObject, figures, report};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -52,7 +52,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     if arguments.solve.method.is_some() {
-        return Err(CliError::Usage("reproduce solves by both methods: leave --method out"));
+        return Err(CliError::usage("reproduce solves by both methods: leave --method out"));
     }
     // Finds out whether it can be written before anything is solved.
     check_writable(&arguments.out)?;
@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let all = solved?;
     let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
-    terminal::result(arguments.json, || json::document(&Object::new(&all), command), || text(&all));
+    terminal::result(arguments.json, || json::document(&Object(&all), command), || text(&all));
     terminal::wrote(&arguments.out, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
@@ -93,21 +93,20 @@ fn write(
         let movie = cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel)?;
         gif = Some(files::gif(&movie, &folder.join("cycle.gif"), cancel)?);
     }
-    let mut staged = Staged::new(folder)?;
-    let page = report(all, gif.as_deref(), command);
-    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
-    staged.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
-    staged.add("figures.json", |out| out.write_all(json::document(&Object::new(all), command).as_bytes()))?;
-    let formats = arguments.figures.formats();
+    let out = arguments.figures.folder(folder, command);
+    let mut files = Files::new(&out)?;
+    files.text("report.html", &report(all, gif.as_deref(), command))?;
+    files.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
+    files.json("figures.json", &Object(all))?;
     for (number, figure) in figures(all) {
         check()?;
-        files::stage_figure(&mut staged, &format!("fig{number}"), &figure, &formats)?;
+        files.figure(&format!("fig{number}"), &figure)?;
     }
     if let Some(gif) = &gif {
-        staged.add("cycle.gif", |out| out.write_all(gif))?;
+        files.add("cycle.gif", |out| out.write_all(gif))?;
     }
     check()?;
-    Ok(staged.commit()?)
+    Ok(files.commit()?)
 }
 
 /// Table I for people.

@@ -85,10 +85,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let (folder, settings, cancel) = arguments.common.begin()?;
     if settings.method == Method::Paper {
-        return Err(CliError::Usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
+        return Err(CliError::usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
     }
     if arguments.common.solve.accuracy.budget.is_some() {
-        return Err(CliError::Usage(
+        return Err(CliError::usage(
             "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
         ));
     }
@@ -120,13 +120,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::warning(&warning);
     }
     let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-    let fidelity = settings.fidelity.to_string();
-    let object = || json::document(&found.object(&fidelity), command);
-    terminal::result(arguments.common.output.json, object, || text(&found));
+    terminal::result(arguments.common.output.json, || json::document(&found, command), || text(&found));
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = folder {
-        let paths = files::sensitivity(folder, &found, &fidelity, command, &arguments.common.figures.formats())?;
-        terminal::wrote(folder, &paths);
+        let out = arguments.common.figures.folder(folder, command);
+        terminal::wrote(folder, &files::sensitivity(&out, &found)?);
     }
     Ok(Exit::of(&sensitivity.status()))
 }

@@ -9,7 +9,7 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use crate::digits::duration;
-use crate::export::files::{self, Control, ExportError, Solved};
+use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
 use crate::problem::Problem;
@@ -65,11 +65,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes = arguments
-        .presets
-        .iter()
-        .map(|preset| arguments.common.scene.scene(preset))
-        .collect::<Result<Vec<Scene>, _>>()?;
+    let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     let (folder, settings, cancel) = arguments.common.begin()?;
     problems.iter().try_for_each(|problem| check(problem, &settings))?;
@@ -156,7 +152,8 @@ fn one(
         }
         let control = Control { cancel, drawn: &|_, _| () };
         let (formats, vtk) = arguments.common.figures.formats_and_vtk();
-        let written_files = files::solve(folder, &solved, &result, &formats, &control).and_then(|mut paths| {
+        let out = Folder { path: folder, command, formats };
+        let written_files = files::solve(&out, &solved, &result, &control).and_then(|mut paths| {
             // Of many instants their series is named.
             paths.extend(if vtk { files::vtk(folder, &solved, &control)?.pop() } else { None });
             Ok(paths)

@@ -6,10 +6,9 @@ use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::exactness;
-use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
-use crate::atomic::Staged;
+use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
 use crate::digits::duration;
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::stability::{CellObject, Object, detail, figure};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -57,22 +56,20 @@ fn map() -> ValueParser {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
-        return Err(CliError::Usage("stability maps the parameters of a motor, and this preset is a plate"));
+        return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
     let (folder, settings, cancel) = arguments.common.begin()?;
     let methods =
         arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
     let maps: Vec<&'static Map> =
         if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
-    let count = usize::from(arguments.cells);
-
-    let total = number_of_cells(&scene, &maps, &methods, count);
-    let (solved, wall_s) = Bar::points(total, 0).timed(|bar| {
-        survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
+    let asked = cells(&scene, &maps, &methods, usize::from(arguments.cells));
+    let total = asked.len();
+    let (cells, wall_s) = Bar::points(total, 0).timed(|bar| {
+        survey(&scene, asked, &settings, &cancel, &|cell| {
             bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
         })
     });
-    let cells = solved?;
 
     let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
@@ -85,15 +82,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
     }
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
-        let mut staged = Staged::new(folder)?;
+        let out = arguments.common.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
         // What was cancelled does not pass for a map.
         let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-        staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
+        files.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
         if complete {
-            let drawn = figure(&scene.name, settings.fidelity, &cells);
-            stage_figure(&mut staged, "stability", &drawn, &arguments.common.figures.formats())?;
+            files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }
-        terminal::wrote(folder, &staged.commit()?);
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }

@@ -7,12 +7,11 @@ use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
-use crate::atomic::Staged;
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::json;
-use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
+use crate::export::startup::{Object, Row, figure, place, steady, warnings, write_csv};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -77,7 +76,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problem = Problem::try_from(&scene)?;
     let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
-        return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
+        return Err(CliError::usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
     let cycles = |otherwise| arguments.cycles.map_or(otherwise, |cycles| cycles as usize);
     let dropped = Dropped {
@@ -112,23 +111,24 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
     let ended = ended?;
     let steady = steady(&problem, &ended);
-    let object = Object::new(&scene, &problem, &settings, &ended, &rows, wall_s);
-    object.warnings.iter().for_each(|warning| terminal::warning(warning));
+    let object = Object { scene: &scene, problem: &problem, settings: &settings, ended: &ended, rows: &rows, wall_s };
+    warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
-        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let out = arguments.common.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
+        files.json("startup.json", &object)?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some(last) = rows.last() {
             drawn.provenance.error = format!("ends at {}", last.main());
         }
-        stage_figure(&mut staged, "startup", &drawn, &arguments.common.figures.formats())?;
-        staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-        terminal::wrote(folder, &staged.commit()?);
+        files.figure("startup", &drawn)?;
+        files.text("scene.toml", &scene.to_toml())?;
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(Exit::of(&ended.status))
 }

@@ -1,7 +1,7 @@
 //! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
 
 use super::columns::{Columns, paragraph};
-use crate::analysis::decision::exactness;
+use crate::analysis::decision::{exactness, sentences};
 use crate::analysis::exact::{Comparison, units};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::regime;
@@ -10,11 +10,11 @@ use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{as_given, duration, percent, short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::json::{FloatingObject, Summary, beside_limit};
+use crate::export::json::{FloatingObject, Summary, beside_limit, status_name};
 use crate::gas::species::IdealGas;
 use crate::problem::{GRAVITY, Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
-use crate::solution::{Outcome, Performance};
+use crate::solution::{Accuracy, Outcome, Performance, Status, StoppedBy};
 use std::fmt::Write as _;
 
 /// Significant digits of numbers without an error of their own.
@@ -49,8 +49,8 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     let model = &summary.model;
     // Writing to a String cannot fail.
     let _ = writeln!(text, "\nModelled: method {}, {}", model.method, exactness(&model.fidelity));
-    for reason in &model.why {
-        text.push_str(&paragraph(reason, "  - ", "    "));
+    for reason in sentences(model) {
+        text.push_str(&paragraph(&reason, "  - ", "    "));
     }
     text.push_str(&cost(summary));
     text
@@ -61,19 +61,17 @@ fn name(scene: &Scene) -> String {
 }
 
 fn status(summary: &Summary) -> String {
-    if summary.status == "not resolved" {
-        return "NOT RESOLVED: the stated error is as large as the result".to_owned();
-    }
-    match (summary.numbers.get(Quantity::Residual), summary.numbers.get(Quantity::Tolerance)) {
-        (Some(residual), Some(tolerance)) => {
+    match summary.status {
+        Status::NotResolved { .. } => "NOT RESOLVED: the stated error is as large as the result".to_owned(),
+        Status::NotConverged { residual, tolerance } if (residual + tolerance).is_finite() => {
             format!(
                 "NOT CONVERGED: the last round still changed the result by {}, {} is allowed",
                 percent(residual),
                 percent(tolerance)
             )
         }
-        _ if summary.converged => "converged to the periodic steady state".to_owned(),
-        _ => summary.status.to_uppercase(),
+        Status::Converged => "converged to the periodic steady state".to_owned(),
+        status => status_name(&status).to_uppercase(),
     }
 }
 
@@ -312,7 +310,7 @@ fn limits(validity: &[Excess]) -> String {
 
 /// `Cost: 42.6 ms for …`
 fn cost(summary: &Summary) -> String {
-    let stats = &summary.stats.counted;
+    let stats = &summary.stats;
     let mut parts = vec![format!("{} film steps", stats.film_steps)];
     if stats.coupling_iterations > 0 {
         parts.push(format!("{} rounds of film and contact", stats.coupling_iterations));
@@ -320,16 +318,17 @@ fn cost(summary: &Summary) -> String {
     } else {
         parts.push(format!("{} cycles", stats.cycles));
     }
-    if let (Some(asked), Some(stated)) = (summary.accuracy_asked, summary.accuracy_stated) {
-        let why = match summary.stopped_by {
-            "budget" => "; the time allowed was up",
-            "limit" => "; no finer grid was tried",
-            _ => "",
+    let Accuracy { asked, stated, stopped_by } = summary.accuracy;
+    if asked > 0.0 && stated.is_finite() {
+        let why = match stopped_by {
+            StoppedBy::Accuracy => "",
+            StoppedBy::Budget => "; the time allowed was up",
+            StoppedBy::Limit => "; no finer grid was tried",
         };
         parts.push(format!("stated error {} ({} asked for{why})", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
-    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(summary.stats.wall_s)), parts.join(", ")), "\n", "  ")
+    paragraph(&format!("Cost: {}: {}; {grid}", duration(summary.wall_s), parts.join(", ")), "\n", "  ")
 }
 
 fn shown(value: f64) -> String {
@@ -351,7 +350,6 @@ mod tests {
     use super::*;
     use crate::control::Cancel;
     use crate::scene::presets;
-    use crate::solution::Status;
     use crate::solve::{Settings, solve};
 
     #[test]
@@ -361,7 +359,8 @@ mod tests {
         let mut solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
         solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
         let summary = Summary::new(&problem, &solution, 0.0123, &[]);
-        assert_eq!((summary.converged, summary.status), (false, "not converged"));
+        let object = serde_json::to_value(&summary).unwrap();
+        assert_eq!((&object["converged"], &object["status"]), (&false.into(), &"not converged".into()));
         let change = [Quantity::Residual, Quantity::Tolerance].map(|quantity| summary.numbers.get(quantity));
         assert_eq!(change, [Some(2e-3), Some(1e-6)]);
         let shown = text(&scene, &problem, &solution.outcome, &summary);

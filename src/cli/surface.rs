@@ -4,12 +4,11 @@ use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{FigureOptions, OutputOptions, whole};
 use super::terminal;
-use crate::atomic::Staged;
 use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
-use crate::export::files::stage_figure;
+use crate::export::files::Files;
 use crate::export::json;
-use crate::export::surface::{Face, FlowFactors, Object, preset};
+use crate::export::surface::{Face, FlowFactors, Object};
 use crate::input::read_text;
 use crate::scene::heights::LARGEST;
 use crate::surface::height_map::HeightMap;
@@ -65,21 +64,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let object = Object::new(told, &pair);
     terminal::result(arguments.output.json, || json::document(&object, command), || text(&object));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("surface.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
-        staged.add("surface.toml", |out| out.write_all(preset(&pair).as_bytes()))?;
-        let formats = arguments.figures.formats();
+        let out = arguments.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.json("surface.json", &object)?;
+        files.text("surface.toml", &object.preset)?;
         for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
-            stage_figure(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture), &formats)?;
+            files.figure(&format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
         }
-        terminal::wrote(folder, &staged.commit()?);
+        terminal::wrote(folder, &files.commit()?);
     }
     Ok(Exit::Solved)
 }
 
 fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
-    let text = read_text(file, LARGEST).map_err(|source| CliError::File { path: file.to_owned(), source })?;
-    measured(&text, usize::from(degree)).map_err(|error| CliError::Answers(format!("{}: {error}", file.display())))
+    let text = read_text(file, LARGEST).map_err(|fault| CliError::file(file, fault))?;
+    measured(&text, usize::from(degree)).map_err(|fault| CliError::file(file, fault))
 }
 
 fn text(object: &Object) -> String {

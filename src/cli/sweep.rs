@@ -12,7 +12,7 @@ use crate::analysis::sweep::{Axis, Part, Row, Sweep, Values, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{duration, significant};
 use crate::export::compare::{LIMITS, TIME_UP};
-use crate::export::saved::{self, ReadError};
+use crate::export::saved;
 use crate::export::sweep::Object;
 use crate::export::{files, json};
 use crate::scene::show_text;
@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         warn_of_given_path(&scene);
     }
     if arguments.common.scene.changes.iter().any(|(key, _)| varies(key)) {
-        return Err(CliError::Usage("--set has no effect on a key that is varied: leave one of the two out"));
+        return Err(CliError::usage("--set has no effect on a key that is varied: leave one of the two out"));
     }
     for (vary, axis) in arguments.vary.iter().zip(sweep.axes()) {
         if let Values::Range { count, .. } = vary.values
@@ -160,8 +160,7 @@ pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: 
             terminal::error(&told);
         }
     }
-    let object = Object::new(sweep, rows);
-    terminal::result(json, || json::document(&object, command), || text(sweep, rows, budget));
+    terminal::result(json, || json::document(&Object { sweep, rows }, command), || text(sweep, rows, budget));
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 
@@ -212,7 +211,10 @@ impl<'a> Folder<'a> {
         let failed = |source| WriteError { path: path.to_owned(), source };
         std::fs::create_dir_all(path).map_err(failed)?;
         match Lock::of(path, unfinished(part).trim_end_matches(UNFINISHED)).map_err(failed)? {
-            None => Err(CliError::Busy { folder: path.to_owned() }),
+            None => {
+                let busy = "another sweep is being saved into this folder; give another folder, or wait for it";
+                Err(CliError::file(path, busy))
+            }
             lock => Ok(Self { path, sweep, part, command, lock, made }),
         }
     }
@@ -220,11 +222,14 @@ impl<'a> Folder<'a> {
     /// The rows that were solved before.
     fn left_over(&self) -> Result<Vec<Row>, CliError> {
         let path = self.path.join(unfinished(self.part));
-        let fault = |source| CliError::Resume { path: path.clone(), source };
+        let fault = |fault: String| {
+            let way_out = "give another folder, or --restart to begin anew";
+            CliError::file(&path, format!("cannot be continued: {fault}; {way_out}"))
+        };
         match std::fs::read_to_string(&path) {
             Ok(text) => saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
-            Err(error) => Err(fault(ReadError::Damaged { line: 1, fault: error.to_string() })),
+            Err(error) => Err(fault(format!("line 1: {error}"))),
         }
     }
 
@@ -239,7 +244,7 @@ impl<'a> Folder<'a> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
-        let paths = files::swept(self.path, self.sweep, rows, self.command, &figures.formats())?;
+        let paths = files::swept(&figures.folder(self.path, self.command), self.sweep, rows)?;
         let path = self.path.join(unfinished(self.part));
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if arguments.converged && arguments.solve.method == Some(Method::Paper) {
-        return Err(CliError::Usage("--converged is method auto, and --method paper was asked for: keep one"));
+        return Err(CliError::usage("--converged is method auto, and --method paper was asked for: keep one"));
     }
     let folder = arguments.output.folder()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
@@ -155,7 +155,7 @@ mod tests {
         let computed = |status: &Status| {
             let alpha = Estimate { value: 0.25, error: f64::INFINITY };
             let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
-            Computed { status: *status, result, load: 2.45, warnings: Vec::new() }
+            Computed { status: *status, result, warnings: Vec::new() }
         };
         published()
             .into_iter()

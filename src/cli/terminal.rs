@@ -43,9 +43,6 @@ pub(super) fn result(json: bool, object: impl FnOnce() -> String, human: impl Fn
 }
 
 /// Whether all data were written.
-///
-/// # Errors
-/// [`CliError::Output`] if they were not.
 pub(super) fn ended() -> Result<(), CliError> {
     match FAULT.lock().unwrap_or_else(PoisonError::into_inner).take() {
         Some(error) => Err(CliError::Output(error)),

@@ -9,10 +9,9 @@ use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
-use crate::atomic::Staged;
 use crate::digits::{duration, parse_duration, percent, significant};
-use crate::export::files::stage_figure;
-use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
+use crate::export::files::Files;
+use crate::export::tradeoff::{Object, figure, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
 use crate::problem::Problem;
@@ -90,42 +89,23 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let budget = arguments.budget.map(|time| Target::Budget(time.as_secs_f64()));
     let targets = [arguments.accuracy.map(Target::Accuracy), budget];
     let targets: Vec<Target> = targets.into_iter().flatten().collect();
-    let object = Object {
-        preset: &scene.name,
-        judged: tradeoff.judged.name(),
-        reference: tradeoff.reference.map(|i| tradeoff.points[i].run.candidate.name.as_str()),
-        settings: settings(&tradeoff),
-        chosen: targets.iter().map(|target| choice(&tradeoff, *target)).collect(),
-    };
+    let object = Object { preset: &scene.name, tradeoff: &tradeoff, targets: &targets };
     let alone = arguments.scene.command(&arguments.preset) + &arguments.memory.option();
     let advice: String = targets.iter().map(|target| advice(&tradeoff, *target, &alone)).collect();
     terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = folder {
-        let mut staged = Staged::new(folder)?;
-        staged.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
-        staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let out = arguments.figures.folder(folder, command);
+        let mut files = Files::new(&out)?;
+        files.add("tradeoff.csv", |out| csv::rows(settings(&tradeoff), out))?;
+        files.json("tradeoff.json", &object)?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
-        stage_figure(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen), &arguments.figures.formats())?;
-        terminal::wrote(folder, &staged.commit()?);
+        files.figure("tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
+        terminal::wrote(folder, &files.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());
     Ok(if fulfilled { Exit::Solved } else { Exit::Other })
-}
-
-fn choice(tradeoff: &Tradeoff, target: Target) -> ChoiceObject {
-    let chosen = tradeoff.choose(target).map(|i| &tradeoff.points[i].run.candidate);
-    let (name, value) = match target {
-        Target::Accuracy(share) => ("accuracy", share),
-        Target::Budget(seconds) => ("budget_s", seconds),
-    };
-    ChoiceObject {
-        wish: name,
-        value,
-        setting: chosen.map(|candidate| candidate.name.clone()),
-        options: chosen.map(|candidate| candidate.options.clone()),
-    }
 }
 
 /// A recommendation in words, and the command to follow it; `alone` solves the scene as it is.

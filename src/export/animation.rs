@@ -264,9 +264,6 @@ impl Movie {
     }
 
     /// Writes a GIF that repeats for ever.
-    ///
-    /// # Errors
-    /// Those of the writer; an interruption if it was cancelled.
     pub fn gif(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
         let (width, height) = (side(self.width)?, side(self.height)?);
         let mut palette = Palette::new(&self.frames);
@@ -311,9 +308,6 @@ impl Movie {
     }
 
     /// Writes an animated PNG that repeats for ever.
-    ///
-    /// # Errors
-    /// Those of the writer; an interruption if it was cancelled.
     pub fn apng(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
         let count = u32::try_from(self.count()).map_err(io::Error::other)?;
         let mut encoder = png::Encoder::new(out, self.width, self.height);

@@ -5,7 +5,7 @@
 use super::animation::{Movie, Options};
 use super::csv::{number, words as csv_words};
 use super::error::ExportError;
-use super::estimates;
+use super::estimates::{self, finite};
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
@@ -18,6 +18,7 @@ use crate::analysis::torque::with_film;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::digits::{change, significant, with_error};
+use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
@@ -47,33 +48,49 @@ pub fn mark(run: &ComparedRun) -> String {
 /// Of a result that is less exact than was asked for, since the time allowed for it was up.
 pub const TIME_UP: &str = "time was up";
 
-/// The object of `--json`.
-#[derive(Clone, Debug, serde::Serialize)]
+/// The object of `--json`: runs of which the first is what the others differ from, and the keys in which their scenes differ.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
-    /// `auto` or `paper`.
-    pub method: &'static str,
-    /// `draft`, `standard`, …; of method paper null.
-    pub fidelity: Option<String>,
-    /// One for each preset; differences are against the first.
-    pub runs: Vec<RunObject<'a>>,
-    /// Keys in which the scenes differ, each with its value in every run, null where there is none.
-    pub differing: Vec<ParameterObject>,
+    /// One for each preset.
+    pub runs: &'a [ComparedRun],
+    /// How they were solved.
+    pub settings: &'a Settings,
 }
 
-/// One key.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct ParameterObject {
-    /// Dotted key.
-    pub key: &'static str,
-    /// Unit of its values.
-    pub unit: &'static str,
-    /// Its value in every run.
-    pub values: Vec<Option<Value>>,
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { runs, settings } = *self;
+        let rows = results(runs);
+        let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
+        let runs_of = runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) });
+        let differing = parameter_rows(runs).into_iter().filter(ParameterRow::differs).map(ParameterObject);
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("method", settings.method.name())?;
+        // The paper's method has no fidelity.
+        let fidelity = (settings.method == Method::Auto).then(|| settings.fidelity.to_string());
+        map.serialize_entry("fidelity", &fidelity)?;
+        map.serialize_entry("runs", &runs_of.collect::<Vec<_>>())?;
+        map.serialize_entry("differing", &differing.collect::<Vec<_>>())?;
+        map.end()
+    }
+}
+
+/// A key, its unit, and its value in every run, null where there is none.
+struct ParameterObject(ParameterRow);
+
+impl Serialize for ParameterObject {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let ParameterRow { parameter, values } = &self.0;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("key", parameter.key)?;
+        map.serialize_entry("unit", parameter.unit)?;
+        map.serialize_entry("values", values)?;
+        map.end()
+    }
 }
 
 /// One run: the names of `solve --json`, as far as a scene has them.
-#[derive(Clone, Debug)]
-pub struct RunObject<'a> {
+struct RunObject<'a> {
     run: &'a ComparedRun,
     differences: Vec<(Quantity, ResultCell)>,
 }
@@ -91,7 +108,7 @@ impl Serialize for RunObject<'_> {
         let differences: serde_json::Map<String, serde_json::Value> = self
             .differences
             .iter()
-            .filter_map(|(quantity, cell)| Some((quantity.name().to_owned(), cell.difference_percent?.into())))
+            .filter_map(|(quantity, cell)| Some((quantity.name().to_owned(), cell.difference_percent?.value.into())))
             .collect();
         map.serialize_entry("difference_percent", &differences)?;
         let solution = self.run.solved.as_ref().ok();
@@ -100,28 +117,6 @@ impl Serialize for RunObject<'_> {
         map.serialize_entry("warnings", &solution.map(|solution| &solution.warnings))?;
         map.serialize_entry("scene_toml", &self.run.scene.to_toml())?;
         map.end()
-    }
-}
-
-impl<'a> Object<'a> {
-    /// The object of runs.
-    pub fn new(runs: &'a [ComparedRun], settings: &Settings) -> Self {
-        let rows = results(runs);
-        let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
-        Self {
-            method: settings.method.name(),
-            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
-            runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
-            differing: parameter_rows(runs)
-                .into_iter()
-                .filter(ParameterRow::differs)
-                .map(|ParameterRow { parameter, values }| ParameterObject {
-                    key: parameter.key,
-                    unit: parameter.unit,
-                    values,
-                })
-                .collect(),
-        }
     }
 }
 
@@ -148,7 +143,9 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     ])?;
     for row in results(runs) {
         for (i, (run, cell)) in runs.iter().zip(&row.cells).enumerate() {
-            let number = |value: Option<f64>| value.map_or_else(String::new, number);
+            let value = |found: Option<Estimate>| found.map_or_else(String::new, |found| number(found.value));
+            let error =
+                |found: Option<Estimate>| found.and_then(|found| finite(found.error)).map_or_else(String::new, number);
             writer.write_record([
                 (i + 1).to_string().as_str(),
                 &csv_words(&run.label),
@@ -157,10 +154,10 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
                 &run.outside().join(";"),
                 row.quantity.name(),
                 cell.unit,
-                &number(cell.value),
-                &number(cell.error),
-                &number(cell.difference_percent),
-                &number(cell.difference_error_percent),
+                &value(cell.found),
+                &error(cell.found),
+                &value(cell.difference_percent),
+                &error(cell.difference_percent),
             ])?;
         }
     }
@@ -292,32 +289,24 @@ pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
 
 /// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
 pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
-    let text = match cell.value {
-        None => return String::new(),
-        Some(value) if row.quantity.is_count() => value.to_string(),
-        Some(value) if row.quantity.error().is_none() => significant(value, 4),
-        // If it has an estimate, but not here, that is told.
-        Some(value) => with_error(value, cell.error.unwrap_or(f64::INFINITY)),
-    };
-    if row.unit.is_none() { format!("{text} {}", cell.unit) } else { text }
+    let text = row.quantity.text(cell.found);
+    if row.unit.is_none() && cell.found.is_some() { format!("{text} {}", cell.unit) } else { text }
 }
 
 /// `+3.2 ± 0.1 %`; of what is in another unit than the first run's: that there is none.
 pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
-    let first = row.cells.first().filter(|first| first.value.is_some() && cell.value.is_some());
+    let first = row.cells.first().filter(|first| first.found.is_some() && cell.found.is_some());
     if let Some(first) = first.filter(|first| first.unit != cell.unit) {
         return format!("in {}, not {}", cell.unit, first.unit);
     }
-    match (cell.difference_percent, cell.difference_error_percent) {
-        (None, _) => String::new(),
-        (Some(0.0), _) => "0 %".to_owned(),
-        (Some(difference), Some(error)) if error.is_finite() && error > 0.0 => {
-            format!("{}{} %", if difference >= 0.0 { "+" } else { "" }, with_error(difference, error))
+    let Some(Estimate { value, error }) = cell.difference_percent else { return String::new() };
+    match value {
+        0.0 => "0 %".to_owned(),
+        _ if error.is_finite() && error > 0.0 => {
+            format!("{}{} %", if value >= 0.0 { "+" } else { "" }, with_error(value, error))
         }
-        (Some(difference), _) if difference.abs() >= 1000.0 => {
-            format!("× {}", significant(1.0 + difference / 100.0, 3))
-        }
-        (Some(difference), _) => change(difference, if difference.abs() < 0.1 { 3 } else { 1 }),
+        _ if value.abs() >= 1000.0 => format!("× {}", significant(1.0 + value / 100.0, 3)),
+        _ => change(value, if value.abs() < 0.1 { 3 } else { 1 }),
     }
 }
 

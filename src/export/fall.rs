@@ -1,5 +1,6 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use super::estimates;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -8,6 +9,7 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Status;
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
 /// The plate at the end of a cycle of the vibration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,44 +41,34 @@ impl From<Cycle> for Row {
     }
 }
 
-/// The object of `--json`.
-#[derive(Clone, Debug, Serialize)]
+/// The object of `--json`: a fall that ended, and its cycles. What is not known is null.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
-    /// The scene's name.
-    pub preset: &'a str,
-    /// `plate`.
-    pub scene: &'static str,
-    /// `draft`, `standard`, …
-    pub fidelity: String,
-    /// The height no longer changes.
-    pub converged: bool,
-    /// The mean gap at which it floats by the periodic solve; null if it does not …
-    pub mean_gap_um: Option<f64>,
-    /// … with its stated error.
-    pub mean_gap_error_um: Option<f64>,
-    /// Wall time \[s\], the periodic solve included.
-    pub wall_s: f64,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// How exactly it was solved.
+    pub fidelity: Fidelity,
+    /// How it ended.
+    pub ended: &'a Fall,
     /// One for each cycle.
     pub rows: &'a [Row],
-    /// What the user should know.
-    pub warnings: Vec<String>,
+    /// Wall time \[s\] by the caller's clock, the periodic solve included.
+    pub wall_s: f64,
 }
 
-impl<'a> Object<'a> {
-    /// Of a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included.
-    pub fn new(scene: &'a Scene, fidelity: Fidelity, ended: &Fall, rows: &'a [Row], wall_s: f64) -> Self {
-        let floats = floats(ended);
-        Self {
-            preset: &scene.name,
-            scene: scene.scene(),
-            fidelity: fidelity.to_string(),
-            converged: ended.status == Status::Converged,
-            mean_gap_um: floats.map(|gap| gap.value),
-            mean_gap_error_um: floats.map(|gap| gap.error).filter(|error| error.is_finite()),
-            wall_s,
-            rows,
-            warnings: ended.floats.clone().err().into_iter().collect(),
-        }
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { scene, fidelity, ended, rows, wall_s } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", &scene.name)?;
+        map.serialize_entry("scene", scene.scene())?;
+        map.serialize_entry("fidelity", &fidelity.to_string())?;
+        map.serialize_entry("converged", &(ended.status == Status::Converged))?;
+        estimates::add(&mut map, "mean_gap", "_um", floats(ended))?;
+        map.serialize_entry("wall_s", wall_s)?;
+        map.serialize_entry("rows", rows)?;
+        map.serialize_entry("warnings", &ended.floats.as_ref().err().into_iter().collect::<Vec<_>>())?;
+        map.end()
     }
 }
 

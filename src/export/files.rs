@@ -8,7 +8,6 @@ use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
-use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -19,6 +18,7 @@ use crate::scene::Scene;
 use crate::solution::Solution;
 use crate::solve::Settings;
 use rayon::prelude::*;
+use serde::Serialize;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -58,17 +58,62 @@ pub struct Solved<'a> {
     pub torque: Option<&'a TorqueCurves>,
 }
 
-/// Stages a figure under a name, once in each format.
-///
-/// # Errors
-/// [`WriteError`], also of what cannot be drawn.
-pub fn stage_figure(staged: &mut Staged, name: &str, figure: &Figure, formats: &[Format]) -> Result<(), WriteError> {
-    for format in formats {
-        staged.add(format!("{name}.{}", format.name()), |out| {
-            out.write_all(&to_bytes(figure, *format).map_err(io::Error::other)?)
-        })?;
+/// Where results are written, and how.
+#[derive(Clone, Debug)]
+pub struct Folder<'a> {
+    /// The folder; it is made if need be.
+    pub path: &'a Path,
+    /// The command line that the results come from, word by word; empty if there was none.
+    pub command: &'a [String],
+    /// Formats of the figures.
+    pub formats: Vec<Format>,
+}
+
+/// Results on their way into a folder.
+pub struct Files<'a> {
+    staged: Staged,
+    folder: &'a Folder<'a>,
+}
+
+impl<'a> Files<'a> {
+    /// None yet, for this folder.
+    pub fn new(folder: &'a Folder<'a>) -> Result<Self, WriteError> {
+        Ok(Self { staged: Staged::new(folder.path)?, folder })
     }
-    Ok(())
+
+    /// Adds a file as `write` writes it.
+    pub fn add(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        self.staged.add(name, write)
+    }
+
+    /// Adds a text.
+    pub fn text(&mut self, name: &str, text: &str) -> Result<(), WriteError> {
+        self.staged.add(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// Adds an object of `--json`.
+    pub fn json(&mut self, name: &str, object: &impl Serialize) -> Result<(), WriteError> {
+        self.text(name, &json::document(object, self.folder.command))
+    }
+
+    /// Adds a figure, once in each format. An error is also that it cannot be drawn.
+    pub fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), WriteError> {
+        for format in &self.folder.formats {
+            self.staged.add(format!("{name}.{}", format.name()), |out| {
+                out.write_all(&to_bytes(figure, *format).map_err(io::Error::other)?)
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Gives every file its name, and returns the paths.
+    pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
+        self.staged.commit()
+    }
 }
 
 /// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
@@ -84,26 +129,25 @@ pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
 
 /// What `squeezefilm solve --out` writes into a folder.
 pub fn solve(
-    folder: &Path,
+    folder: &Folder<'_>,
     solved: &Solved<'_>,
     summary: &Summary,
-    formats: &[Format],
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let Solved { scene, problem, solution, .. } = *solved;
-    let mut staged = Staged::new(folder)?;
-    staged.add("summary.json", |out| out.write_all(json::text(summary).as_bytes()))?;
-    staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-    staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
-    staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
-    staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
-    staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
+    let mut files = Files::new(folder)?;
+    files.text("summary.json", &json::text(summary))?;
+    files.text("scene.toml", &scene.to_toml())?;
+    files.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
+    files.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
+    files.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
+    files.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
     if let Some(curves) = solved.torque {
-        staged.add("torque.csv", |out| torque::write_csv(curves, out))?;
+        files.add("torque.csv", |out| torque::write_csv(curves, out))?;
     }
-    add_figures(&mut staged, solved, formats, control)?;
+    add_figures(&mut files, solved, control)?;
     control.check()?;
-    Ok(staged.commit()?)
+    Ok(files.commit()?)
 }
 
 /// The fields of a solve as files of VTK, one for each instant, and the series of them that ParaView opens.
@@ -121,42 +165,37 @@ pub fn vtk(folder: &Path, solved: &Solved<'_>, control: &Control<'_>) -> Result<
 
 /// The figures of a solve alone.
 pub fn solve_figures(
-    folder: &Path,
+    folder: &Folder<'_>,
     solved: &Solved<'_>,
-    formats: &[Format],
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
-    let mut staged = Staged::new(folder)?;
-    add_figures(&mut staged, solved, formats, control)?;
+    let mut files = Files::new(folder)?;
+    add_figures(&mut files, solved, control)?;
     control.check()?;
-    Ok(staged.commit()?)
+    Ok(files.commit()?)
 }
 
-fn add_figures(
-    staged: &mut Staged,
-    solved: &Solved<'_>,
-    formats: &[Format],
-    control: &Control<'_>,
-) -> Result<(), ExportError> {
-    let mut formats = formats.to_vec();
+/// Adds the figures of a solve, drawn several at a time.
+fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>) -> Result<(), ExportError> {
+    let mut formats = files.folder.formats.clone();
     formats.sort_unstable();
     formats.dedup();
     if formats.is_empty() {
         return Ok(());
     }
     let figures = figures::of(solved.problem, solved.solution, solved.history, solved.torque);
-    let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
-    let drawn = control.counted(files.len(), |done| {
+    let asked: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
+    let drawn = control.counted(asked.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {
             control.check()?;
             let bytes = to_bytes(figure, *format)?;
             done();
             Ok((format!("{name}.{}", format.name()), bytes))
         };
-        files.par_iter().map(draw).collect::<Result<Vec<_>, ExportError>>()
+        asked.par_iter().map(draw).collect::<Result<Vec<_>, ExportError>>()
     })?;
     for (name, bytes) in drawn {
-        staged.add(&name, |out| out.write_all(&bytes))?;
+        files.add(&name, |out| out.write_all(&bytes))?;
     }
     Ok(())
 }
@@ -222,30 +261,28 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
 
 /// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
 pub fn comparison(
-    folder: &Path,
+    folder: &Folder<'_>,
     runs: &[ComparedRun],
-    (settings, all, command): (&Settings, bool, &[String]),
-    formats: &[Format],
+    settings: &Settings,
+    all: bool,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let all = all || runs.len() < 2;
-    let movies = moving(runs, folder, control)?;
-    let mut staged = Staged::new(folder)?;
-    let page = report(runs, settings, all, &movies, command);
-    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
-    staged.add("compare.csv", |out| compare::write_csv(runs, out))?;
-    staged.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
-    let object = compare::Object::new(runs, settings);
-    staged.add("compare.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+    let movies = moving(runs, folder.path, control)?;
+    let mut files = Files::new(folder)?;
+    files.text("report.html", &report(runs, settings, all, &movies, folder.command))?;
+    files.add("compare.csv", |out| compare::write_csv(runs, out))?;
+    files.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
+    files.json("compare.json", &compare::Object { runs, settings })?;
     for (name, gif) in &movies {
-        staged.add(format!("{name}.gif"), |out| out.write_all(gif))?;
+        files.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
     }
     for (name, figure) in all_figures(runs) {
         control.check()?;
-        stage_figure(&mut staged, &name, &figure, formats)?;
+        files.figure(&name, &figure)?;
     }
     control.check()?;
-    Ok(staged.commit()?)
+    Ok(files.commit()?)
 }
 
 /// The report of one run, or of several, as one HTML file.
@@ -270,74 +307,52 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.
-pub fn swept(
-    folder: &Path,
-    swept: &Sweep,
-    rows: &[Row],
-    command: &[String],
-    formats: &[Format],
-) -> Result<Vec<PathBuf>, WriteError> {
-    let mut staged = Staged::new(folder)?;
-    staged.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    let object = sweep::Object::new(swept, rows);
-    staged.add("sweep.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
-    stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
-    staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
-    staged.commit()
+pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row]) -> Result<Vec<PathBuf>, WriteError> {
+    let mut files = Files::new(folder)?;
+    files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
+    files.json("sweep.json", &sweep::Object { sweep: swept, rows })?;
+    files.figure("sweep", &sweep::figure(swept, rows))?;
+    files.text("scene.toml", &swept.scene().to_toml())?;
+    files.commit()
 }
 
-/// What `squeezefilm fit --out` writes into a folder of a fit to measurements; `preset`: what was fitted, `problem`: with the values found.
-pub fn fitted(
-    folder: &Path,
-    (preset, problem): (&str, &Problem),
-    (found, measured): (&Fitted, &Measured),
-    command: &[String],
-    formats: &[Format],
-) -> Result<Vec<PathBuf>, WriteError> {
-    let mut staged = Staged::new(folder)?;
-    let object = fit::Object::new(preset, found, measured);
-    staged.add("fit.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
-    staged.add("fit.csv", |out| fit::write_csv(found, measured, out))?;
-    for (name, figure) in fit::figures(problem, found, measured) {
-        stage_figure(&mut staged, name, &figure, formats)?;
+/// What `squeezefilm fit --out` writes into a folder of a fit to measurements; `problem`: with the values found.
+pub fn fitted(folder: &Folder<'_>, problem: &Problem, fit: &fit::Object<'_>) -> Result<Vec<PathBuf>, WriteError> {
+    let fit::Object { fitted, measured, .. } = *fit;
+    let mut files = Files::new(folder)?;
+    files.json("fit.json", fit)?;
+    files.add("fit.csv", |out| fit::write_csv(fitted, measured, out))?;
+    for (name, figure) in fit::figures(problem, fitted, measured) {
+        files.figure(name, &figure)?;
     }
-    staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
-    staged.commit()
+    files.text("fitted.toml", &fitted.scene.to_toml())?;
+    files.commit()
 }
 
 /// What it writes of an optimum.
 pub fn optimum(
-    folder: &Path,
-    (preset, problem): (&str, &Problem),
-    found: &Optimum,
-    command: &[String],
-    formats: &[Format],
+    folder: &Folder<'_>,
+    problem: &Problem,
+    optimum: &fit::OptimumObject<'_>,
 ) -> Result<Vec<PathBuf>, WriteError> {
-    let mut staged = Staged::new(folder)?;
-    let object = fit::OptimumObject::new(preset, found);
-    staged.add("fit.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
-    staged.add("optimum.csv", |out| fit::write_optimum_csv(found, out))?;
-    stage_figure(&mut staged, "optimum", &fit::optimum_figure(problem, found), formats)?;
-    staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
-    staged.commit()
+    let mut files = Files::new(folder)?;
+    files.json("fit.json", optimum)?;
+    files.add("optimum.csv", |out| fit::write_optimum_csv(optimum.found, out))?;
+    files.figure("optimum", &fit::optimum_figure(problem, optimum.found))?;
+    files.text("fitted.toml", &optimum.found.scene.to_toml())?;
+    files.commit()
 }
 
 /// What `squeezefilm sensitivity --out` writes into a folder.
-pub fn sensitivity(
-    folder: &Path,
-    found: &sensitivity::Found<'_>,
-    fidelity: &str,
-    command: &[String],
-    formats: &[Format],
-) -> Result<Vec<PathBuf>, WriteError> {
-    let mut staged = Staged::new(folder)?;
-    staged.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
-    staged.add("sensitivity.json", |out| out.write_all(json::document(&found.object(fidelity), command).as_bytes()))?;
-    stage_figure(&mut staged, "sensitivity", &found.tornado(fidelity), formats)?;
-    if let Some(histogram) = found.histogram(fidelity) {
-        staged.add("monte-carlo.csv", |out| found.write_draws(out))?;
-        stage_figure(&mut staged, "monte-carlo", &histogram, formats)?;
+pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::Found<'_>) -> Result<Vec<PathBuf>, WriteError> {
+    let mut files = Files::new(folder)?;
+    files.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
+    files.json("sensitivity.json", found)?;
+    files.figure("sensitivity", &found.tornado())?;
+    if let Some(histogram) = found.histogram() {
+        files.add("monte-carlo.csv", |out| found.write_draws(out))?;
+        files.figure("monte-carlo", &histogram)?;
     }
-    staged.add("scene.toml", |out| out.write_all(found.sensitivity.scene().to_toml().as_bytes()))?;
-    staged.commit()
+    files.text("scene.toml", &found.sensitivity.scene().to_toml())?;
+    files.commit()
 }

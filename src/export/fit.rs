@@ -6,66 +6,68 @@ use super::figure::{
     Axis, Colour, Colours, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range, Shading,
     Shape, Style, extent,
 };
-use crate::analysis::fit::{Fitted, Measured, Minimum, Observable, Optimum};
+use crate::analysis::fit::{
+    Bound, Fitted, FittedRow, FittedUnknown, Limit, Measured, Measurement, Observable, Optimum, Scan,
+};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::show_text;
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-/// The object of `fit --json`: what the unknowns are, how sure, and what the measurements are beside what is computed.
-#[derive(Clone, Debug, Serialize)]
+/// The object of `fit --json`: a fit, and the measurements beside what is computed. Its numbers are those of [`Fitted`]; what is not known is
+/// null.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
     /// Name of the scene that was fitted.
     pub preset: &'a str,
-    /// Name of the table of measurements.
-    pub data: &'a str,
-    /// Whether the search ended at a minimum.
-    pub converged: bool,
-    /// The unknowns.
-    pub unknowns: Vec<UnknownObject<'a>>,
-    /// Σ ((computed − measured)/error)², with the errors that were given, or taken.
-    pub chi_squared: Option<f64>,
-    /// Measurements less unknowns that are not at a bound.
-    pub degrees_of_freedom: usize,
-    /// Whether the errors of the measurements were given.
-    pub errors_known: bool,
-    /// What the errors were multiplied by.
-    pub error_scale: Option<f64>,
-    /// Greatest numerical error of what is computed, in standard errors of its measurement.
-    pub numerical_error: Option<f64>,
-    /// Covariance of the unknowns in their units, row by row; null at a bound, and where the measurements do not tell.
-    pub covariance: Vec<Vec<Option<f64>>>,
-    /// Correlation of the unknowns, likewise.
-    pub correlation: Vec<Vec<Option<f64>>>,
-    /// The minima that several starts led to, the best first.
-    pub minima: &'a [Minimum],
-    /// The measurements.
-    pub rows: Vec<RowObject<'a>>,
-    /// How many solves it took.
-    pub solves: usize,
-    /// What the user should know.
-    pub warnings: &'a [String],
+    /// The fit.
+    pub fitted: &'a Fitted,
+    /// What it was fitted to.
+    pub measured: &'a Measured,
 }
 
-/// An unknown.
-#[derive(Clone, Debug, Serialize)]
-pub struct UnknownObject<'a> {
-    /// Its key.
-    pub key: &'a str,
-    /// Its value.
-    pub value: f64,
-    /// Its standard error.
-    pub standard_error: Option<f64>,
-    /// Where the search began.
-    pub start: f64,
-    /// Lower bound.
-    pub from: f64,
-    /// Upper bound.
-    pub to: f64,
-    /// `lower` or `upper`, if it is there.
-    pub at_bound: Option<&'static str>,
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { preset, fitted, measured } = *self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", preset)?;
+        map.serialize_entry("data", &measured.name)?;
+        map.serialize_entry("converged", &fitted.converged)?;
+        map.serialize_entry("unknowns", &fitted.unknowns.iter().map(UnknownObject).collect::<Vec<_>>())?;
+        map.serialize_entry("chi_squared", &fitted.chi_squared)?;
+        map.serialize_entry("degrees_of_freedom", &fitted.degrees_of_freedom)?;
+        map.serialize_entry("errors_known", &fitted.errors_known)?;
+        map.serialize_entry("error_scale", &fitted.error_scale)?;
+        map.serialize_entry("numerical_error", &fitted.numerical_error)?;
+        map.serialize_entry("covariance", &fitted.covariance)?;
+        map.serialize_entry("correlation", &fitted.correlation)?;
+        map.serialize_entry("minima", &fitted.minima)?;
+        map.serialize_entry("rows", &rows(fitted, measured))?;
+        map.serialize_entry("solves", &fitted.solves)?;
+        map.serialize_entry("warnings", &fitted.warnings)?;
+        map.end()
+    }
+}
+
+/// An unknown of a fit.
+struct UnknownObject<'a>(&'a FittedUnknown);
+
+impl Serialize for UnknownObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let FittedUnknown { unknown, value, error, at } = self.0;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("key", unknown.parameter.key)?;
+        map.serialize_entry("value", value)?;
+        map.serialize_entry("standard_error", error)?;
+        map.serialize_entry("start", &unknown.start)?;
+        map.serialize_entry("from", &unknown.from)?;
+        map.serialize_entry("to", &unknown.to)?;
+        map.serialize_entry("at_bound", &at.map(Bound::name))?;
+        map.end()
+    }
 }
 
 /// A measurement: a row of the CSV.
@@ -93,13 +95,9 @@ pub struct RowObject<'a> {
     pub status: Cow<'a, str>,
 }
 
-fn matrix(rows: &[Vec<f64>]) -> Vec<Vec<Option<f64>>> {
-    rows.iter().map(|row| row.iter().map(|value| finite(*value)).collect()).collect()
-}
-
 /// The rows of a fit.
 pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>> {
-    let row = |(one, row): (&'a crate::analysis::fit::Measurement, &'a crate::analysis::fit::FittedRow)| {
+    let row = |(one, row): (&'a Measurement, &'a FittedRow)| {
         let changes =
             measured.conditions[one.condition].iter().map(|(key, value)| format!("{key}={}", show_text(value)));
         let computed = row.computed.as_ref().ok();
@@ -126,42 +124,7 @@ pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>
     measured.measurements.iter().zip(&fitted.rows).map(row).collect()
 }
 
-impl<'a> Object<'a> {
-    /// Of a fit of the scene of this name.
-    pub fn new(preset: &'a str, fitted: &'a Fitted, measured: &'a Measured) -> Self {
-        let unknowns = fitted.unknowns.iter().map(|found| UnknownObject {
-            key: found.unknown.parameter.key,
-            value: found.value,
-            standard_error: found.error,
-            start: found.unknown.start,
-            from: found.unknown.from,
-            to: found.unknown.to,
-            at_bound: found.at.map(|at| at.name()),
-        });
-        Self {
-            preset,
-            data: &measured.name,
-            converged: fitted.converged,
-            unknowns: unknowns.collect(),
-            chi_squared: finite(fitted.chi_squared),
-            degrees_of_freedom: fitted.degrees_of_freedom,
-            errors_known: fitted.errors_known,
-            error_scale: fitted.error_scale,
-            numerical_error: fitted.numerical_error,
-            covariance: matrix(&fitted.covariance),
-            correlation: matrix(&fitted.correlation),
-            minima: &fitted.minima,
-            rows: rows(fitted, measured),
-            solves: fitted.solves,
-            warnings: &fitted.warnings,
-        }
-    }
-}
-
 /// Writes the measurements beside what is computed.
-///
-/// # Errors
-/// Those of writing.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
     let in_csv = |row: RowObject<'_>| {
         let [name, status] = [&row.row, &row.status].map(|words| csv::words(words).into_owned().into());
@@ -280,96 +243,63 @@ fn correlation(fitted: &Fitted) -> Panel {
     })
 }
 
-/// The object of `fit --maximise --json`.
-#[derive(Clone, Debug, Serialize)]
+/// The object of `fit --maximise --json`. Its numbers are those of [`Optimum`]; what is not known is null.
+#[derive(Clone, Copy, Debug)]
 pub struct OptimumObject<'a> {
     /// Name of the scene.
     pub preset: &'a str,
-    /// What was sought: `maximise` or `minimise`.
-    pub sought: &'static str,
-    /// The number that was.
-    pub quantity: &'static str,
-    /// Its value there.
-    pub value: f64,
-    /// Estimated numerical error of that.
-    pub numerical_error: Option<f64>,
-    /// Its value at the scene's own values.
-    pub before: Option<f64>,
-    /// Whether the search ended by itself.
-    pub converged: bool,
-    /// The unknowns.
-    pub unknowns: Vec<OptimumUnknownObject<'a>>,
-    /// The limits.
-    pub limits: Vec<LimitObject>,
-    /// How many solves it took.
-    pub solves: usize,
-    /// What the user should know.
-    pub warnings: &'a [String],
+    /// The optimum.
+    pub found: &'a Optimum,
+}
+
+impl Serialize for OptimumObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Optimum { goal, value, before, limited, lines, converged, solves, warnings, .. } = self.found;
+        let limits = goal.limits.iter().enumerate().map(|(i, (limit, _))| LimitObject(limit, limited.get(i)));
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", self.preset)?;
+        map.serialize_entry("sought", if goal.greatest { "maximise" } else { "minimise" })?;
+        map.serialize_entry("quantity", goal.quantity.name())?;
+        map.serialize_entry("value", &value.value)?;
+        map.serialize_entry("numerical_error", &value.error)?;
+        map.serialize_entry("before", &before.map(|before| before.value))?;
+        map.serialize_entry("converged", converged)?;
+        map.serialize_entry("unknowns", &lines.iter().map(ScanObject).collect::<Vec<_>>())?;
+        map.serialize_entry("limits", &limits.collect::<Vec<_>>())?;
+        map.serialize_entry("solves", solves)?;
+        map.serialize_entry("warnings", warnings)?;
+        map.end()
+    }
 }
 
 /// An unknown at an optimum.
-#[derive(Clone, Debug, Serialize)]
-pub struct OptimumUnknownObject<'a> {
-    /// Its key.
-    pub key: &'a str,
-    /// Its value.
-    pub value: f64,
-    /// Lower bound.
-    pub from: f64,
-    /// Upper bound.
-    pub to: f64,
-    /// `lower` or `upper`, if it is there.
-    pub at_bound: Option<&'static str>,
-    /// The range in which the number that was sought stays within a hundredth of its optimum.
-    pub flat_from: f64,
-    /// See `flat_from`.
-    pub flat_to: f64,
+struct ScanObject<'a>(&'a Scan);
+
+impl Serialize for ScanObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Scan { unknown, value, at, flat, .. } = self.0;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("key", unknown.parameter.key)?;
+        map.serialize_entry("value", value)?;
+        map.serialize_entry("from", &unknown.from)?;
+        map.serialize_entry("to", &unknown.to)?;
+        map.serialize_entry("at_bound", &at.map(Bound::name))?;
+        map.serialize_entry("flat_from", &flat.0)?;
+        map.serialize_entry("flat_to", &flat.1)?;
+        map.end()
+    }
 }
 
-/// A limit, and what is reached.
-#[derive(Clone, Debug, Serialize)]
-pub struct LimitObject {
-    /// As it was given.
-    pub limit: String,
-    /// The number there.
-    pub value: Option<f64>,
-    /// Estimated numerical error of that.
-    pub numerical_error: Option<f64>,
-}
+/// A limit of an optimum, and what is reached.
+struct LimitObject<'a>(&'a Limit, Option<&'a Estimate>);
 
-impl<'a> OptimumObject<'a> {
-    /// Of the optimum of the scene of this name.
-    pub fn new(preset: &'a str, found: &'a Optimum) -> Self {
-        let unknowns = found.lines.iter().map(|line| OptimumUnknownObject {
-            key: line.unknown.parameter.key,
-            value: line.value,
-            from: line.unknown.from,
-            to: line.unknown.to,
-            at_bound: line.at.map(|at| at.name()),
-            flat_from: line.flat.0,
-            flat_to: line.flat.1,
-        });
-        let limits = found.goal.limits.iter().enumerate().map(|(i, (limit, _))| {
-            let reached: Option<&Estimate> = found.limited.get(i);
-            LimitObject {
-                limit: limit.to_string(),
-                value: reached.map(|reached| reached.value),
-                numerical_error: reached.and_then(|reached| finite(reached.error)),
-            }
-        });
-        Self {
-            preset,
-            sought: if found.goal.greatest { "maximise" } else { "minimise" },
-            quantity: found.goal.quantity.name(),
-            value: found.value.value,
-            numerical_error: finite(found.value.error),
-            before: found.before.map(|before| before.value),
-            converged: found.converged,
-            unknowns: unknowns.collect(),
-            limits: limits.collect(),
-            solves: found.solves,
-            warnings: &found.warnings,
-        }
+impl Serialize for LimitObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("limit", &self.0.to_string())?;
+        map.serialize_entry("value", &self.1.map(|reached| reached.value))?;
+        map.serialize_entry("numerical_error", &self.1.map(|reached| reached.error))?;
+        map.end()
     }
 }
 
@@ -383,9 +313,6 @@ struct LineRow {
 }
 
 /// Writes the lines through the optimum.
-///
-/// # Errors
-/// Those of writing.
 pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()> {
     let rows = found.lines.iter().flat_map(|line| {
         line.points.iter().map(|(value, computed)| LineRow {

@@ -1,6 +1,7 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use super::estimates::{self, finite};
+use super::torque::Merit;
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
@@ -10,7 +11,7 @@ use crate::digits::{short, significant};
 use crate::estimate::Estimate;
 use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
-use crate::solution::{Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
+use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The version of the objects, and of the columns of tables.
@@ -21,23 +22,17 @@ const NO_TORQUE_ERROR: &str = "the errors of torque, power, speed and efficiency
                                grids, and this was solved on one mesh; that of α is stated";
 
 /// The object. Numbers that a scene does not have, and numbers that are not finite, are null.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// The scene's name.
     pub preset: String,
     /// `motor` or `plate`.
     pub scene: &'static str,
-    /// The cycle repeats to the tolerance.
-    pub converged: bool,
-    /// `converged`, `not converged`, `not resolved` (the error is as large as the result) or `cancelled`.
-    pub status: &'static str,
-    /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for, relative to it, and to a hundredth of the load where α is
-    /// less than that; `null` on grids that the scene prescribes.
-    pub accuracy_asked: Option<f64>,
-    /// Its stated error, likewise.
-    pub accuracy_stated: Option<f64>,
-    /// Why no finer grid was solved: `accuracy`, `budget` or `limit`.
-    pub stopped_by: &'static str,
+    /// How it ended; in the object as [`status_name`] says it.
+    pub status: Status,
+    /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for and that is stated, relative to it, and
+    /// to a hundredth of the load where α is less than that. What was asked for is null on grids that the scene prescribes.
+    pub accuracy: Accuracy,
     /// What forces are in: `N`, or `N/m` for a strip, where they are per metre of width.
     pub force_unit: &'static str,
     /// The numbers. The object has those that say what came of the solve, and of the others `residual` and `tolerance`.
@@ -52,10 +47,12 @@ pub struct Summary {
     pub torque: Option<TorqueCurves>,
     /// What is known exactly beside what was computed (plate).
     pub exact: Option<Comparison>,
-    /// Cost.
-    pub stats: StatsObject,
-    /// What was modelled.
-    pub model: ModelObject,
+    /// Wall time of the solve alone \[s\].
+    pub wall_s: f64,
+    /// What it cost beside that.
+    pub stats: Stats,
+    /// What was modelled; in the object with a sentence for each decision.
+    pub model: Model,
     /// Limits of the model that the scene exceeds; empty within them.
     pub validity: Vec<Excess>,
     /// What the user should know.
@@ -101,13 +98,14 @@ impl Serialize for Summary {
         map.serialize_entry("schema", &SCHEMA)?;
         map.serialize_entry("preset", &self.preset)?;
         map.serialize_entry("scene", self.scene)?;
-        map.serialize_entry("converged", &self.converged)?;
-        map.serialize_entry("status", self.status)?;
+        map.serialize_entry("converged", &(self.status == Status::Converged))?;
+        map.serialize_entry("status", status_name(&self.status))?;
         map.serialize_entry("residual", &self.numbers.get(Quantity::Residual))?;
         map.serialize_entry("tolerance", &self.numbers.get(Quantity::Tolerance))?;
-        map.serialize_entry("accuracy_asked", &self.accuracy_asked)?;
-        map.serialize_entry("accuracy_stated", &self.accuracy_stated)?;
-        map.serialize_entry("stopped_by", self.stopped_by)?;
+        let Accuracy { asked, stated, stopped_by } = self.accuracy;
+        map.serialize_entry("accuracy_asked", &(asked > 0.0).then_some(asked))?;
+        map.serialize_entry("accuracy_stated", &stated)?;
+        map.serialize_entry("stopped_by", stopped_by.name())?;
         for quantity in RESULTS {
             // Between the numbers, what is none, or is not one of every solve.
             match quantity {
@@ -119,10 +117,10 @@ impl Serialize for Summary {
             }
             map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
         }
-        map.serialize_entry("merit", &self.torque)?;
+        map.serialize_entry("merit", &self.torque.as_ref().map(Merit))?;
         map.serialize_entry("exact", &self.exact)?;
-        map.serialize_entry("stats", &self.stats)?;
-        map.serialize_entry("model", &self.model)?;
+        map.serialize_entry("stats", &StatsObject { wall_s: self.wall_s, counted: self.stats })?;
+        map.serialize_entry("model", &ModelObject(&self.model))?;
         map.serialize_entry("validity", &self.validity)?;
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
@@ -193,31 +191,29 @@ impl Serialize for FloatingObject {
     }
 }
 
-/// What the solve cost.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
-pub struct StatsObject {
-    /// Wall time of the solve alone \[s\].
-    pub wall_s: Option<f64>,
-    /// What was counted.
+/// What the solve cost: its wall time \[s\], and what was counted.
+#[derive(serde::Serialize)]
+struct StatsObject {
+    wall_s: f64,
     #[serde(flatten)]
-    pub counted: Stats,
+    counted: Stats,
 }
 
-/// What was modelled.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
-pub struct ModelObject {
-    /// `draft`, `standard`, …
-    pub fidelity: String,
-    /// `auto` or `paper`.
-    pub method: String,
-    /// Teeth whose film was solved.
-    pub teeth_solved: usize,
-    /// Half the width was solved and mirrored.
-    pub half_width: bool,
-    /// The wedge term was solved.
-    pub shear: bool,
-    /// A sentence for each decision.
-    pub why: Vec<String>,
+/// What was modelled, with a sentence for each decision.
+struct ModelObject<'a>(&'a Model);
+
+impl Serialize for ModelObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(model) = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("fidelity", &model.fidelity)?;
+        map.serialize_entry("method", &model.method)?;
+        map.serialize_entry("teeth_solved", &model.teeth_solved)?;
+        map.serialize_entry("half_width", &model.half_width)?;
+        map.serialize_entry("shear", &model.shear)?;
+        map.serialize_entry("why", &sentences(model))?;
+        map.end()
+    }
 }
 
 impl Summary {
@@ -235,19 +231,22 @@ impl Summary {
         let problem = &*settled(problem, &solution.outcome);
         let mut summary = Self {
             preset: problem.name.clone(),
-            converged: solution.status == Status::Converged,
-            status: status_name(&solution.status),
+            scene: "",
+            status: solution.status,
+            accuracy: solution.accuracy,
             force_unit: force_unit(problem),
             numbers: Numbers::of(problem, solution),
-            accuracy_asked: (solution.accuracy.asked > 0.0).then_some(solution.accuracy.asked),
-            accuracy_stated: finite(solution.accuracy.stated),
-            stopped_by: solution.accuracy.stopped_by.name(),
-            stats: StatsObject { wall_s: finite(wall_s), counted: solution.stats },
-            model: ModelObject::new(&solution.model),
+            dry_torque_nm: None,
+            levitated: None,
+            floating: None,
+            torque: None,
+            exact: None,
+            wall_s,
+            stats: solution.stats,
+            model: solution.model.clone(),
             validity: validity::outside(problem, Some(solution)),
             warnings: solution.warnings.clone(),
             command: command.to_vec(),
-            ..Self::default()
         };
         match (&problem.scenario, &solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
@@ -261,6 +260,7 @@ impl Summary {
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }
+            // A solver answers in kind.
             _ => {}
         }
         summary.tell_unknown(problem, solution);
@@ -282,8 +282,8 @@ impl Summary {
         };
         let results = [Quantity::Residual, Quantity::Tolerance].into_iter().chain(RESULTS);
         let unknown = results.filter(|quantity| expected(quantity) && !known(*quantity)).map(Quantity::name);
-        let accuracy = self.accuracy_stated.is_none().then_some("accuracy_stated");
-        let time = self.stats.wall_s.is_none().then_some("stats.wall_s");
+        let accuracy = (!self.accuracy.stated.is_finite()).then_some("accuracy_stated");
+        let time = (!self.wall_s.is_finite()).then_some("stats.wall_s");
         let unknown: Vec<&str> = accuracy.into_iter().chain(time).chain(unknown).collect();
         if !unknown.is_empty() {
             self.warnings.push(format!("not known, hence null: {}", unknown.join(", ")));
@@ -332,19 +332,6 @@ pub fn mark(status: &str) -> String {
     if status == status_name(&Status::Converged) { String::new() } else { status.to_uppercase() }
 }
 
-impl ModelObject {
-    fn new(model: &Model) -> Self {
-        Self {
-            fidelity: model.fidelity.clone(),
-            method: model.method.clone(),
-            teeth_solved: model.teeth_solved,
-            half_width: model.half_width,
-            shear: model.shear,
-            why: sentences(model),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -366,12 +353,13 @@ mod tests {
         let Outcome::Plate(result) = &mut solution.outcome else { panic!("a plate") };
         result.film_load.error = f64::INFINITY;
         let summary = Summary::new(&problem, &solution, f64::NAN, &[]);
-        assert_eq!((summary.numbers.get(Quantity::FilmLoadError), summary.stats.wall_s), (None, None));
+        assert_eq!(summary.numbers.get(Quantity::FilmLoadError), None);
         let warning = summary.warnings.last().unwrap();
         for name in ["stats.wall_s", "film_load_error_n", "mean_load_ratio_error"] {
             assert!(warning.contains(name), "{warning}");
         }
         let value: serde_json::Value = serde_json::from_str(&text(&summary)).unwrap();
         assert!(value["film_load_error_n"].is_null() && value["film_load_n"].is_f64());
+        assert!(value["stats"]["wall_s"].is_null());
     }
 }

@@ -22,8 +22,8 @@ pub(super) struct Mp4Cycle {
 }
 
 impl Mp4Cycle {
-    /// Writes it as often as [`LONG_ENOUGH`] asks.
-    #[cfg(feature = "video")]
+    /// Writes it as often as [`LONG_ENOUGH`] asks. A program that was built without video cannot.
+    #[cfg_attr(not(feature = "video"), expect(unused_variables))]
     pub(super) fn write(
         &self,
         picture: &Picture<'_>,
@@ -32,29 +32,23 @@ impl Mp4Cycle {
         done: &dyn Fn(),
         cancel: &Cancel,
     ) -> io::Result<()> {
-        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
-        let step = (1000.0 * self.seconds).round() as u32;
-        let timescale = u32::try_from(1000 * self.count).map_err(io::Error::other)?;
-        let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
-        let video = encode(self.count, picture, self.size, [step, timescale], done, &|| cancel.is_cancelled())?;
-        if cancel.is_cancelled() {
-            return Err(io::ErrorKind::Interrupted.into());
+        let Self { size, count, seconds } = *self;
+        #[cfg(feature = "video")]
+        {
+            // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+            let step = (1000.0 * seconds).round() as u32;
+            let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
+            let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
+            let video = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
+            if cancel.is_cancelled() {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
+            mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
         }
-        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
-    }
-
-    /// Nothing: the program was built without what encodes it.
-    #[cfg(not(feature = "video"))]
-    pub(super) fn write(
-        &self,
-        _: &Picture<'_>,
-        _: &str,
-        _: &mut dyn Write,
-        _: &dyn Fn(),
-        _: &Cancel,
-    ) -> io::Result<()> {
-        let Self { size: [width, height], count, seconds } = self;
-        let what = format!("{count} pictures of {width} × {height} pixels in {seconds} s");
-        Err(io::Error::other(format!("this program was built without video, and cannot write {what}")))
+        #[cfg(not(feature = "video"))]
+        {
+            let what = format!("{count} pictures of {} × {} pixels in {seconds} s", size[0], size[1]);
+            Err(io::Error::other(format!("this program was built without video, and cannot write {what}")))
+        }
     }
 }

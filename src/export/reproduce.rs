@@ -7,6 +7,6 @@ mod report;
 mod statements;
 
 pub use figures::figures;
-pub use objects::{Object, PointObject, RowObject};
+pub use objects::{Object, RowObject};
 pub use report::report;
 pub use statements::{Statement, statements};

@@ -6,13 +6,15 @@
 
 use super::sweep::{BETWEEN, FIRST, STOPPED_BY, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
+use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::analysis::sweep::{MOST_POINTS, Part, Row, Sweep, SweepError, Vary, digest};
+use crate::analysis::sweep::{MOST_POINTS, Part, Row, Sweep, Vary, digest};
 use crate::analysis::validity::NAMES;
 use crate::scene::Scene;
 use crate::solution::StoppedBy;
 use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::ops::Range;
 
@@ -38,9 +40,6 @@ struct Head {
 }
 
 /// Writes rows of a part of a sweep, to go on with or to be joined. `command`: the command line that solves the whole, if there is one.
-///
-/// # Errors
-/// Those of writing.
 pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &mut dyn Write) -> io::Result<()> {
     let fingerprint = sweep.fingerprint();
     let head = Head {
@@ -62,61 +61,41 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &
     writer.flush()
 }
 
-/// Why the rows of a file are not those of a sweep.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ReadError {
-    /// The file is of another sweep.
-    #[error("it is of another sweep: another scene, range, setting or version")]
-    Another,
-    /// The file is of another part.
-    #[error("it is part {found} of the sweep, not {expected}")]
-    Part {
-        /// Which part it is.
-        found: String,
-        /// Which part was expected.
-        expected: String,
-    },
-    /// The file is damaged.
-    #[error("line {line}: {fault}")]
-    Damaged {
-        /// Line of the file, from 1.
-        line: u64,
-        /// What is wrong there.
-        fault: String,
-    },
+/// What is said of a file of another sweep.
+const ANOTHER: &str = "it is of another sweep: another scene, range, setting or version";
+
+/// What is said of a damaged file; lines are counted from 1.
+fn damaged(line: u64, fault: impl Display) -> String {
+    format!("line {line}: {fault}")
 }
 
-fn damaged(line: u64, fault: impl ToString) -> ReadError {
-    ReadError::Damaged { line, fault: fault.to_string() }
-}
-
-fn head(text: &str) -> Result<Head, ReadError> {
+fn head(text: &str) -> Result<Head, String> {
     let first = text.lines().next().unwrap_or_default();
-    let object = first.strip_prefix(char::from(COMMENT)).ok_or(ReadError::Another)?;
+    let object = first.strip_prefix(char::from(COMMENT)).ok_or(ANOTHER)?;
     serde_json::from_str(object).map_err(|error| damaged(1, error))
 }
 
 /// Rows of a part of `sweep` from the text that [`write()`] made of them.
 ///
 /// # Errors
-/// [`ReadError`]. A row too many, twice, or changed since it was written, is damage.
-pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, ReadError> {
+/// Why they are no such rows. A row too many, twice, or changed since it was written, is damage.
+pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, String> {
     let (fingerprint, head) = (sweep.fingerprint(), head(text)?);
     if head.sweep != fingerprint {
-        return Err(ReadError::Another);
+        return Err(ANOTHER.to_owned());
     }
     if head.part != part.to_string() {
-        return Err(ReadError::Part { found: head.part, expected: part.to_string() });
+        return Err(format!("it is part {} of the sweep, not {part}", head.part));
     }
     rows(sweep, &fingerprint, sweep.points_of(part), text)
 }
 
 /// The rows of a text, all of these `points`.
-fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<Row>, ReadError> {
+fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<Row>, String> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(COMMENT)).from_reader(text.as_bytes());
     let found = reader.headers().map_err(|error| damaged(2, error))?;
     if !found.iter().eq(header(sweep).iter().map(String::as_str).chain([CHECK])) {
-        return Err(ReadError::Another);
+        return Err(ANOTHER.to_owned());
     }
     let (quantities, mut there) = (sweep.quantities(), vec![false; points.len()]);
     let mut rows: Vec<Row> = Vec::new();
@@ -126,7 +105,7 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
         // The reader refuses a record of another length than the header.
         let field = |column: usize| record.get(column).unwrap_or("");
         if field(0) != fingerprint {
-            return Err(ReadError::Another);
+            return Err(ANOTHER.to_owned());
         }
         if record.iter().next_back() != Some(&digest(record.iter().take(record.len() - 1))) {
             return Err(damaged(line, "the row was changed after it was saved"));
@@ -181,58 +160,36 @@ pub struct Joined {
     pub command: Vec<String>,
 }
 
-/// Why parts are not joined.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum JoinError {
-    /// A text that is no part of the sweep of the first, was given before, or is not solved to its end.
-    #[error("{name}: {fault}")]
-    Part {
-        /// Its name.
-        name: String,
-        /// What is wrong with it.
-        fault: String,
-    },
-    /// More points than one sweep can have.
-    #[error(
-        "{found} points: joined are up to {MOST_POINTS}; of more, the file of each part is a table by itself, below its first line"
-    )]
-    Large {
-        /// How many.
-        found: usize,
-    },
-    /// Parts that were not given.
-    #[error("parts are missing: {parts}")]
-    Missing {
-        /// Which, divided by commas; a few of many.
-        parts: String,
-    },
-}
-
 /// Missing parts that are named.
 const NAMED: usize = 8;
 
 /// The whole of all its parts, each with a name to tell it by, in any order.
 ///
 /// # Errors
-/// [`JoinError`].
-pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
-    fn fault(name: &str, fault: impl ToString) -> JoinError {
-        JoinError::Part { name: name.to_owned(), fault: fault.to_string() }
+/// Which text is no part of the sweep of the first, was given before or is not solved to its end; which parts are missing; or more points than
+/// one sweep can have.
+pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
+    fn fault(name: &str, fault: impl Display) -> String {
+        format!("{name}: {fault}")
     }
-    let Some((first, text)) = parts.first() else { return Err(JoinError::Missing { parts: "all".to_owned() }) };
+    let Some((first, text)) = parts.first() else { return Err("parts are missing: all".to_owned()) };
     let begun = head(text).map_err(|error| fault(first, error))?;
-    let sweep = begun.sweep().map_err(|error| match error {
-        SweepError::Points { found, .. } => JoinError::Large { found },
-        error => fault(first, error),
-    })?;
-    let fingerprint = sweep.fingerprint();
     let part_of = |name: &str, head: &Head| head.part.parse::<Part>().map_err(|error| fault(name, damaged(1, error)));
-    let of = part_of(first, &begun)?.of();
+    let part = part_of(first, &begun)?;
+    let of = part.of();
+    let sweep = begun.sweep(part).map_err(|error| fault(first, error))?;
+    if sweep.len() > MOST_POINTS {
+        return Err(format!(
+            "{} points: joined are up to {MOST_POINTS}; of more, the file of each part is a table by itself, below its first line",
+            sweep.len()
+        ));
+    }
+    let fingerprint = sweep.fingerprint();
     let mut found: Vec<Option<Vec<Row>>> = vec![None; of];
     for (name, text) in parts {
         let head = head(text).map_err(|error| fault(name, error))?;
         if head.sweep != fingerprint {
-            return Err(fault(name, ReadError::Another));
+            return Err(fault(name, ANOTHER));
         }
         let part = part_of(name, &head)?;
         if part.of() != of {
@@ -256,17 +213,17 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
         if missing.len() > NAMED {
             parts.push(format!("{} more", missing.len() - NAMED));
         }
-        return Err(JoinError::Missing { parts: parts.join(", ") });
+        return Err(format!("parts are missing: {}", parts.join(", ")));
     }
     Ok(Joined { sweep, rows: found.into_iter().flatten().flatten().collect(), command: begun.command })
 }
 
 impl Head {
-    /// The sweep that it names.
-    fn sweep(&self) -> Result<Sweep, SweepError> {
+    /// The sweep that it names, of which this part is small enough.
+    fn sweep(&self, part: Part) -> Result<Sweep, AnalysisError> {
         let scene = Scene::from_toml(&self.scene_toml, "the scene of the part")?;
         let vary = self.vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
-        Sweep::new(&scene, &vary, &self.settings)
+        Sweep::of_part(&scene, &vary, &self.settings, part)
     }
 }
 
@@ -300,18 +257,16 @@ mod tests {
         let ours = sweep("stator.frequency_khz=3:100:3");
         let text = saved(&ours, Part::WHOLE, &rows(&ours));
         let read = |sweep: &Sweep, text: &str| super::read(sweep, Part::WHOLE, text);
-        assert_eq!(read(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
-        assert_eq!(read(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
-        assert_eq!(read(&ours, ""), Err(ReadError::Another));
+        assert_eq!(read(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ANOTHER.to_owned()));
+        assert_eq!(read(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ANOTHER.to_owned()));
+        assert_eq!(read(&ours, ""), Err(ANOTHER.to_owned()));
         let other = Part::all(2).last().unwrap();
-        assert_eq!(
-            super::read(&ours, other, &text),
-            Err(ReadError::Part { found: "1/1".to_owned(), expected: "2/2".to_owned() })
-        );
+        assert_eq!(super::read(&ours, other, &text), Err("it is part 1/1 of the sweep, not 2/2".to_owned()));
         let cut = &text[..text.len() - 20];
-        assert!(matches!(read(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read(&ours, cut));
+        assert!(read(&ours, cut).unwrap_err().starts_with("line 6: "), "{:?}", read(&ours, cut));
         let third = text.lines().nth(2).unwrap();
-        assert!(matches!(read(&ours, &format!("{text}{third}\n")), Err(ReadError::Damaged { .. })));
+        let twice = read(&ours, &format!("{text}{third}\n")).unwrap_err();
+        assert!(twice.ends_with("point 0 is not expected here"), "{twice}");
         // A row that somebody has changed is no result.
         for (from, to) in [
             ("0.30000000000000004", "0.31"),
@@ -320,7 +275,7 @@ mod tests {
             (",1,", ",0,"),
         ] {
             let fault = read(&ours, &text.replacen(from, to, 1)).unwrap_err();
-            assert!(fault.to_string().contains("the row was changed after it was saved"), "{from}: {fault}");
+            assert!(fault.contains("the row was changed after it was saved"), "{from}: {fault}");
         }
     }
 
@@ -346,7 +301,7 @@ mod tests {
             let joined = join(&parts).unwrap();
             assert_eq!((joined.rows, joined.command), (all, vec!["squeezefilm".to_owned()]));
             assert_eq!(joined.sweep.fingerprint(), ours.fingerprint());
-            let told = |parts: &[(String, String)]| join(parts).unwrap_err().to_string();
+            let told = |parts: &[(String, String)]| join(parts).unwrap_err();
             assert_eq!(told(&parts[..2]), "parts are missing: 1/4, 2/4");
             assert_eq!(told(&[&parts[..], &parts[1..2]].concat()), "3/4.csv: part 3/4 was given before");
             let none = ("x.csv".to_owned(), saved(&ours, Part::all(4).last().unwrap(), &[]));
@@ -358,9 +313,7 @@ mod tests {
             let other = ("z.csv".to_owned(), saved(&other, Part::WHOLE, &[]));
             assert!(told(&[parts[3].clone(), other]).starts_with("z.csv: it is of another sweep"));
         }
-        assert_eq!(join(&[]).unwrap_err().to_string(), "parts are missing: all");
-        assert!(
-            join(&[("a".to_owned(), "b".to_owned())]).unwrap_err().to_string().starts_with("a: it is of another sweep")
-        );
+        assert_eq!(join(&[]).unwrap_err(), "parts are missing: all");
+        assert!(join(&[("a".to_owned(), "b".to_owned())]).unwrap_err().starts_with("a: it is of another sweep"));
     }
 }

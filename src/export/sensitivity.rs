@@ -5,13 +5,14 @@ use super::estimates::finite;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::{Column, Sides, Slope};
 use crate::digits::significant;
-use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
 use crate::solution::Status;
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any.
+/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any. It is the object of `--json`, where what is not
+/// known is null.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<'a> {
     /// Results and derivatives.
@@ -20,50 +21,6 @@ pub struct Found<'a> {
     pub uncertainties: &'a Uncertainties,
     /// Random draws.
     pub carlo: Option<&'a MonteCarlo>,
-}
-
-/// The object of `--json`. What is not known is null.
-#[derive(Clone, Debug, Serialize)]
-pub struct Object {
-    /// Name of the scene.
-    pub preset: String,
-    /// `motor` or `plate`.
-    pub scene: &'static str,
-    /// Fidelity.
-    pub fidelity: String,
-    /// The solve in the middle converged.
-    pub converged: bool,
-    /// One for each result.
-    pub outputs: Vec<OutputObject>,
-    /// Keys that act and are whole numbers, which have no derivative.
-    pub whole_numbers: Vec<&'static str>,
-    /// The random draws, if there are any.
-    pub monte_carlo: Option<CarloObject>,
-    /// What the user should know.
-    pub warnings: Vec<String>,
-}
-
-/// One result.
-#[derive(Clone, Debug, Serialize)]
-pub struct OutputObject {
-    /// Its name.
-    pub name: &'static str,
-    /// Its unit; empty for a pure number.
-    pub unit: &'static str,
-    /// Its value …
-    pub value: Option<f64>,
-    /// … and its estimated numerical error, absolute.
-    pub error: Option<f64>,
-    /// The standard deviation that the uncertain keys make, to first order; null without any.
-    pub uncertainty: Option<f64>,
-    /// Estimated error of that, absolute.
-    pub uncertainty_error: Option<f64>,
-    /// Uncertain keys whose part is missing in it.
-    pub uncertainty_without: Vec<&'static str>,
-    /// How the random draws are distributed.
-    pub monte_carlo: Option<SpreadObject>,
-    /// One for each key.
-    pub by: Vec<Row>,
 }
 
 /// A result by a key, a row of the CSV.
@@ -94,7 +51,7 @@ pub struct Row {
     /// Step of the differences, in the unit of the key.
     pub step: f64,
     /// `both`, or the side on which there is room: `above` or `below`.
-    pub sides: &'static str,
+    pub sides: Sides,
     /// Standard deviation of the key, in its unit, if it is uncertain.
     pub uncertainty: Option<f64>,
     /// What it contributes to that of the result, signed.
@@ -105,95 +62,89 @@ pub struct Row {
     pub why: Option<String>,
 }
 
-/// The random draws.
-#[derive(Clone, Debug, Serialize)]
-pub struct CarloObject {
-    /// Where the random numbers began.
-    pub seed: u64,
-    /// Draws that were solved.
-    pub solved: usize,
-    /// Draws that could not be solved, and are missing.
-    pub failed: usize,
-    /// Draws outside of what is allowed, drawn again.
-    pub redrawn: usize,
+impl Serialize for Found<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let sensitivity = self.sensitivity;
+        let outputs: Vec<_> = (0..sensitivity.outputs.len()).map(|output| OutputObject(self, output)).collect();
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", &sensitivity.scene().name)?;
+        map.serialize_entry("scene", sensitivity.scene().scene())?;
+        map.serialize_entry("fidelity", &sensitivity.settings().fidelity.to_string())?;
+        map.serialize_entry("converged", &(sensitivity.status() == Status::Converged))?;
+        map.serialize_entry("outputs", &outputs)?;
+        map.serialize_entry("whole_numbers", &sensitivity.whole())?;
+        map.serialize_entry("monte_carlo", &self.carlo.map(CarloObject))?;
+        map.serialize_entry("warnings", sensitivity.warnings())?;
+        map.end()
+    }
+}
+
+/// One result, by its place: its value, the standard deviation that the uncertain keys make, how the random draws are distributed, and a row
+/// for each key.
+struct OutputObject<'a>(&'a Found<'a>, usize);
+
+impl Serialize for OutputObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(found, output) = *self;
+        let of = found.sensitivity.outputs[output];
+        let propagated = found.propagated(output);
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("name", of.name())?;
+        map.serialize_entry("unit", of.unit(found.sensitivity.problem()))?;
+        map.serialize_entry("value", &found.sensitivity.values[output].value)?;
+        map.serialize_entry("error", &found.sensitivity.values[output].error)?;
+        map.serialize_entry("uncertainty", &propagated.as_ref().map(|found| found.deviation.value))?;
+        map.serialize_entry("uncertainty_error", &propagated.as_ref().map(|found| found.deviation.error))?;
+        map.serialize_entry("uncertainty_without", propagated.as_ref().map_or(&[][..], |found| &found.unknown))?;
+        map.serialize_entry("monte_carlo", &found.carlo.and_then(|carlo| carlo.spread(output)).map(SpreadObject))?;
+        map.serialize_entry("by", &found.rows_of(output))?;
+        map.end()
+    }
+}
+
+/// The random draws: where the random numbers began, and how many draws were solved, failed and were drawn again.
+struct CarloObject<'a>(&'a MonteCarlo);
+
+impl Serialize for CarloObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let MonteCarlo { seed, draws, failures, redrawn } = self.0;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("seed", seed)?;
+        map.serialize_entry("solved", &draws.len())?;
+        map.serialize_entry("failed", &failures.len())?;
+        map.serialize_entry("redrawn", redrawn)?;
+        map.end()
+    }
 }
 
 /// How the draws of a result are distributed.
-#[derive(Clone, Debug, Serialize)]
-pub struct SpreadObject {
-    /// Draws that have the result.
-    pub count: usize,
-    /// Mean.
-    pub mean: f64,
-    /// The standard deviation of the mean, because there are no more draws.
-    pub mean_error: f64,
-    /// Standard deviation.
-    pub standard_deviation: f64,
-    /// 5 % of the draws are below.
-    pub quantile_5: f64,
-    /// Median.
-    pub quantile_50: f64,
-    /// 95 % of the draws are below.
-    pub quantile_95: f64,
-}
+struct SpreadObject(Spread);
 
-impl From<Spread> for SpreadObject {
-    fn from(spread: Spread) -> Self {
-        let [quantile_5, quantile_50, quantile_95] = spread.quantiles;
-        Self {
-            count: spread.count,
-            mean: spread.mean,
-            mean_error: spread.mean_error(),
-            standard_deviation: spread.deviation,
-            quantile_5,
-            quantile_50,
-            quantile_95,
+impl Serialize for SpreadObject {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(spread) = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("count", &spread.count)?;
+        map.serialize_entry("mean", &spread.mean)?;
+        map.serialize_entry("mean_error", &spread.mean_error())?;
+        map.serialize_entry("standard_deviation", &spread.deviation)?;
+        for (percent, quantile) in [5, 50, 95].into_iter().zip(spread.quantiles) {
+            map.serialize_entry(&format!("quantile_{percent}"), &quantile)?;
         }
+        map.end()
     }
 }
 
 impl Found<'_> {
-    /// The object of `--json`.
-    pub fn object(&self, fidelity: &str) -> Object {
-        let sensitivity = self.sensitivity;
-        Object {
-            preset: sensitivity.scene().name.clone(),
-            scene: sensitivity.scene().scene(),
-            fidelity: fidelity.to_owned(),
-            converged: sensitivity.status() == Status::Converged,
-            outputs: (0..sensitivity.outputs.len()).map(|output| self.output(output)).collect(),
-            whole_numbers: sensitivity.whole(),
-            monte_carlo: self.carlo.map(|carlo| CarloObject {
-                seed: carlo.seed,
-                solved: carlo.draws.len(),
-                failed: carlo.failures.len(),
-                redrawn: carlo.redrawn,
-            }),
-            warnings: sensitivity.warnings().to_vec(),
-        }
-    }
-
     /// To first order; `None` without an uncertain key.
     pub fn propagated(&self, output: usize) -> Option<Propagated> {
         (!self.uncertainties.is_empty()).then(|| self.sensitivity.propagated(output, self.uncertainties))
     }
 
-    fn output(&self, output: usize) -> OutputObject {
-        let sensitivity = self.sensitivity;
-        let (of, Estimate { value, error }) = (sensitivity.outputs[output], sensitivity.values[output]);
+    /// The rows of one result.
+    fn rows_of(&self, output: usize) -> Vec<Row> {
         let propagated = self.propagated(output);
-        let deviation = propagated.as_ref().map(|found| found.deviation);
-        OutputObject {
-            name: of.name(),
-            unit: of.unit(sensitivity.problem()),
-            value: finite(value),
-            error: finite(error),
-            uncertainty: deviation.and_then(|found| finite(found.value)),
-            uncertainty_error: deviation.and_then(|found| finite(found.error)),
-            uncertainty_without: propagated.as_ref().map_or_else(Vec::new, |found| found.unknown.clone()),
-            monte_carlo: self.carlo.and_then(|carlo| carlo.spread(output)).map(Into::into),
-            by: (0..sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect(),
-        }
+        (0..self.sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect()
     }
 
     fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Row {
@@ -217,11 +168,7 @@ impl Found<'_> {
             elasticity: relative.and_then(|found| finite(found.value)),
             elasticity_error: relative.and_then(|found| finite(found.error)),
             step: *step,
-            sides: match sides {
-                Sides::Both => "both",
-                Sides::Above => "above",
-                Sides::Below => "below",
-            },
+            sides: *sides,
             uncertainty: self.uncertainties.deviation(parameter),
             contribution: contribution.and_then(|(_, part)| finite(part.value)),
             variance_share: propagated.and_then(|found| found.share(parameter)),
@@ -231,13 +178,10 @@ impl Found<'_> {
 
     /// The rows of the CSV, result by result.
     pub fn rows(&self) -> impl Iterator<Item = Row> {
-        (0..self.sensitivity.outputs.len()).flat_map(|output| self.output(output).by)
+        (0..self.sensitivity.outputs.len()).flat_map(|output| self.rows_of(output))
     }
 
     /// Writes the random draws as CSV: the keys, then the results.
-    ///
-    /// # Errors
-    /// What `out` says.
     pub fn write_draws(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         let keys = self.uncertainties.iter().map(|(parameter, ..)| parameter.key);
@@ -249,21 +193,21 @@ impl Found<'_> {
         writer.flush()
     }
 
-    fn figure_of(&self, caption: String, fidelity: &str) -> Figure {
+    fn figure_of(&self, caption: String) -> Figure {
         let mut provenance = Provenance::named(&self.sensitivity.scene().name);
-        provenance.fidelity = fidelity.to_owned();
+        provenance.fidelity = self.sensitivity.settings().fidelity.to_string();
         Figure { caption, provenance, ..Figure::default() }
     }
 
     /// A tornado for each result: elasticities, or what each uncertain key contributes. Keys that hardly matter are left out.
-    pub fn tornado(&self, fidelity: &str) -> Figure {
+    pub fn tornado(&self) -> Figure {
         let certain = self.uncertainties.is_empty();
         let what = if certain {
             "Change of each result for 1 % more of each parameter"
         } else {
             "Change of each result for one standard deviation (s.d.) more of each uncertain parameter"
         };
-        let mut figure = self.figure_of(format!("{what}, with the error of the derivative."), fidelity);
+        let mut figure = self.figure_of(format!("{what}, with the error of the derivative."));
         for (output, of) in self.sensitivity.outputs.iter().enumerate() {
             let (shown, smaller) = self.sensitivity.tornado(output, Some(self.uncertainties));
             let unit = of.unit(self.sensitivity.problem());
@@ -298,13 +242,13 @@ impl Found<'_> {
     }
 
     /// How the random draws of each result are distributed, beside the normal distribution of the first order; `None` without draws.
-    pub fn histogram(&self, fidelity: &str) -> Option<Figure> {
+    pub fn histogram(&self) -> Option<Figure> {
         let carlo = self.carlo?;
         let caption = format!(
             "Results of {} random draws, and the normal distribution of the linear estimate.",
             carlo.draws.len()
         );
-        let mut figure = self.figure_of(caption, fidelity);
+        let mut figure = self.figure_of(caption);
         figure.provenance.note = format!("{} draws, seed {}", carlo.draws.len(), carlo.seed);
         for (output, of) in self.sensitivity.outputs.iter().enumerate() {
             let Some(spread) = carlo.spread(output) else { continue };

@@ -10,6 +10,7 @@ use crate::scene::Scene;
 use crate::solution::{Accuracy, Outcome, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use std::io::{self, Write};
 
 /// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
@@ -91,83 +92,54 @@ impl Row {
     }
 }
 
-/// The object of `--json`.
-#[derive(Clone, Debug, Serialize)]
+/// The object of `--json`: a start-up that ended, and its cycles. What is not known is null.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
-    /// The scene's name.
-    pub preset: &'a str,
-    /// `motor` or `plate`.
-    pub scene: &'static str,
-    /// `draft`, `standard`, …
-    pub fidelity: String,
-    /// What forces are in: `N`, or `N/m` for a strip.
-    pub force_unit: &'static str,
-    /// The cycle repeats to the tolerance, and no step was unsettled.
-    pub converged: bool,
-    /// By how much ln Z may still change; null if nothing is known.
-    pub remaining: Option<f64>,
-    /// What that had to fall below.
-    pub tolerance: f64,
-    /// Error of every cycle's headline (α, or the mean load) that was asked for, relative to the greatest of them; null on grids that the
-    /// scene prescribes.
-    pub accuracy_asked: Option<f64>,
-    /// The largest that is stated, likewise.
-    pub accuracy_stated: Option<f64>,
-    /// Why no finer grid was marched: `accuracy`, `budget` or `limit`.
-    pub stopped_by: &'static str,
-    /// Where the periodic solve says that this ends: α, or the load ratio …
-    pub steady: Option<f64>,
-    /// … and its stated error.
-    pub steady_error: Option<f64>,
-    /// Time steps of one tooth's film, all grids.
-    pub film_steps: u64,
-    /// Contact problems solved.
-    pub contact_solves: u64,
-    /// Rounds of film and contact.
-    pub coupling_iterations: u64,
-    /// Steps in which film and contact did not agree to the tolerance within their rounds.
-    pub unsettled_steps: u64,
-    /// Wall time \[s\], the periodic solve included.
-    pub wall_s: f64,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The same, checked and in SI units.
+    pub problem: &'a Problem,
+    /// How it was solved.
+    pub settings: &'a Settings,
+    /// How it ended.
+    pub ended: &'a Startup,
     /// One for each cycle.
     pub rows: &'a [Row],
-    /// What the user should know.
-    pub warnings: Vec<String>,
+    /// Wall time \[s\] by the caller's clock, the periodic solve included.
+    pub wall_s: f64,
 }
 
-impl<'a> Object<'a> {
-    /// Of a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included.
-    pub fn new(
-        scene: &'a Scene,
-        problem: &Problem,
-        settings: &Settings,
-        ended: &Startup,
-        rows: &'a [Row],
-        wall_s: f64,
-    ) -> Self {
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { scene, problem, settings, ended, rows, wall_s } = self;
         let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
-        Self {
-            preset: &scene.name,
-            scene: scene.scene(),
-            fidelity: settings.fidelity.to_string(),
-            force_unit: force_unit(problem),
-            converged: ended.status == Status::Converged,
-            remaining: finite(ended.remaining),
-            tolerance: settings.tolerance,
-            accuracy_asked: (asked > 0.0).then_some(asked),
-            accuracy_stated: finite(stated),
-            stopped_by: stopped_by.name(),
-            steady: steady.map(|found| found.value),
-            steady_error: steady.map(|found| found.error),
-            film_steps: ended.stats.film_steps,
-            contact_solves: ended.stats.contact_solves,
-            coupling_iterations: ended.stats.coupling_iterations,
-            unsettled_steps: ended.stats.unsettled_steps,
-            wall_s,
-            rows,
-            warnings: ended.warnings.iter().cloned().chain(unsettled(ended)).collect(),
-        }
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", &scene.name)?;
+        map.serialize_entry("scene", scene.scene())?;
+        map.serialize_entry("fidelity", &settings.fidelity.to_string())?;
+        map.serialize_entry("force_unit", force_unit(problem))?;
+        map.serialize_entry("converged", &(ended.status == Status::Converged))?;
+        map.serialize_entry("remaining", &ended.remaining)?;
+        map.serialize_entry("tolerance", &settings.tolerance)?;
+        map.serialize_entry("accuracy_asked", &(asked > 0.0).then_some(asked))?;
+        map.serialize_entry("accuracy_stated", &stated)?;
+        map.serialize_entry("stopped_by", stopped_by.name())?;
+        map.serialize_entry("steady", &steady.map(|found| found.value))?;
+        map.serialize_entry("steady_error", &steady.map(|found| found.error))?;
+        map.serialize_entry("film_steps", &ended.stats.film_steps)?;
+        map.serialize_entry("contact_solves", &ended.stats.contact_solves)?;
+        map.serialize_entry("coupling_iterations", &ended.stats.coupling_iterations)?;
+        map.serialize_entry("unsettled_steps", &ended.stats.unsettled_steps)?;
+        map.serialize_entry("wall_s", wall_s)?;
+        map.serialize_entry("rows", rows)?;
+        map.serialize_entry("warnings", &warnings(ended))?;
+        map.end()
     }
+}
+
+/// What the user should know of a start-up.
+pub fn warnings(ended: &Startup) -> Vec<String> {
+    ended.warnings.iter().cloned().chain(unsettled(ended)).collect()
 }
 
 /// Puts a cycle among the others: after them, or in place of the same one on coarser grids.

@@ -62,42 +62,56 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
     writer.flush()
 }
 
-/// The object of `--json`.
-#[derive(Clone, Debug, serde::Serialize)]
+/// The object of `--json`: a sweep, its points so far, and the published values of Table I in its plane.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
-    /// Name of the scene that is varied.
-    pub preset: &'a str,
-    /// `motor` or `plate`.
-    pub scene: &'static str,
-    /// What forces are in: `N`, or `N/m` for a strip.
-    pub force_unit: &'static str,
-    /// `auto` or `paper`.
-    pub method: &'static str,
-    /// `draft`, `standard`, …; of method paper null.
-    pub fidelity: Option<String>,
-    /// All points are there.
-    pub complete: bool,
-    /// Fingerprint of the sweep, as in the first column of the CSV.
-    pub sweep: String,
-    /// What is varied.
-    pub axes: Vec<AxisObject>,
+    /// The sweep.
+    pub sweep: &'a Sweep,
     /// One for each point; the last axis varies fastest.
-    pub rows: Vec<RowObject<'a>>,
-    /// Published values of Table I in the plane of the sweep.
-    pub published: Vec<Published>,
+    pub rows: &'a [Row],
 }
 
-/// One axis.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct AxisObject {
-    /// Dotted key.
-    pub key: &'static str,
-    /// Unit of its values.
-    pub unit: &'static str,
-    /// `linear`, `log`, or of words `list`.
-    pub scale: &'static str,
-    /// Its values: numbers, or words as in `--set`.
-    pub values: Vec<serde_json::Value>,
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { sweep, rows } = *self;
+        let (scene, settings) = (sweep.scene(), sweep.settings());
+        let rows_of = rows.iter().map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row });
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", &scene.name)?;
+        map.serialize_entry("scene", scene.scene())?;
+        map.serialize_entry("force_unit", force_unit(sweep.problem()))?;
+        map.serialize_entry("method", settings.method.name())?;
+        // The paper's method has no fidelity.
+        let fidelity = (settings.method == Method::Auto).then(|| settings.fidelity.to_string());
+        map.serialize_entry("fidelity", &fidelity)?;
+        map.serialize_entry("complete", &(rows.len() == sweep.len()))?;
+        // As in the first column of the CSV.
+        map.serialize_entry("sweep", &sweep.fingerprint())?;
+        map.serialize_entry("axes", &sweep.axes().iter().map(AxisObject).collect::<Vec<_>>())?;
+        map.serialize_entry("rows", &rows_of.collect::<Vec<_>>())?;
+        map.serialize_entry("published", &sweep.published())?;
+        map.end()
+    }
+}
+
+/// An axis: its key, the unit, how its values are spaced (`linear`, `log`, or of words `list`), and the values, numbers or words as in `--set`.
+struct AxisObject<'a>(&'a SweepAxis);
+
+impl Serialize for AxisObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(axis) = self;
+        let scale = match axis.scale {
+            _ if !axis.words.is_empty() => "list",
+            Scale::Log => "log",
+            Scale::Linear => "linear",
+        };
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("key", axis.parameter.key)?;
+        map.serialize_entry("unit", axis.parameter.unit)?;
+        map.serialize_entry("scale", scale)?;
+        map.serialize_entry("values", &axis.values.iter().map(|value| json_value(axis, *value)).collect::<Vec<_>>())?;
+        map.end()
+    }
 }
 
 fn json_value(axis: &SweepAxis, value: f64) -> serde_json::Value {
@@ -105,8 +119,7 @@ fn json_value(axis: &SweepAxis, value: f64) -> serde_json::Value {
 }
 
 /// One point: its keys, its status, the names of the limits of the model that it exceeds, and its quantities by name.
-#[derive(Clone, Debug)]
-pub struct RowObject<'a> {
+struct RowObject<'a> {
     axes: &'a [SweepAxis],
     quantities: Vec<Quantity>,
     row: &'a Row,
@@ -124,41 +137,6 @@ impl Serialize for RowObject<'_> {
         map.serialize_entry(VALIDITY, &self.row.outside)?;
         estimates::add_numbers(&mut map, self.quantities.iter().copied(), &self.row.numbers)?;
         map.end()
-    }
-}
-
-impl<'a> Object<'a> {
-    /// The object of a sweep's rows.
-    pub fn new(sweep: &'a Sweep, rows: &'a [Row]) -> Self {
-        let settings = sweep.settings();
-        Self {
-            preset: &sweep.scene().name,
-            scene: sweep.scene().scene(),
-            force_unit: force_unit(sweep.problem()),
-            method: settings.method.name(),
-            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
-            complete: rows.len() == sweep.len(),
-            sweep: sweep.fingerprint(),
-            axes: sweep
-                .axes()
-                .iter()
-                .map(|axis| AxisObject {
-                    key: axis.parameter.key,
-                    unit: axis.parameter.unit,
-                    scale: match axis.scale {
-                        _ if !axis.words.is_empty() => "list",
-                        Scale::Log => "log",
-                        Scale::Linear => "linear",
-                    },
-                    values: axis.values.iter().map(|value| json_value(axis, *value)).collect(),
-                })
-                .collect(),
-            rows: rows
-                .iter()
-                .map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row })
-                .collect(),
-            published: sweep.published(),
-        }
     }
 }
 

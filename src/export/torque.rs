@@ -12,16 +12,19 @@ use std::io::{self, Write};
 /// The object: with and without the film, the friction coefficient that a model without film needs for the same maximum operating
 /// torque, the mean power spent on squeezing the film, a bound of its viscous drag (signed), the greatest speed of the stator's surface,
 /// and a bound of what the film's answer to another rotor speed changes, relative to the torque. What is not known is null.
-impl Serialize for TorqueCurves {
+pub(super) struct Merit<'a>(pub(super) &'a TorqueCurves);
+
+impl Serialize for Merit<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(curves) = self;
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("with_film", &Side(self, &self.with_film))?;
-        map.serialize_entry("without_film", &Side(self, &self.without_film))?;
-        estimates::add(&mut map, "dry_equivalent_friction", "", Some(self.dry_equivalent))?;
-        estimates::add(&mut map, "film_power", "_w", Some(self.film_power))?;
-        map.serialize_entry("viscous_drag_nm", &self.viscous_drag)?;
-        map.serialize_entry("surface_speed_rpm", &self.rpm(self.stator_speed))?;
-        map.serialize_entry("speed_effect", &self.speed_effect)?;
+        map.serialize_entry("with_film", &Side(curves, &curves.with_film))?;
+        map.serialize_entry("without_film", &Side(curves, &curves.without_film))?;
+        estimates::add(&mut map, "dry_equivalent_friction", "", Some(curves.dry_equivalent))?;
+        estimates::add(&mut map, "film_power", "_w", Some(curves.film_power))?;
+        map.serialize_entry("viscous_drag_nm", &curves.viscous_drag)?;
+        map.serialize_entry("surface_speed_rpm", &curves.rpm(curves.stator_speed))?;
+        map.serialize_entry("speed_effect", &curves.speed_effect)?;
         map.end()
     }
 }

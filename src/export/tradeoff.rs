@@ -2,36 +2,57 @@
 
 use super::estimates::finite;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Family, Point, Tradeoff};
+use crate::analysis::tradeoff::{Family, Point, Target, Tradeoff};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
-/// The object of `--json`.
-#[derive(Clone, Debug, Serialize)]
+/// The object of `--json`: the settings of a scene, and those that serve what was asked for, if anything.
+#[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
     /// Name of the scene.
     pub preset: &'a str,
-    /// The number that is judged: `alpha`, `film_load_n` or, for a plate under a load, `mean_gap_um`.
-    pub judged: &'static str,
-    /// The setting that the others are judged by.
-    pub reference: Option<&'a str>,
-    /// One for each setting.
-    pub settings: Vec<SettingObject>,
-    /// The settings that were asked for, if any.
-    pub chosen: Vec<ChoiceObject>,
+    /// The settings.
+    pub tradeoff: &'a Tradeoff,
+    /// What was asked for.
+    pub targets: &'a [Target],
 }
 
-/// A setting chosen.
-#[derive(Clone, Debug, Serialize)]
-pub struct ChoiceObject {
-    /// `accuracy` or `budget_s`.
-    pub wish: &'static str,
-    /// The share, or the time \[s\].
-    pub value: f64,
-    /// The setting, or null if none serves.
-    pub setting: Option<String>,
-    /// Options of the command line that choose it.
-    pub options: Option<String>,
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { preset, tradeoff, targets } = *self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("preset", preset)?;
+        map.serialize_entry("judged", tradeoff.judged.name())?;
+        let reference = tradeoff.reference.map(|i| &tradeoff.points[i].run.candidate.name);
+        map.serialize_entry("reference", &reference)?;
+        map.serialize_entry("settings", &settings(tradeoff))?;
+        let chosen = targets.iter().map(|target| ChoiceObject { tradeoff, target: *target });
+        map.serialize_entry("chosen", &chosen.collect::<Vec<_>>())?;
+        map.end()
+    }
+}
+
+/// What was asked for, a share or a time \[s\], and the setting that serves it with its options on the command line; null if none does.
+struct ChoiceObject<'a> {
+    tradeoff: &'a Tradeoff,
+    target: Target,
+}
+
+impl Serialize for ChoiceObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let chosen = self.tradeoff.choose(self.target).map(|i| &self.tradeoff.points[i].run.candidate);
+        let (wish, value) = match self.target {
+            Target::Accuracy(share) => ("accuracy", share),
+            Target::Budget(seconds) => ("budget_s", seconds),
+        };
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("wish", wish)?;
+        map.serialize_entry("value", &value)?;
+        map.serialize_entry("setting", &chosen.map(|candidate| &candidate.name))?;
+        map.serialize_entry("options", &chosen.map(|candidate| &candidate.options))?;
+        map.end()
+    }
 }
 
 /// One setting, a row of the CSV. What is not known is null, or empty.
@@ -40,7 +61,7 @@ pub struct SettingObject {
     /// Its name.
     pub setting: String,
     /// `fidelity`, `grid` or `paper`.
-    pub family: &'static str,
+    pub family: Family,
     /// `converged`, `not converged`, `given up`, `failed: …`, or `waiting`.
     pub status: String,
     /// Median time \[s\].
@@ -83,11 +104,7 @@ impl SettingObject {
         let count = |quantity| run.numbers.get(quantity).map(|count| count as u64);
         Self {
             setting: run.candidate.name.clone(),
-            family: match run.candidate.family {
-                Family::Fidelity => "fidelity",
-                Family::Grid => "grid",
-                Family::Paper => "paper",
-            },
+            family: run.candidate.family,
             status: run.status.to_string(),
             median_s: finite(point.median),
             lower_quartile_s: finite(point.quartiles.0),

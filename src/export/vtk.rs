@@ -69,9 +69,6 @@ impl Mesh {
 }
 
 /// Writes the faces at a frame of the cycle. Nothing is known of a plane of pressure that was not recorded: `Ok` without a face.
-///
-/// # Errors
-/// Those of writing.
 pub fn write(problem: &Problem, recording: &Recording, frame: usize, out: &mut dyn Write) -> io::Result<()> {
     let mut mesh = Mesh::default();
     match &problem.scenario {

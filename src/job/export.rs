@@ -13,7 +13,8 @@ use crate::atomic::write_file;
 use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{self, Format};
-use crate::export::files::{self, Control, ExportError, Solved};
+use crate::export::files::{self, Control, ExportError, Folder, Solved};
+use crate::export::fit::{Object, OptimumObject};
 use crate::export::json::Summary;
 use crate::export::sweep::{figure_of, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
@@ -90,8 +91,8 @@ pub enum Content {
     Runs(OfRuns, Vec<ComparedRun>),
     /// A sweep, and its rows.
     Sweep(OfSweep, Arc<Sweep>, Vec<Row>),
-    /// Sensitivities, the uncertainties of keys, random scenes, and the fidelity of all of them.
-    Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>, Fidelity),
+    /// Sensitivities, the uncertainties of keys, and random scenes.
+    Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>),
     /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
     Fit(String, Box<Posed>, Arc<fit::Found>),
     /// Error against time of the scene of this name.
@@ -141,9 +142,9 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Run(what, run) => of_run(what, path, &run, control)?,
         Content::Runs(OfRuns::Report, runs) => files::html(path, &runs, &coarsest(&runs), control)?,
         Content::Runs(OfRuns::Comparison { all }, runs) => {
-            files::comparison(path, &runs, (&coarsest(&runs), all, &[]), BESIDE_DATA, control)?
+            files::comparison(&folder(path, BESIDE_DATA), &runs, &coarsest(&runs), all, control)?
         }
-        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(path, &sweep, &rows, &[], BESIDE_DATA)?,
+        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(&folder(path, BESIDE_DATA), &sweep, &rows)?,
         Content::Sweep(OfSweep::Table, sweep, rows) => {
             write_file(path, |out| write_csv(&sweep, &rows, out))?;
             one()
@@ -152,16 +153,18 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
             figure::write(&figure_of(&sweep, &rows, quantity), path)?;
             one()
         }
-        Content::Sensitivity(sensitivity, uncertainties, carlo, fidelity) => {
+        Content::Sensitivity(sensitivity, uncertainties, carlo) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
             let found = sensitivity::Found { sensitivity: &sensitivity, uncertainties, carlo };
-            files::sensitivity(path, &found, &fidelity.to_string(), &[], BESIDE_DATA)?
+            files::sensitivity(&folder(path, BESIDE_DATA), &found)?
         }
         Content::Fit(name, posed, found) => {
-            let of = (name.as_str(), &posed.problem);
+            let (out, preset, problem) = (folder(path, BESIDE_DATA), name.as_str(), &posed.problem);
             match &*found {
-                fit::Found::Fit(measured, fitted) => files::fitted(path, of, (fitted, measured), &[], BESIDE_DATA)?,
-                fit::Found::Optimum(optimum) => files::optimum(path, of, optimum, &[], BESIDE_DATA)?,
+                fit::Found::Fit(measured, fitted) => {
+                    files::fitted(&out, problem, &Object { preset, fitted, measured })?
+                }
+                fit::Found::Optimum(found) => files::optimum(&out, problem, &OptimumObject { preset, found })?,
             }
         }
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
@@ -196,16 +199,22 @@ fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) ->
             let mut summary = Summary::new(problem, solution, *wall_s, &[]);
             summary.add_torque(merit());
             let solved = Solved { torque: summary.torque.as_ref(), ..solved };
-            files::solve(path, &solved, &summary, BESIDE_DATA, control)
+            files::solve(&folder(path, BESIDE_DATA), &solved, &summary, control)
         }
         OfRun::Figures => {
             // If torque cannot be computed, the other figures are still worth having.
             let merit = merit().ok().flatten();
-            files::solve_figures(path, &Solved { torque: merit.as_ref(), ..solved }, Format::WRITTEN, control)
+            let solved = Solved { torque: merit.as_ref(), ..solved };
+            files::solve_figures(&folder(path, Format::WRITTEN), &solved, control)
         }
         OfRun::Fields => files::fields(path, &solved),
         OfRun::Animation => files::animation(path, &solved, &Options::default(), control),
     }
+}
+
+/// A folder for what the window writes, with figures in these formats.
+fn folder<'a>(path: &'a Path, formats: &[Format]) -> Folder<'a> {
+    Folder { path, command: &[], formats: formats.to_vec() }
 }
 
 /// Settings of runs, as a report names them: at the coarsest of their fidelities.
@@ -219,6 +228,7 @@ mod tests {
     use super::*;
     use crate::analysis::fit::{Goal, optimise};
     use crate::analysis::tradeoff::{Effort, candidates, measure};
+    use crate::job::work::tests::{carried, draft, posed};
     use crate::problem::Problem;
     use crate::scene::presets;
     use crate::solve::solve;
@@ -236,12 +246,11 @@ mod tests {
     /// Makes the files of this name here and elsewhere, and compares them. Returns how many there are.
     fn made_twice(name: &str, content: &dyn Fn() -> Content) -> usize {
         let folder = tempfile::tempdir().unwrap();
-        let made = |place: &str, carried: bool| {
+        let made = |place: &str, sent: bool| {
             let path = folder.path().join(place).join(name);
             std::fs::create_dir(path.parent().unwrap()).unwrap();
             let files = Files { path: path.clone(), content: content() };
-            let there = || postcard::from_bytes(&postcard::to_stdvec(&files).unwrap()).unwrap();
-            let files: Files = if carried { there() } else { files };
+            let files = if sent { carried(&files) } else { files };
             files.run(&Cancel::new(), &|_| ()).unwrap();
             read(&path)
         };
@@ -253,13 +262,9 @@ mod tests {
         here.len()
     }
 
-    fn draft() -> Settings {
-        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
-    }
-
     #[test]
     fn files_of_a_run_that_are_made_elsewhere_are_the_same() {
-        let posed = Posed::try_from(presets::find("floating-disc").unwrap()).unwrap();
+        let posed = posed("floating-disc");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, false, 0.5);
         let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
@@ -287,8 +292,7 @@ mod tests {
         let uncertainties = Uncertainties::new(&scene, &[(key, "10%".parse().unwrap())]).unwrap();
         let carlo = found.monte_carlo(&uncertainties, 5, 1, &cancel, &|| ()).unwrap();
         let found = Arc::new(found);
-        let content =
-            || Content::Sensitivity(Arc::clone(&found), uncertainties.clone(), Some(carlo.clone()), Fidelity::Draft);
+        let content = || Content::Sensitivity(Arc::clone(&found), uncertainties.clone(), Some(carlo.clone()));
         assert!(made_twice("sensitivity", &content) > 4);
 
         let bounds = ["plate.amplitude_um=0.1:0.5".parse().unwrap()];

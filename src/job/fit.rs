@@ -2,7 +2,8 @@
 
 use super::task::TaskOf;
 use super::work::{Work, pooled};
-use crate::analysis::fit::{Bounds, FitError, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
+use crate::analysis::error::AnalysisError;
+use crate::analysis::fit::{Bounds, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
 use crate::control::Cancel;
 use crate::scene::Scene;
 use crate::solve::Settings;
@@ -80,7 +81,7 @@ impl Work for Asked {
             let found = fit(&model, &measured, STARTS, cancel, &told)?;
             Ok(found.map(|fitted| Found::Fit(measured, fitted)))
         };
-        pooled(solve).map_err(|error: FitError| error.to_string())
+        pooled(solve).map_err(|error: AnalysisError| error.to_string())
     }
 
     fn ended() -> Self::Found {

@@ -39,15 +39,11 @@ impl Work for FromRest {
 #[cfg(test)]
 mod tests {
     use super::super::task::{Task, TaskOf, to_the_end};
+    use super::super::work::tests::posed;
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::scene::presets;
     use crate::solution::Status;
     use std::time::Duration;
-
-    fn posed(preset: &str) -> Posed {
-        Posed::try_from(presets::find(preset).unwrap()).unwrap()
-    }
 
     fn draft(posed: Posed, cycles: usize) -> TaskOf<FromRest> {
         let settings = Settings { fidelity: Fidelity::Draft, cycles, ..Settings::default() };

@@ -48,14 +48,14 @@ impl Work for Measurement {
 #[cfg(test)]
 mod tests {
     use super::super::task::{Task, TaskOf, to_the_end};
+    use super::super::work::tests::posed;
     use super::*;
     use crate::analysis::attempt::RunStatus;
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
-    use crate::scene::presets;
 
     fn start(fidelity: Fidelity, repeats: usize) -> TaskOf<Measurement> {
-        let posed = Posed::try_from(presets::find("fundamental").unwrap()).unwrap();
+        let posed = posed("fundamental");
         let mut candidates = candidates(&posed.problem);
         candidates.retain(|candidate| candidate.name == fidelity.name());
         let effort = Effort { repeats: Some(repeats), ..Effort::default() };

@@ -71,7 +71,7 @@ pub fn pooled<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::analysis::sensitivity::{Sensitivity, Uncertainties, Uncertainty};
     use crate::analysis::sweep::Sweep;
@@ -87,15 +87,16 @@ mod tests {
     use crate::solve::{Settings, solve};
     use std::sync::Arc;
 
-    fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
+    /// As it is on the other side.
+    pub(in crate::job) fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
         postcard::from_bytes(&postcard::to_stdvec(what).unwrap()).unwrap()
     }
 
-    fn draft() -> Settings {
+    pub(in crate::job) fn draft() -> Settings {
         Settings { fidelity: Fidelity::Draft, ..Settings::default() }
     }
 
-    fn posed(preset: &str) -> Posed {
+    pub(in crate::job) fn posed(preset: &str) -> Posed {
         Posed::try_from(presets::find(preset).unwrap()).unwrap()
     }
 

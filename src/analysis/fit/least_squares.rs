@@ -1,13 +1,13 @@
 //! The values of the unknowns that agree best with what was measured, and how sure they are.
 
-use super::Tell;
-use super::error::FitError;
 use super::measured::Measured;
 use super::model::{Computed, Model};
 use super::starts::{best, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
+use super::{Stopped, Tell, search_failed};
 use crate::analysis::attempt::caught;
+use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
 use crate::digits::{short, significant};
 use crate::scene::Scene;
@@ -114,10 +114,6 @@ struct Search<'a> {
     tried: &'a Mutex<(usize, f64)>,
 }
 
-/// The caller cancelled.
-#[derive(Debug)]
-struct Stopped;
-
 impl Search<'_> {
     /// (computed − measured)/error of the measurements that count, at `x`; not a number where nothing is computed.
     fn residuals(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
@@ -208,18 +204,18 @@ pub fn fit(
     starts: usize,
     cancel: &Cancel,
     told: Tell<'_>,
-) -> Result<Option<Fitted>, FitError> {
+) -> Result<Option<Fitted>, AnalysisError> {
     let own = model.start();
     let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
     let first = in_order(measured, &first);
     let used: Vec<usize> = (0..first.len()).filter(|i| first[*i].is_ok()).collect();
-    let unknowns = model.unknowns().len();
+    let unknowns = model.unknowns.len();
     if used.len() < unknowns {
         let fault = first.iter().find_map(|found| found.as_ref().err());
         let left_out = fault.map_or_else(String::new, |why| {
             format!(" ({} of {} could not be computed at the start: {why})", first.len() - used.len(), first.len())
         });
-        return Err(FitError::Input(format!(
+        return Err(AnalysisError::Input(format!(
             "measurements: {}, keys varied: {unknowns}; give at least as many measurements as keys, or vary fewer{left_out}",
             used.len()
         )));
@@ -291,7 +287,7 @@ fn coarse(
     starts: usize,
     cancel: &Cancel,
 ) -> Option<Vec<Vec<f64>>> {
-    let points = spread(model.unknowns().len(), starts.saturating_sub(1));
+    let points = spread(model.unknowns.len(), starts.saturating_sub(1));
     let solved = model.drafts(&points, cancel)?;
     let judged = solved
         .iter()
@@ -302,20 +298,20 @@ fn coarse(
 }
 
 /// From a point to the minimum that it leads to: χ² there, the point, and whether it is one. `None` if cancelled.
-fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, FitError> {
+fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, AnalysisError> {
     let solver = TrustRegionReflective::new()
         .with_max_inner_attempts(MOST_ATTEMPTS)
         .with_initial_radius(0.5)
         .with_relative_cost_change_tolerance(LEAST_GAIN);
     // The library refuses what it was not made for with a panic.
-    match caught(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run()).map_err(FitError::Search)? {
+    match caught(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run()).map_err(search_failed)? {
         Ok(ended) => {
             // Where differences of solves are all noise no step gains anything: that is a minimum as well.
             let converged = ended.report.termination.code() != TerminationCode::MaxIter;
             Ok(Some((2.0 * ended.cost(), ended.param().clone(), converged)))
         }
         Err(ConstraintSolveError::Evaluation(Stopped)) => Ok(None),
-        Err(error) => Err(FitError::Search(format!("{error:?}"))),
+        Err(error) => Err(search_failed(format!("{error:?}"))),
     }
 }
 
@@ -327,7 +323,7 @@ fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> 
         match minima.iter_mut().find(same) {
             Some((_, minimum)) => minimum.starts += 1,
             None => {
-                let values = model.unknowns().iter().zip(x).map(|(unknown, x)| unknown.value(*x)).collect();
+                let values = model.unknowns.iter().zip(x).map(|(unknown, x)| unknown.value(*x)).collect();
                 minima.push((x, Minimum { chi_squared: *chi_squared, values, starts: 1 }));
             }
         }
@@ -347,7 +343,7 @@ struct Reached {
 }
 
 /// What there is to say of the minimum.
-fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, FitError> {
+fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
     let Reached { x, at, columns, computed, minima, converged } = reached;
     let count = x.len();
     let free: Vec<usize> = (0..count).filter(|k| at[*k].is_none()).collect();
@@ -358,7 +354,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
     let scatter = (degrees_of_freedom > 0).then(|| (chi_squared / degrees_of_freedom as f64).sqrt());
     let error_scale = if measured.errors_known { Some(1.0) } else { scatter };
     let scale = error_scale.unwrap_or(1.0);
-    let slope: Vec<f64> = model.unknowns().iter().zip(&x).map(|(unknown, x)| unknown.slope(*x)).collect();
+    let slope: Vec<f64> = model.unknowns.iter().zip(&x).map(|(unknown, x)| unknown.slope(*x)).collect();
     let mut covariance = vec![vec![f64::NAN; count]; count];
     let mut correlation = covariance.clone();
     let lost = |k: usize| certainty.undetermined.iter().any(|direction| direction[k].abs() > 0.3);
@@ -374,7 +370,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
     }
     let unknowns: Vec<FittedUnknown> = (0..count)
         .map(|k| {
-            let unknown = model.unknowns()[k].clone();
+            let unknown = model.unknowns[k].clone();
             let error = covariance[k][k].sqrt();
             FittedUnknown {
                 value: unknown.value(x[k]),

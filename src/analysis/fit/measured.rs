@@ -1,6 +1,6 @@
 //! Tables of measurements: CSV, one measurement or several in a line.
 
-use super::error::FitError;
+use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::input::read_text;
 use crate::problem::{Numerics, Problem};
@@ -96,12 +96,12 @@ pub struct ErrorSize {
 }
 
 impl FromStr for ErrorSize {
-    type Err = FitError;
+    type Err = AnalysisError;
 
-    fn from_str(text: &str) -> Result<Self, FitError> {
+    fn from_str(text: &str) -> Result<Self, AnalysisError> {
         let fault = || {
             let expected = "expected a number above 0, or a share, as in 0.005, 1% or film_load_n=1%";
-            FitError::Input(format!("error {}: {expected}", show_text(text)))
+            AnalysisError::Input(format!("error {}: {expected}", show_text(text)))
         };
         let (name, size) = match text.split_once('=') {
             Some((name, size)) => (Some(name.trim().to_owned()), size.trim()),
@@ -144,8 +144,8 @@ pub(super) fn named(problem: &Problem, name: &str) -> Option<Quantity> {
 }
 
 /// The fault of a name that results of the scene do not have, given for `option`.
-pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> FitError {
-    FitError::Input(format!("{option} {}: no such number; allowed: {allowed}", show_text(name)))
+pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> AnalysisError {
+    AnalysisError::Input(format!("{option} {}: no such number; allowed: {allowed}", show_text(name)))
 }
 
 impl Measured {
@@ -153,13 +153,13 @@ impl Measured {
     ///
     /// # Errors
     /// The file cannot be read, or is no such table.
-    pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, FitError> {
+    pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, AnalysisError> {
         if name_or_path == TABLE1 {
             return Ok(Self::table1(method)?);
         }
         let path = Path::new(name_or_path);
-        let text =
-            read_text(path, LARGEST_TABLE).map_err(|fault| FitError::Input(format!("{}: {fault}", path.display())))?;
+        let text = read_text(path, LARGEST_TABLE)
+            .map_err(|fault| AnalysisError::Input(format!("{}: {fault}", path.display())))?;
         Self::from_csv(&text, &show_text(name_or_path), &Problem::try_from(scene)?)
     }
 
@@ -196,11 +196,11 @@ impl Measured {
     /// * `row`, `name` or `note`: words.
     ///
     /// # Errors
-    /// [`FitError::Input`], which names line, column, value and what is allowed.
-    pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, FitError> {
+    /// [`AnalysisError::Input`], which names line, column, value and what is allowed.
+    pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, AnalysisError> {
         let fault = |line: Option<u64>, what: String| {
             let line = line.map_or_else(String::new, |line| format!(":{line}"));
-            FitError::Input(format!("{origin}{line}: {what}"))
+            AnalysisError::Input(format!("{origin}{line}: {what}"))
         };
         // The reader miscounts lines that end in CRLF.
         let text = &text.replace("\r\n", "\n");
@@ -259,7 +259,7 @@ impl Measured {
                 return Err(fault(line, format!("more than {MOST_LINES} measurements")));
             }
             let cell = |i: usize| record.get(i).unwrap_or_default();
-            let number = |i: usize| -> Result<Option<f64>, FitError> {
+            let number = |i: usize| -> Result<Option<f64>, AnalysisError> {
                 let text = cell(i);
                 match decimal(text).parse::<f64>() {
                     _ if text.is_empty() => Ok(None),
@@ -328,7 +328,7 @@ impl Measured {
     ///
     /// # Errors
     /// A name that was not measured, a share of a value that is 0, or a measurement without an error.
-    pub fn with_errors(mut self, sizes: &[ErrorSize]) -> Result<Self, FitError> {
+    pub fn with_errors(mut self, sizes: &[ErrorSize]) -> Result<Self, AnalysisError> {
         if sizes.is_empty() {
             return Ok(self);
         }
@@ -349,7 +349,7 @@ impl Measured {
                 None => one.error = 0.0,
             }
             if one.error <= 0.0 {
-                return Err(FitError::Input(format!(
+                return Err(AnalysisError::Input(format!(
                     "{}: {}: {} = {} has no error: give one, absolute if the value is 0",
                     self.name,
                     one.label,
@@ -366,13 +366,13 @@ impl Measured {
     ///
     /// # Errors
     /// A name that no line has.
-    pub fn without(mut self, labels: &[String]) -> Result<Self, FitError> {
+    pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
         for label in labels {
             let before = self.measurements.len();
             self.measurements.retain(|one| one.label != *label);
             if self.measurements.len() == before {
                 let label = show_text(label);
-                return Err(FitError::Input(format!("{}: skip {label}: no line has this name", self.name)));
+                return Err(AnalysisError::Input(format!("{}: skip {label}: no line has this name", self.name)));
             }
         }
         Ok(self)

@@ -14,7 +14,6 @@
 //! [`optimise`] looks for the greatest or least value of one number within limits on others by COBYLA (Powell 1994) of the same
 //! crate, which needs no derivatives.
 
-mod error;
 mod least_squares;
 mod measured;
 mod model;
@@ -23,7 +22,8 @@ mod starts;
 mod statistics;
 mod unknown;
 
-pub use error::FitError;
+use super::error::AnalysisError;
+
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
 pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
 pub use model::{Computed, Model};
@@ -34,3 +34,12 @@ pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
 /// Tells how far a fit or an optimisation is: how many points have been tried, and the best so far (of a fit χ², of an optimum the
 /// number that is sought; not a number before there is one).
 pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);
+
+/// The error by which the library that searches is told that the caller has cancelled.
+#[derive(Debug)]
+struct Stopped;
+
+/// The fault of the library that searches.
+fn search_failed(reason: String) -> AnalysisError {
+    AnalysisError::Search(format!("the search failed: {reason}"))
+}

@@ -1,9 +1,9 @@
 //! A scene with its unknowns, solved under every condition of a table.
 
-use super::error::FitError;
 use super::measured::{Measured, Observable};
 use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
 use crate::analysis::attempt::{RunStatus, attempt, caught};
+use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Numbers;
 use crate::analysis::variation::Variation;
 use crate::control::Cancel;
@@ -25,8 +25,10 @@ pub type Computed = Result<Estimate, String>;
 #[derive(Debug)]
 pub struct Model<'a> {
     scene: &'a Scene,
-    settings: Settings,
-    unknowns: Vec<Unknown>,
+    /// How it is solved.
+    pub(super) settings: Settings,
+    /// The keys that are chosen.
+    pub(super) unknowns: Vec<Unknown>,
     conditions: Vec<Condition>,
     /// Of each condition, what is asked of it.
     asked: Vec<Vec<Observable>>,
@@ -46,17 +48,17 @@ impl<'a> Model<'a> {
     /// search starts.
     ///
     /// # Errors
-    /// [`FitError`], which names the key, the value and what is allowed.
-    pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, FitError> {
+    /// [`AnalysisError`], which names the key, the value and what is allowed.
+    pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
             let found = bounds.len();
-            return Err(FitError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_UNKNOWNS}")));
+            return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_UNKNOWNS}")));
         }
         let unknowns = bounds.iter().map(|bounds| Unknown::new(scene, bounds)).collect::<Result<Vec<_>, _>>()?;
         for (i, unknown) in unknowns.iter().enumerate() {
             let key = unknown.parameter.key;
             if unknowns[..i].iter().any(|other| other.parameter.key == key) {
-                return Err(FitError::Input(format!("vary {key}: given twice: the keys have to differ")));
+                return Err(AnalysisError::Input(format!("vary {key}: given twice: the keys have to differ")));
             }
         }
         check(&Problem::try_from(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
@@ -74,21 +76,21 @@ impl<'a> Model<'a> {
     ///
     /// # Errors
     /// Every line sets a key that is to be chosen, or one sets a key that the scene does not take.
-    pub fn under(mut self, measured: &Measured) -> Result<Self, FitError> {
+    pub fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
         let sets = |changes: &[(String, String)], key: &str| changes.iter().any(|(other, _)| other == key);
         for unknown in &self.unknowns {
             let key = unknown.parameter.key;
             if measured.measurements.iter().all(|one| sets(&measured.conditions[one.condition], key)) {
-                return Err(FitError::Input(format!(
+                return Err(AnalysisError::Input(format!(
                     "vary {key}: every line of the table of measurements sets it: nothing is left to choose"
                 )));
             }
         }
-        let condition = |changes: &Vec<(String, String)>| -> Result<Condition, FitError> {
+        let condition = |changes: &Vec<(String, String)>| -> Result<Condition, AnalysisError> {
             let mut scene = self.scene.clone();
             scene
                 .set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
-                .map_err(|error| FitError::Input(format!("{}: {error}", measured.name)))?;
+                .map_err(|error| AnalysisError::Input(format!("{}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
             Ok(Condition { scene, chosen })
         };
@@ -104,16 +106,6 @@ impl<'a> Model<'a> {
     pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
         self.asked = vec![numbers];
         self
-    }
-
-    /// The keys that are chosen.
-    pub fn unknowns(&self) -> &[Unknown] {
-        &self.unknowns
-    }
-
-    /// How it is solved.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
     }
 
     /// How many solves there have been.
@@ -136,7 +128,7 @@ impl<'a> Model<'a> {
     }
 
     /// The scene itself with the values at `x`, named as one that was fitted.
-    pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, FitError> {
+    pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, AnalysisError> {
         let mut scene = self.scene.clone();
         for (unknown, x) in self.unknowns.iter().zip(x) {
             unknown.set(&mut scene, *x)?;

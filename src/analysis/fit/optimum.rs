@@ -1,12 +1,12 @@
 //! The values of the unknowns at which one number is greatest or least, within limits on others.
 
-use super::Tell;
-use super::error::FitError;
 use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
 use super::starts::{best, spread};
 use super::unknown::{Bound, Bounds, Unknown};
+use super::{Stopped, Tell, search_failed};
 use crate::analysis::attempt::{attempt, caught};
+use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
 use crate::digits::short;
@@ -49,12 +49,12 @@ pub struct Limit {
 }
 
 impl FromStr for Limit {
-    type Err = FitError;
+    type Err = AnalysisError;
 
-    fn from_str(text: &str) -> Result<Self, FitError> {
+    fn from_str(text: &str) -> Result<Self, AnalysisError> {
         let fault = || {
             let found = show_text(text);
-            FitError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
+            AnalysisError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
         };
         let below = text.contains('<');
         let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
@@ -88,13 +88,13 @@ impl Goal {
     ///
     /// # Errors
     /// A name that the scene's results do not have.
-    pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, FitError> {
+    pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, AnalysisError> {
         let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
             named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
         };
         let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
-        let limits = limits.collect::<Result<Vec<_>, FitError>>()?;
+        let limits = limits.collect::<Result<Vec<_>, AnalysisError>>()?;
         Ok(Self { quantity: find(if greatest { "maximise" } else { "minimise" }, name)?, greatest, limits })
     }
 
@@ -174,10 +174,6 @@ struct Search<'a> {
 /// The number at a point, and its limits.
 type Outcome = (f64, Vec<f64>);
 
-/// The caller cancelled.
-#[derive(Debug)]
-struct Stopped;
-
 impl Search<'_> {
     fn at(&self, x: &[f64]) -> Result<Option<Outcome>, Stopped> {
         // The library may look beyond the bounds.
@@ -240,14 +236,14 @@ impl NonlinearInequalityValues for Search<'_> {
 /// of as many points spread over the bounds and solved as drafts. `None` if cancelled.
 ///
 /// # Errors
-/// [`FitError`] of the bounds, or nothing could be solved.
+/// [`AnalysisError`] of the bounds, or nothing could be solved.
 pub fn optimise(
     scene: &Scene,
     bounds: &[Bounds],
     goal: &Goal,
     settings: &Settings,
     (starts, cancel, told): (usize, &Cancel, Tell<'_>),
-) -> Result<Option<Optimum>, FitError> {
+) -> Result<Option<Optimum>, AnalysisError> {
     let model = Model::new(scene, bounds, settings)?.asking(goal.asked());
     let own = model.start();
     let points: Vec<Vec<f64>> =
@@ -256,7 +252,7 @@ pub fn optimise(
     let found = |solved: &[Vec<Computed>]| solved[0][0].as_ref().ok().map(|found| found.value.abs());
     let Some(size) = solved.iter().find_map(|solved| found(solved)).map(|size| if size > 0.0 { size } else { 1.0 })
     else {
-        return Err(FitError::NoStart(solved[0][0][0].as_ref().err().cloned().unwrap_or_default()));
+        return Err(no_start(solved[0][0][0].as_ref().err().map_or("", String::as_str)));
     };
     let judged = solved.iter().zip(points).skip(1).filter_map(|(solved, point)| {
         let (cost, beyond) = goal.judge(&solved[0], size)?;
@@ -282,10 +278,10 @@ pub fn optimise(
         let solver = Cobyla::new().with_initial_radius(RADIUS.0).with_final_radius(RADIUS.1);
         let run = || Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run();
         // The library refuses what it was not made for with a panic.
-        let ended = match caught(run).map_err(FitError::Search)? {
+        let ended = match caught(run).map_err(search_failed)? {
             Ok(ended) => ended,
             Err(ConstraintSolveError::Evaluation(Stopped)) => return Ok(None),
-            Err(error) => return Err(FitError::Search(format!("{error:?}"))),
+            Err(error) => return Err(search_failed(format!("{error:?}"))),
         };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
         // Of limits that are kept to a thousandth of their value.
@@ -297,7 +293,7 @@ pub fn optimise(
         }
     }
     let Some((_, mut x, converged)) = reached else {
-        return Err(FitError::NoStart("no point that was tried could be solved".to_owned()));
+        return Err(no_start("no point that was tried could be solved"));
     };
     let at: Vec<Option<Bound>> = x
         .iter()
@@ -313,13 +309,18 @@ pub fn optimise(
     describe(&model, goal, (own, x, at, converged), cancel)
 }
 
+/// The fault of a scene that cannot be solved.
+fn no_start(reason: &str) -> AnalysisError {
+    AnalysisError::Search(format!("no start can be solved: {reason}"))
+}
+
 /// What there is to say of the optimum at `x`.
 fn describe(
     model: &Model<'_>,
     goal: &Goal,
     (own, x, at, converged): (Vec<f64>, Vec<f64>, Vec<Option<Bound>>, bool),
     cancel: &Cancel,
-) -> Result<Option<Optimum>, FitError> {
+) -> Result<Option<Optimum>, AnalysisError> {
     let mut points = vec![x.clone(), own];
     let mut places = Vec::new();
     for k in 0..x.len() {
@@ -333,18 +334,18 @@ fn describe(
         }));
         places.push(along);
     }
-    let Some(solved) = model.at(&points, model.settings(), cancel) else { return Ok(None) };
+    let Some(solved) = model.at(&points, &model.settings, cancel) else { return Ok(None) };
     let mut found = solved.into_iter().map(|mut solved| solved.swap_remove(0));
     let (here, before) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
     let value = |computed: &[Computed]| computed.first().and_then(|found| found.as_ref().ok()).copied();
     let Some(best) = value(&here) else {
-        return Err(FitError::NoStart("the optimum could not be solved again".to_owned()));
+        return Err(no_start("the optimum could not be solved again"));
     };
     let sign = if goal.greatest { 1.0 } else { -1.0 };
     let mut lines = Vec::new();
     let mut better: Option<(String, f64)> = None;
     for (k, places) in places.iter().enumerate() {
-        let unknown = model.unknowns()[k].clone();
+        let unknown = model.unknowns[k].clone();
         let numbers: Vec<(f64, Vec<Computed>)> =
             places.iter().zip(&mut found).map(|(place, found)| (*place, found)).collect();
         for (place, computed) in &numbers {
@@ -407,7 +408,7 @@ fn describe(
     }
     let scene = model.fitted(&x, "optimised")?;
     // What is said of it wherever it is solved.
-    if let Ok(solution) = attempt(&Problem::try_from(&scene)?, model.settings(), &mut (), cancel) {
+    if let Ok(solution) = attempt(&Problem::try_from(&scene)?, &model.settings, &mut (), cancel) {
         warnings.extend(solution.warnings);
     }
     Ok(Some(Optimum {

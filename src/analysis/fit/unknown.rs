@@ -1,6 +1,6 @@
 //! The keys that are chosen, each within its bounds.
 
-use super::error::FitError;
+use crate::analysis::error::AnalysisError;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -24,9 +24,9 @@ pub struct Bounds {
 }
 
 impl FromStr for Bounds {
-    type Err = FitError;
+    type Err = AnalysisError;
 
-    fn from_str(text: &str) -> Result<Self, FitError> {
+    fn from_str(text: &str) -> Result<Self, AnalysisError> {
         let syntax = || no_bounds(text);
         let (key, range) = text.split_once('=').ok_or_else(syntax)?;
         let parts: Vec<&str> = range.split(':').map(str::trim).collect();
@@ -42,9 +42,9 @@ impl FromStr for Bounds {
 }
 
 /// The fault of bounds that are not of the form asked for.
-fn no_bounds(found: &str) -> FitError {
+fn no_bounds(found: &str) -> AnalysisError {
     let expected = "expected key=from:to or key=from:to:log, as in film.min_spacing_nm=100:400";
-    FitError::Input(format!("vary {found}: {expected}"))
+    AnalysisError::Input(format!("vary {found}: {expected}"))
 }
 
 /// Which bound.
@@ -87,7 +87,7 @@ impl Unknown {
     ///
     /// # Errors
     /// A key that the scene does not have, or is no number, or bounds that it does not take.
-    pub fn new(scene: &Scene, bounds: &Bounds) -> Result<Self, FitError> {
+    pub fn new(scene: &Scene, bounds: &Bounds) -> Result<Self, AnalysisError> {
         let key = &bounds.key;
         let Some(parameter) = Parameter::find(key) else {
             // Setting it tells what is wrong with it.
@@ -98,13 +98,13 @@ impl Unknown {
             scene.clone().set_value(key, Value::Number(end))?;
         }
         if !matches!(parameter.kind, ParameterKind::Number { .. }) {
-            return Err(FitError::Input(format!(
+            return Err(AnalysisError::Input(format!(
                 "vary {key}: it accepts {}; only a key that is a number, and not a whole one, can be chosen between two bounds",
                 parameter.accepts()
             )));
         }
         let (from, to) = (bounds.from.min(bounds.to), bounds.from.max(bounds.to));
-        let range = |why| FitError::Input(format!("vary {key}: from {from} to {to} {why}"));
+        let range = |why| AnalysisError::Input(format!("vary {key}: from {from} to {to} {why}"));
         if from == to {
             return Err(range("is no range: the ends have to differ"));
         }

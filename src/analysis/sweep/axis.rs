@@ -1,8 +1,8 @@
 //! What is varied in a sweep: keys, their ranges and the values between, and what is wrong with them.
 
+use crate::analysis::error::AnalysisError;
 use crate::digits::as_given;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
-use crate::solve::SolveError;
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, Value};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
@@ -55,24 +55,11 @@ impl fmt::Display for Vary {
     }
 }
 
-impl SweepError {
-    /// What is wrong, said where it is: the key need not be named.
-    pub fn in_place(&self) -> String {
-        match self {
-            Self::Count { found, .. } => format!("{found} values: allowed 2 to {MOST_VALUES}"),
-            Self::Nothing { .. } => "Both ends are the same: they have to differ".to_owned(),
-            Self::Log { .. } => "For equal ratios both ends have to be above 0".to_owned(),
-            Self::Twice { .. } => "Both axes vary the same parameter: choose another".to_owned(),
-            other => other.to_string(),
-        }
-    }
-}
-
 impl FromStr for Vary {
-    type Err = SweepError;
+    type Err = AnalysisError;
 
-    fn from_str(text: &str) -> Result<Self, SweepError> {
-        let syntax = || SweepError::Syntax { found: text.to_owned() };
+    fn from_str(text: &str) -> Result<Self, AnalysisError> {
+        let syntax = || no_vary(text);
         let (key, values) = text.split_once('=').ok_or_else(syntax)?;
         let key = key.trim().to_owned();
         if !values.contains(':') {
@@ -89,7 +76,7 @@ impl FromStr for Vary {
         };
         let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
         let (from, to) = (number(ends[0])?, number(ends[1])?);
-        let count = ends[2].parse().map_err(|_| SweepError::Count { key: key.clone(), found: ends[2].to_owned() })?;
+        let count = ends[2].parse().map_err(|_| count_fault(&key, ends[2]))?;
         Ok(Self { key, values: Values::Range { from, to, count, scale } })
     }
 }
@@ -111,13 +98,13 @@ impl Axis {
     /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
     ///
     /// # Errors
-    /// [`SweepError`], which names the key, the value and what is allowed.
-    pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
+    /// [`AnalysisError`], which names the key, the value and what is allowed.
+    pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, AnalysisError> {
         let key = &vary.key;
         let Some(parameter) = Parameter::find(key) else {
             // Setting it tells what is wrong with it.
             scene.clone().set(key, "0")?;
-            return Err(SweepError::Syntax { found: key.clone() });
+            return Err(no_vary(key));
         };
         let count = match &vary.values {
             Values::Range { count, .. } => *count,
@@ -130,11 +117,11 @@ impl Axis {
                 for word in words {
                     scene.clone().set(key, word)?;
                     if !there.insert(word) {
-                        return Err(SweepError::Repeated { key: key.clone(), value: word.clone() });
+                        return Err(AnalysisError::Input(format!("vary {key}: {word} is listed twice")));
                     }
                 }
                 if !allowed {
-                    return Err(SweepError::Syntax { found: format!("{key}={}", words.join(",")) });
+                    return Err(no_vary(&format!("{key}={}", words.join(","))));
                 }
                 let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
                 let (values, words) = match numbers {
@@ -147,19 +134,32 @@ impl Axis {
                 let whole = match parameter.kind {
                     ParameterKind::Number { .. } => false,
                     ParameterKind::Whole { .. } => true,
-                    _ => return Err(SweepError::NotANumber { parameter }),
+                    _ => {
+                        return Err(AnalysisError::Input(format!(
+                            "vary {key}: it accepts {}, and only a number has a range; list its values, divided by commas",
+                            parameter.accepts()
+                        )));
+                    }
                 };
                 for end in [from, to] {
                     scene.clone().set_value(key, Value::Number(*end))?;
                 }
                 if !allowed {
-                    return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
+                    return Err(count_fault(key, &count.to_string()));
                 }
                 if from == to {
-                    return Err(SweepError::Nothing { key: key.clone(), at: *from });
+                    return Err(AnalysisError::Field {
+                        told: format!("vary {key}: from {from} to {to} is no range: the ends have to differ"),
+                        in_place: "Both ends are the same: they have to differ".to_owned(),
+                    });
                 }
                 if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
-                    return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
+                    return Err(AnalysisError::Field {
+                        told: format!(
+                            "vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0"
+                        ),
+                        in_place: "For equal ratios both ends have to be above 0".to_owned(),
+                    });
                 }
                 let mut values = spaced(*from, *to, count, *scale);
                 if whole {
@@ -177,87 +177,20 @@ impl Axis {
     }
 }
 
-/// What cannot be swept. Found before anything is solved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// Not of the form asked for.
-    #[error(
+/// The fault of a text that is not of the form asked for.
+fn no_vary(found: &str) -> AnalysisError {
+    AnalysisError::Input(format!(
         "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log, or a list of two \
          values or more, as in film.slip=none,first-order"
-    )]
-    Syntax {
-        /// What was given.
-        found: String,
-    },
-    /// Too few values, or too many.
-    #[error("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}")]
-    Count {
-        /// The key.
-        key: String,
-        /// The count given.
-        found: String,
-    },
-    /// Both ends are the same.
-    #[error("vary {key}: from {at} to {at} is no range: the ends have to differ")]
-    Nothing {
-        /// The key.
-        key: String,
-        /// Both ends.
-        at: f64,
-    },
-    /// Equal ratios from or to zero or below.
-    #[error("vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0")]
-    Log {
-        /// The key.
-        key: String,
-        /// First value.
-        from: f64,
-        /// Last value.
-        to: f64,
-    },
-    /// A key whose values are not numbers.
-    #[error("vary {}: it accepts {}, and only a number has a range; list its values, divided by commas", parameter.key, parameter.accepts())]
-    NotANumber {
-        /// The key.
-        parameter: &'static Parameter,
-    },
-    /// A list with the same value twice.
-    #[error("vary {key}: {value} is listed twice")]
-    Repeated {
-        /// The key.
-        key: String,
-        /// The value.
-        value: String,
-    },
-    /// No axis, or more than [`MOST_KEYS`].
-    #[error("vary: {found} keys given: allowed 1 to {MOST_KEYS}")]
-    Axes {
-        /// How many.
-        found: usize,
-    },
-    /// Two axes with one key.
-    #[error("vary {key}: given twice: the keys have to differ")]
-    Twice {
-        /// The key.
-        key: String,
-    },
-    /// More points than anyone waits for.
-    #[error(
-        "vary: {found} points{}: allowed up to {MOST_POINTS}, or as many in each part of sweep --part",
-        if *parts == 1 { String::new() } else { format!(" in one of {parts} parts") }
-    )]
-    Points {
-        /// How many.
-        found: usize,
-        /// In one of how many parts; 1 is the whole.
-        parts: usize,
-    },
-    /// A value outside its range, or a key that does not exist.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// A method that does not apply, or more memory than is allowed.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
+    ))
+}
+
+/// The fault of a range with too few values, or too many.
+fn count_fault(key: &str, found: &str) -> AnalysisError {
+    AnalysisError::Field {
+        told: format!("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}"),
+        in_place: format!("{found} values: allowed 2 to {MOST_VALUES}"),
+    }
 }
 
 /// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.

@@ -23,6 +23,7 @@ const PAPER_MESHES: [(&str, usize, usize, usize); 3] =
 
 /// Where a setting comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Family {
     /// An accuracy that is asked for, by its name or as a number.
     Fidelity,

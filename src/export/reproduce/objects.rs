@@ -1,9 +1,10 @@
 //! The numbers of the paper's tables and figures as JSON and CSV.
 
-use super::statements::{Statement, statements};
-use crate::analysis::reproduce::{Both, Reproduction, Row};
-use crate::export::estimates::finite;
+use super::statements::statements;
+use crate::analysis::reproduce::{Both, Point, Reproduction, Row};
+use crate::export::estimates::{self, finite};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 
 /// A row of Table I. What was not computed is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -57,46 +58,32 @@ impl RowObject {
     }
 }
 
-/// A point of Fig. 10. What was not computed is null.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PointObject {
-    /// Frequency \[kHz\].
-    pub frequency_khz: f64,
-    /// α, converged.
-    pub alpha: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub alpha_error: Option<f64>,
+/// The object of `--json`: Table I, Fig. 10, what the text says and what came of it, and how many solves did not converge. What was not
+/// computed is null.
+#[derive(Clone, Copy, Debug)]
+pub struct Object<'a>(pub &'a Reproduction);
+
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(all) = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("fidelity", &all.settings.fidelity.to_string())?;
+        map.serialize_entry("table1", &all.rows.iter().map(RowObject::new).collect::<Vec<_>>())?;
+        map.serialize_entry("fig10", &all.frequencies.iter().map(PointObject).collect::<Vec<_>>())?;
+        map.serialize_entry("statements", &statements(all))?;
+        map.serialize_entry("unsolved", &all.unsolved())?;
+        map.end()
+    }
 }
 
-/// The object of `--json`.
-#[derive(Clone, Debug, Serialize)]
-pub struct Object {
-    /// Of the converged values: `draft`, `standard`, ….
-    pub fidelity: String,
-    /// Table I.
-    pub table1: Vec<RowObject>,
-    /// Fig. 10.
-    pub fig10: Vec<PointObject>,
-    /// What the text says, and what came of it.
-    pub statements: Vec<Statement>,
-    /// Solves that did not converge.
-    pub unsolved: usize,
-}
+/// A point of Fig. 10: α with its estimated numerical error, converged.
+struct PointObject<'a>(&'a Point);
 
-impl Object {
-    /// The object of a reproduction.
-    pub fn new(all: &Reproduction) -> Self {
-        let point = |point: &crate::analysis::reproduce::Point| PointObject {
-            frequency_khz: point.frequency_khz,
-            alpha: point.solved.as_ref().ok().map(|result| result.alpha.value),
-            alpha_error: point.solved.as_ref().ok().map(|result| result.alpha.error),
-        };
-        Self {
-            fidelity: all.settings.fidelity.to_string(),
-            table1: all.rows.iter().map(RowObject::new).collect(),
-            fig10: all.frequencies.iter().map(point).collect(),
-            statements: statements(all),
-            unsolved: all.unsolved(),
-        }
+impl Serialize for PointObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("frequency_khz", &self.0.frequency_khz)?;
+        estimates::add(&mut map, "alpha", "", self.0.solved.as_ref().ok().map(|result| result.alpha))?;
+        map.end()
     }
 }

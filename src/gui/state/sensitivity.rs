@@ -3,7 +3,6 @@
 use super::document::solved_alike;
 use super::followed::news;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::fidelity::Fidelity;
 use crate::job::sensitivity::{Derivatives, Draws};
 use crate::job::task::TaskOf;
 use crate::scene::Scene;
@@ -23,8 +22,6 @@ pub struct SensitivityState {
     share: f64,
     /// Why nothing came of the last work.
     pub failure: Option<String>,
-    /// The fidelity they were asked for.
-    pub fidelity: Fidelity,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,
     /// What was typed for each key: not empty.
@@ -47,11 +44,11 @@ impl SensitivityState {
         self.chosen_draws.unwrap_or(DRAWS)
     }
 
-    /// `task` computes the derivatives at this fidelity. What was found before stays until it has.
-    pub fn begin(&mut self, task: std::io::Result<TaskOf<Derivatives>>, fidelity: Fidelity) {
+    /// `task` computes the derivatives. What was found before stays until it has.
+    pub fn begin(&mut self, task: std::io::Result<TaskOf<Derivatives>>) {
         (self.share, self.failure, self.drawing) = (0.0, None, None);
         match task {
-            Ok(task) => (self.derivatives, self.fidelity) = (Some(task), fidelity),
+            Ok(task) => self.derivatives = Some(task),
             Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
         }
     }

@@ -4,12 +4,12 @@ use super::followed::Followed;
 use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::job::torque::{Found, TorqueTask};
+use crate::job::torque::TorqueTask;
 use crate::problem::Scenario;
 use std::sync::Arc;
 
 /// What is known of a run, and what is being computed.
-pub type TorqueState = Followed<Arc<SolvedScene>, Found, TorqueCurves>;
+pub type TorqueState = Followed<Arc<SolvedScene>, TorqueCurves, TorqueCurves>;
 
 impl TorqueState {
     /// Whether the curves of `run` are still to be computed.

@@ -74,7 +74,7 @@ impl Updater {
             Export::Sensitivity => {
                 let state = &self.state.sensitivity;
                 let (found, uncertainties) = (state.found.clone()?, state.uncertainties.clone()?);
-                Some(Content::Sensitivity(found, uncertainties, state.carlo.clone(), state.fidelity))
+                Some(Content::Sensitivity(found, uncertainties, state.carlo.clone()))
             }
             Export::Fit => {
                 let (scene, found) = self.state.fit.found.as_ref()?;

@@ -18,7 +18,7 @@ impl Updater {
         match command {
             SensitivityCommand::Start => {
                 let settings = Settings { fidelity, ..Settings::default() };
-                state.begin(Task::of(Derivatives { scene, settings }, wake), fidelity);
+                state.begin(Task::of(Derivatives { scene, settings }, wake));
             }
             SensitivityCommand::Cancel => state.cancel(),
             SensitivityCommand::Look(output) => state.output = output,

@@ -23,9 +23,6 @@ impl std::fmt::Debug for HeldPlate {
 
 impl HeldPlate {
     /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` asks for a redraw.
-    ///
-    /// # Errors
-    /// None.
     pub fn start(
         plate: Plate,
         slowed: f64,

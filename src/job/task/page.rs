@@ -16,10 +16,7 @@ pub struct Task<M, R> {
 }
 
 impl<M: 'static, R: 'static> Task<M, R> {
-    /// Starts to do `work` in a worker.
-    ///
-    /// # Errors
-    /// If there is no worker for it.
+    /// Starts to do `work` in a worker; an error is that there is none for it.
     pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
         let told = Rc::new(RefCell::new(News { messages: Vec::new(), end: None }));
         let line = Rc::new(RefCell::new(Some(Line::open()?)));

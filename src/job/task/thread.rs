@@ -26,10 +26,7 @@ enum Event<M, R> {
 type Line<M, R> = Box<dyn Fn(Event<M, R>) + Send + Sync>;
 
 impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
-    /// Starts to do `work` on a thread of its own.
-    ///
-    /// # Errors
-    /// If no thread can be started.
+    /// Starts to do `work` on a thread of its own; an error is that no thread can be started.
     pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
         Self::start(W::NAME, W::AHEAD, wake, |cancel, tell| work.run(cancel, tell))
     }

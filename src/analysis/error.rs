@@ -1,0 +1,48 @@
+//! Why an analysis of a scene is not made.
+
+use crate::scene::SceneError;
+use crate::solve::SolveError;
+
+/// Why there is no sweep, comparison, fit, optimum or sensitivity. Found before anything is solved, but for errors of the solver and the last.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AnalysisError {
+    /// What was asked for is not allowed, or a table cannot be used: the option, key or line, its value, and what is allowed.
+    #[error("{0}")]
+    Input(String),
+    /// The same of the fields of one key that is swept.
+    #[error("{told}")]
+    Field {
+        /// With the key, as [`Self::Input`].
+        told: String,
+        /// Without it, to be said beside the fields.
+        in_place: String,
+    },
+    /// A key or value of a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The solver: a method that does not apply, more memory than is allowed, or a scene that cannot be solved.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// A search that found nothing, and why.
+    #[error("{0}")]
+    Search(String),
+}
+
+impl AnalysisError {
+    /// Whether the input asked for what is not allowed.
+    pub fn is_bad_input(&self) -> bool {
+        match self {
+            Self::Solve(error) => error.is_bad_input(),
+            Self::Search(_) => false,
+            Self::Input(_) | Self::Field { .. } | Self::Scene(_) => true,
+        }
+    }
+
+    /// What is wrong, said where it is: the key need not be named.
+    pub fn in_place(&self) -> String {
+        match self {
+            Self::Field { in_place, .. } => in_place.clone(),
+            other => other.to_string(),
+        }
+    }
+}
