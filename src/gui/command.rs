@@ -2,9 +2,9 @@
 
 use super::state::dialogs::{Export, Purpose};
 use super::state::document::Next;
-use super::state::fit::Sought;
+use super::state::fit::FitForm;
 use super::state::pins::Page;
-use super::state::sweep::AxisEdit;
+use super::state::sweep::Form;
 use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
@@ -189,12 +189,8 @@ pub enum PinCommand {
 /// About the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweepCommand {
-    /// Changes what is varied along x (0) or y (1).
-    Axis(usize, AxisEdit),
-    /// Varies a second parameter.
-    Second(bool),
-    /// Solves every point at this.
-    Fidelity(Fidelity),
+    /// Asks for this.
+    Form(Form),
     /// Draws this.
     Draw(Quantity),
     /// Begins anew.
@@ -216,18 +212,8 @@ pub enum FitCommand {
     Load(PathBuf),
     /// Forgets the table.
     Forget,
-    /// Looks for this.
-    Seek(Sought),
-    /// For the optimum of the number of this name.
-    Quantity(&'static str),
-    /// Within these limits on other numbers, as they are typed.
-    Limits(String),
-    /// Changes a line of the form: what is chosen, and between which bounds.
-    Axis(usize, AxisEdit),
-    /// One more line.
-    Add,
-    /// One line less.
-    Remove(usize),
+    /// Asks for this.
+    Form(FitForm),
     /// Begins.
     Start,
     /// Ends it.

@@ -26,7 +26,7 @@ pub enum Sought {
 }
 
 /// What is asked for.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
     /// The keys to be chosen.
     pub axes: Vec<AxisForm>,
@@ -134,10 +134,9 @@ impl FitState {
         &self.form
     }
 
-    /// Changes what is asked for.
-    pub fn edit(&mut self, change: impl FnOnce(&mut FitForm)) {
-        change(&mut self.form);
-        self.judged = None;
+    /// Asks for this.
+    pub fn ask(&mut self, form: FitForm) {
+        (self.form, self.judged) = (form, None);
     }
 
     /// What is wrong with the limits.

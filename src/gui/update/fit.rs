@@ -15,25 +15,11 @@ use std::path::Path;
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
         let state = &mut self.state;
-        let scene = state.document.scene();
         match command {
             FitCommand::Choose => self.ask(Purpose::Measurements, ""),
             FitCommand::Load(path) => self.load_measurements(&path),
             FitCommand::Forget => state.fit.measured = None,
-            FitCommand::Seek(sought) => state.fit.edit(|form| form.sought = sought),
-            FitCommand::Quantity(name) => state.fit.edit(|form| form.quantity = Some(name)),
-            FitCommand::Limits(limits) => state.fit.edit(|form| form.limits = limits),
-            FitCommand::Axis(line, edit) => state.fit.edit(|form| {
-                if let Some(axis) = form.axes.get_mut(line) {
-                    axis.edit(scene, edit, 2);
-                }
-            }),
-            FitCommand::Add => state.fit.edit(|form| form.add(scene)),
-            FitCommand::Remove(line) => state.fit.edit(|form| {
-                if line < form.axes.len() {
-                    form.axes.remove(line);
-                }
-            }),
+            FitCommand::Form(form) => state.fit.ask(form),
             FitCommand::Start => self.start_fit(),
             FitCommand::Cancel => state.fit.cancel(),
             FitCommand::Take => {

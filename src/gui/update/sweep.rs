@@ -29,12 +29,7 @@ impl Updater {
                 }
             }
             SweepCommand::Draw(quantity) => self.state.sweep.draw(quantity),
-            SweepCommand::Axis(axis, edit) => {
-                let scene = self.state.document.scene();
-                self.state.sweep.edit(|form| form.edit(scene, axis, edit));
-            }
-            SweepCommand::Second(second) => self.state.sweep.edit(|form| form.set_second(second)),
-            SweepCommand::Fidelity(fidelity) => self.state.sweep.edit(|form| form.fidelity = fidelity),
+            SweepCommand::Form(form) => self.state.sweep.ask(form),
         }
     }
 
