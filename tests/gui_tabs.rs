@@ -111,7 +111,7 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     let pressure = window.known().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
     let all: Vec<f64> = pressure.flatten().copied().collect();
     let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
-    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.pressure[1]).collect();
+    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.ranges.pressure[1]).collect();
     assert!(own[0] != own[1], "each alone would have another scale");
     for label in labels(window.state()) {
         let about = format!("Pressure map of {label}, colours from ");

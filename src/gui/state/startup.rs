@@ -3,7 +3,7 @@
 use super::document::solved_alike;
 use super::followed::news;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::scales::Ranges;
+use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
 use crate::job::task::{News, Task};
 use crate::problem::Problem;
@@ -115,7 +115,7 @@ impl StartupState {
             // The same cycle on finer grids.
             self.points[number - 1] = point;
         }
-        let ranges = Ranges::of(&recording);
+        let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
         let (scene, problem) = (self.scene.clone(), self.problem.clone());

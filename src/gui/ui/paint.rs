@@ -159,10 +159,14 @@ impl Axes {
         self.rect.bottom() - part as f32 * self.rect.height()
     }
 
+    /// Length of a metre along y on the screen.
+    pub(super) fn points_per_metre(&self) -> f64 {
+        f64::from(self.rect.height()) / (self.y[1] - self.y[0])
+    }
+
     /// By how much y is drawn larger than x.
     pub(super) fn exaggeration(&self) -> f64 {
-        let scale = |length: f32, [from, to]: [f64; 2]| f64::from(length) / (to - from);
-        scale(self.rect.height(), self.y) / scale(self.rect.width(), self.x)
+        self.points_per_metre() * (self.x[1] - self.x[0]) / f64::from(self.rect.width())
     }
 
     pub(super) fn at(&self, x: f64, y: f64) -> Pos2 {
@@ -333,8 +337,9 @@ pub(super) fn title_with_ends(
     style.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], style.palette.quiet);
 }
 
-/// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.
-pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, plot: Rect, scale: f64) {
+/// A vertical bar left of `axes`, as long as a round number of micrometres.
+pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, axes: &Axes) {
+    let (plot, scale) = (axes.rect, axes.points_per_metre());
     let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
     let height = (length * 1e-6 * scale) as f32;
     let x = plot.left() - 6.0;

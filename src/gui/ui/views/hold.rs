@@ -137,15 +137,13 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
     let part = f64::from(1.0 - BELOW - ABOVE);
     let bottom = -highest * f64::from(BELOW) / part;
     let axes = Axes::new(rect, [-shown.half, shown.half], [bottom, bottom + highest / part]);
-    let scale = f64::from(rect.height()) * part / highest;
-    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
+    scale_bar(painter, style, &axes);
     let (name, unit) = shown.unit;
     let force_text = with_known_digits(force / unit, error / unit);
     let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));
     let more = format!("   load ratio {}   mean pressure {} kPa absolute", number(ratio), number(mean_pressure / 1e3));
-    let exaggerated = format!("   vertical {}", times(scale / along));
+    let exaggerated = format!("   vertical {}", times(axes.exaggeration()));
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
     let titles = titles.each_ref().map(String::as_str);
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
