@@ -12,12 +12,7 @@ use egui_plot::{LineStyle, PlotResponse, Span};
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
 /// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
-pub(super) fn draw(
-    ui: &mut Ui,
-    style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
-    shown: &Frame<'_, Motor>,
-) -> PlotResponse<()> {
+pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<()> {
     let kilo = 1e-3 / shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
@@ -27,7 +22,7 @@ pub(super) fn draw(
     let [low, high] = shown.ranges.loads.map(|load| load * kilo);
     let margin = 0.06 * (high - low).max(1e-3);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];
-    let inset = Inset { name: NAME, rect, gutter, bounds, below: None };
+    let inset = Inset { name: NAME, rect, bounds, below: None };
     inset.show(ui, style, |plot| {
         let [left, right] = shown.followed().map(|x| x * 1e3);
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));

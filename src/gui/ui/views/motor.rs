@@ -62,18 +62,17 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     let underside = shown.lines.underside(recording);
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let layout = Layout::new(area, style.row, gutter, readout_height(&LONGEST, &painter, &style, area.width()));
+    let layout = Layout::new(area, style.row, style.gutter, readout_height(&LONGEST, &painter, &style, area.width()));
 
     let axes = wave::draw(&painter, &style, layout.wave, shown, &underside);
-    let charted = loads::draw(ui, &style, (layout.loads, gutter), shown);
+    let charted = loads::draw(ui, &style, layout.loads, shown);
     map::draw(ui, &painter, &style, layout.map, shown);
     if let Some([rect, profile]) = layout.side {
         ring::draw(ui, &style, rect, (shown, &underside, &axes), cx);
-        velocity(ui, &style, (profile, gutter), shown);
+        velocity(ui, &style, profile, shown);
     }
     if let Some(rect) = layout.tooth {
-        let charts = tooth::draw(ui, &style, (rect, gutter), shown, cx);
+        let charts = tooth::draw(ui, &style, rect, shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
             cx.mark_plot(ui, place, chart);
         }
@@ -104,7 +103,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
 }
 
 /// Velocity across the film under the pointer, or else over the middle of the followed tooth.
-fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &Frame<'_, Motor>) {
+fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_, Motor>) {
     let (recording, motor) = (shown.recording, shown.of);
     let reach = recording.x.last().copied().unwrap_or(0.0);
     let pointed = shown.view.cursor_x.map(|x| sample::tooth_at(x, recording.pitch, recording.teeth));

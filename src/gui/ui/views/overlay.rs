@@ -12,7 +12,7 @@ use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar, title_with_bar};
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Lines};
@@ -146,7 +146,7 @@ impl Along {
 
 fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let count = runs.len() as f32;
     let gap = 4.0;
     let fixed = 5.0 * title + 2.0 * axis + (count - 1.0) * gap + 8.0;
@@ -156,19 +156,13 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
     let body = area.height() - fixed;
     let map = (0.20 * body / count).clamp(LEAST_MAP * style.row, MOST_MAP * style.row);
     let rest = body - count * map;
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let right = area.right() - 0.5 * style.row;
-    let mut top = area.top();
-    let mut next = |before: f32, height: f32| {
-        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + before), pos2(right, top + before + height));
-        top = rect.bottom();
-        rect
-    };
-    let wave = next(title, 0.36 * rest);
-    let contact = next(title, 0.21 * rest);
-    let film = next(title, 0.21 * rest);
-    let maps: Vec<Rect> = (0..runs.len()).map(|i| next(if i == 0 { title } else { gap }, map)).collect();
-    let loads = next(axis + title, 0.22 * rest);
+    let mut column = Column::of(area, &style);
+    let right = column.x.max;
+    let wave = column.next(title, 0.36 * rest);
+    let contact = column.next(title, 0.21 * rest);
+    let film = column.next(title, 0.21 * rest);
+    let maps: Vec<Rect> = (0..runs.len()).map(|i| column.next(if i == 0 { title } else { gap }, map)).collect();
+    let loads = column.next(axis + title, 0.22 * rest);
 
     let along = Along::of(runs.iter().map(|run| run.recording.length));
     let ends = runs.iter().map(|run| {
@@ -180,10 +174,8 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
 
     let axes = draw_surfaces(&painter, &style, wave, runs, x, &along, cursor);
     let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
-    let charts = [0, 1].map(|field| {
-        let place = ([contact, film][field], gutter);
-        draw_pressure(ui, &style, place, runs, (x, &along, cursor), names[field], field)
-    });
+    let charts = [0, 1]
+        .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
 
     let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
     let titles =
@@ -206,14 +198,14 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let middle = 0.5 * (area.left() + right);
-    let halves = [(area.left() + gutter, middle - 0.4 * style.row), (middle + 0.4 * style.row + gutter, right)];
+    let halves = [(column.x.min, middle - 0.4 * style.row), (middle + 0.4 * style.row + style.gutter, right)];
     type Of = fn(&RunCurves) -> &Curve;
     let curves: [(&str, Of); 2] = [
         ("Film load on one wave, N", |curves| &curves.film),
         ("Contact load on one wave, N", |curves| &curves.contact),
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
-        let place = (Rect::from_x_y_ranges(left..=right, loads.y_range()), gutter);
+        let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
         let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(&run.of.pin.curves))).collect();
         over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
@@ -260,7 +252,7 @@ fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
 fn over_cycle(
     ui: &mut Ui,
     style: &PlotStyle,
-    place: (Rect, f32),
+    place: Rect,
     title: &str,
     curves: &[(Color32, &Curve)],
     (unit, period): (f64, f64),
@@ -325,7 +317,7 @@ fn draw_surfaces(
 fn draw_pressure(
     ui: &mut Ui,
     style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
+    rect: Rect,
     runs: &[MotorNow<'_>],
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
@@ -338,7 +330,7 @@ fn draw_pressure(
     let written = along.written();
     style.title(ui.painter(), rect, word, &[name], &[]);
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
-    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
         for run in runs {
             let metre = along.metre(run.recording.length) * written;
@@ -393,7 +385,7 @@ fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
 
 fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let with_map: Vec<&PlateNow<'_>> = runs.iter().filter(|run| run.plate.width.is_some()).collect();
     let columns = with_map.len().clamp(1, 3);
     let rows = with_map.len().div_ceil(columns) as f32;
@@ -402,12 +394,11 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let area = take(ui, height.max(fixed + 3.2 * LEAST_PLOT * style.row));
     let painter = ui.painter_at(area);
     let body = area.height() - fixed;
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let right = area.right() - 0.5 * style.row;
-    let across = |top: f32, height: f32| Rect::from_min_max(pos2(area.left() + gutter, top), pos2(right, top + height));
+    let mut column = Column::of(area, &style);
+    let (start, right) = (column.x.min, column.x.max);
 
     // Pressure along the plates.
-    let chart = across(area.top() + title, 0.52 * body);
+    let chart = column.next(title, 0.52 * body);
     let along = Along::of(runs.iter().map(|run| run.plate.length));
     let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
@@ -421,7 +412,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
     let name = "Plates along their length: point to read values";
     let below = Some(if along.alike { "x, mm" } else { "x/length" });
-    let charted = Inset { name, rect: chart, gutter, bounds, below }.show(ui, &style, |plot| {
+    let charted = Inset { name, rect: chart, bounds, below }.show(ui, &style, |plot| {
         for run in runs {
             plot.hline(level(1e-3 * run.plate.gas.ambient_pressure, style.palette.quiet, 1.0));
             let to_axis = 1e-3 * along.metre(run.plate.length) * written;
@@ -432,42 +423,38 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
             plot.vline(upright(x * written, style.palette.accent, 1.0));
         }
     });
-    let mut top = chart.bottom() + axis;
+    column.bottom += axis;
 
     // Maps, of plates that have a width.
+    let mut row = chart;
     for (slot, run) in with_map.iter().enumerate() {
-        if slot == 0 {
-            top += title;
-            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
-            title_with_bar(&painter, &style, across(top, map), "Pressure map", titles, range);
-        } else if slot.is_multiple_of(columns) {
-            top += map + 6.0;
+        if slot.is_multiple_of(columns) {
+            row = column.next(if slot == 0 { title } else { 6.0 }, map);
         }
-        let column = (slot % columns) as f32;
-        let step = (right - area.left() - gutter) / columns as f32;
-        let left = area.left() + gutter + column * step;
-        let rect =
-            Rect::from_min_max(pos2(left + if column > 0.0 { 16.0 } else { 0.0 }, top), pos2(left + step, top + map));
+        if slot == 0 {
+            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
+            title_with_bar(&painter, &style, row, "Pressure map", titles, range);
+        }
+        let (beside, step) = ((slot % columns) as f32, (right - start) / columns as f32);
+        let left = start + beside * step;
+        let rect = row.with_min_x(left + if beside > 0.0 { 16.0 } else { 0.0 }).with_max_x(left + step);
         let x = [-0.5, 0.5].map(|x| x * run.plate.length);
         let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
         field::draw(ui, &style, &painter, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
         key_beside(&painter, rect, run.of.colour);
         map_name(ui, rect, &run.of.run.label, range);
     }
-    if !with_map.is_empty() {
-        top += map;
-    }
 
     // Over the cycle, and against the gap.
-    let (plots, bottom) = (top + title, area.bottom() - axis);
+    let (plots, bottom) = (column.bottom + title, area.bottom() - axis);
     let middle = 0.5 * (area.left() + right);
-    let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 2.2 * style.row, bottom));
-    let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + gutter, plots), pos2(right, bottom));
+    let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
+    let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.pin.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
-    over_cycle(ui, &style, (left, gutter), title, &kept, (1e3, period), cx);
-    draw_loops(ui, &style, (right, gutter), runs, cx.state.view.phase);
+    over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
+    draw_loops(ui, &style, right, runs, cx.state.view.phase);
 
     let on_a_term = style.explain(ui);
     let (response, x) = along.pointed(charted);
@@ -498,7 +485,7 @@ fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
 }
 
 /// Mean gauge pressure against the gap over its mean.
-fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: (Rect, f32), runs: &[PlateNow<'_>], phase: f64) {
+fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[PlateNow<'_>], phase: f64) {
     let loads = common(runs.iter().map(|run| run.of.pin.curves.film.range()).chain([[0.0, 0.0]]));
     let gaps = common(runs.iter().map(|run| run.of.pin.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
     let kept = runs.iter().filter_map(|run| {

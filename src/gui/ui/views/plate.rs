@@ -10,7 +10,7 @@ use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::Curve;
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar, title_with_bar};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
@@ -32,24 +32,19 @@ impl PlateFrame<'_> {
 pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
-    let gutter = style.width(&painter, "−0.000") + 6.0;
 
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let reserved = readout_height(&LONGEST, &painter, &style, area.width());
     let with_map = shown.of.width.is_some();
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
     let parts = if with_map { [0.23, 0.25, 0.20] } else { [0.28, 0.38, 0.0] };
-    let right = area.right() - 0.5 * style.row;
-    let mut top = area.top();
-    let mut next = |part: f32| {
-        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + title), pos2(right, top + title + part * body));
-        top = rect.bottom();
-        rect
-    };
+    let mut column = Column::of(area, &style);
+    let right = column.x.max;
+    let mut next = |part: f32| column.next(title, part * body);
     let (wall, profile) = (next(parts[0]), next(parts[1]));
     let axes = draw_gap(&painter, &style, wall, shown);
-    let charted = draw_profile(ui, &style, (profile, gutter), shown);
+    let charted = draw_profile(ui, &style, profile, shown);
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
@@ -69,14 +64,14 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let plots: Vec<Rect> = (0..count)
         .map(|i| {
             let left = area.left() + i as f32 * wide;
-            let corner = pos2(left + gutter, last.bottom() + axis + title + 2.0);
+            let corner = pos2(left + style.gutter, last.bottom() + axis + title + 2.0);
             Rect::from_min_max(corner, pos2(left + wide - between, bottom))
         })
         .collect();
-    draw_load(ui, &style, (plots[0], gutter), shown, cx);
-    draw_loop(ui, &style, (plots[1], gutter), shown);
+    draw_load(ui, &style, plots[0], shown, cx);
+    draw_loop(ui, &style, plots[1], shown);
     if let Some(rect) = plots.get(2) {
-        draw_velocity(ui, &style, (*rect, gutter), shown);
+        draw_velocity(ui, &style, *rect, shown);
     }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
     read_out(&readout(shown), &painter, &style, place);
@@ -140,12 +135,7 @@ pub(super) fn wall_and_plate(
 }
 
 /// Pressure along x at y = 0, over x \[mm\].
-fn draw_profile(
-    ui: &mut egui::Ui,
-    style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
-    shown: &PlateFrame<'_>,
-) -> PlotResponse<()> {
+fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<()> {
     let ambient = shown.of.gas.ambient_pressure;
     let [low, high] = shown.ranges.pressure;
     let (low, high) = (low.min(ambient), high.max(ambient));
@@ -157,7 +147,7 @@ fn draw_profile(
     let behind = style.at_first(shown.first.as_ref()).unwrap_or(("ambient", quiet));
     style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), behind]);
     let name = "Pressure along the plate: point to read values";
-    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, quiet, 1.0));
         if let Some(first) = &shown.first {
             plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
@@ -176,7 +166,7 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
     mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect()
 }
 
-fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
+fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let [low, high] = shown.ranges.tooth_load;
     let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
     let none = Curve::default();
@@ -201,7 +191,7 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
 }
 
 /// Velocity across the film under the pointer, or else half-way between the middle and the end of the plate.
-fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>) {
+fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>) {
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
     let [left, right] = shown.x_range();
     let xi = shown.view.cursor_x.unwrap_or(0.5 * right).clamp(left, right);
@@ -212,7 +202,7 @@ fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.
-fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &'a PlateFrame<'a>) {
+fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a PlateFrame<'a>) {
     let area = shown.of.area();
     let ranges = [shown.ranges.thickness.map(|gap| gap * 1e6), shown.ranges.tooth_load.map(|load| load / area * 1e-3)];
     let of = |shown: &'a PlateFrame<'a>, colour: Color32| -> Option<Loop<'a>> {
@@ -235,7 +225,7 @@ pub(super) type Loop<'a> = (Color32, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
 pub(super) fn show_loops(
     ui: &mut egui::Ui,
     style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
+    rect: Rect,
     (along, ranges): (&str, [[f64; 2]; 2]),
     (loops, legend): (&[Loop<'_>], &[(&str, Color32)]),
     phase: f64,
@@ -244,7 +234,7 @@ pub(super) fn show_loops(
     let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
     style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
-    Inset { name, rect, gutter, bounds, below: Some(along) }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
         for (colour, at) in loops {
             let points: Vec<_> = (0..=LOOP_SAMPLES).map(|i| at(f64::from(i) / f64::from(LOOP_SAMPLES))).collect();

@@ -1,8 +1,8 @@
 //! The followed tooth: its map, and its gap and loads over the cycle.
 
 use super::field::{self, Stamp};
-use super::map::y_labels;
 use super::frame::Frame;
+use super::map::y_labels;
 use super::series::{Series, Trace};
 use crate::gui::derived::scales::common;
 use crate::gui::ui::context::DrawContext;
@@ -14,7 +14,7 @@ use eframe::egui::{Rect, Ui, pos2};
 pub(super) fn draw(
     ui: &mut Ui,
     style: &PlotStyle,
-    (row, gutter): (Rect, f32),
+    row: Rect,
     shown: &Frame<'_, Motor>,
     cx: &DrawContext<'_>,
 ) -> [Rect; 2] {
@@ -23,10 +23,10 @@ pub(super) fn draw(
     let gap = 0.6 * style.row;
     let cell = (row.width() - 2.0 * gap) / 3.0;
     let places: [Rect; 3] = std::array::from_fn(|i| {
-        let left = row.left() + i as f32 * (cell + gap) + gutter;
+        let left = row.left() + i as f32 * (cell + gap) + style.gutter;
         Rect::from_min_max(
             pos2(left, row.top() + style.row + 4.0),
-            pos2(left + cell - gutter, row.bottom() - style.row - 2.0),
+            pos2(left + cell - style.gutter, row.bottom() - style.row - 2.0),
         )
     });
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
@@ -63,7 +63,7 @@ pub(super) fn draw(
         period: recording.period,
         phase: shown.phase(),
     };
-    series.show(ui, style, (gap_chart, gutter), cx);
+    series.show(ui, style, gap_chart, cx);
     let before = first
         .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, true)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
@@ -84,6 +84,6 @@ pub(super) fn draw(
         unit: unit.1,
         ..series
     };
-    series.show(ui, style, (loads_chart, gutter), cx);
+    series.show(ui, style, loads_chart, cx);
     [gap_chart, loads_chart]
 }

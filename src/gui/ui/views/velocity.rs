@@ -51,7 +51,7 @@ impl<T> Place<'_, T> {
     }
 
     /// Draws the profile at the instant shown into `rect`; `x`: what is written for the place \[m\].
-    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, (rect, gutter): (Rect, f32), x: f64) {
+    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, x: f64) {
         let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
         let (unit, size) = if high.max(-low) < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
@@ -65,7 +65,7 @@ impl<T> Place<'_, T> {
         style.title(ui.painter(), rect, "Velocity across the film", &[&long, &middle, "Velocity, z in µm"], &[]);
         let below = format!("u, {unit}");
         let name = "Velocity across the film over the height above the tooth in µm";
-        let inset = Inset { name, rect, gutter, bounds: [across, up], below: Some(&below) };
+        let inset = Inset { name, rect, bounds: [across, up], below: Some(&below) };
         let found = self.at(self.shown.place);
         inset.show(ui, style, |plot| {
             let wall = |from: f64, to: f64| across.map(|u| [u, from, to]);
