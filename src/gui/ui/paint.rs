@@ -125,9 +125,14 @@ impl PlotStyle {
     }
 }
 
+/// Whether there is something to draw.
+pub(super) fn has_fields(recording: &Recording) -> bool {
+    recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()
+}
+
 /// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
 pub(super) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
-    if recording.frames == 0 || recording.x.is_empty() || recording.film.is_empty() {
+    if !has_fields(recording) {
         ui.label("This run has no fields to show.");
         return None;
     }

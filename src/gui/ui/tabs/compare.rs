@@ -6,12 +6,12 @@ use crate::digits::capitalised;
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
-use crate::gui::state::pins::{Note, Page, Pin, fidelity};
+use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::theme::run_colour;
-use crate::gui::ui::views::overlay::{self, Overlaid};
+use crate::gui::ui::views::overlay;
 use crate::gui::ui::{button, glossary, keys};
 use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
 
@@ -45,12 +45,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     }
     ui.add_space(2.0);
     match pins.page {
-        Page::Fields => {
-            let pinned = pins.pins().iter().zip(pins.runs());
-            let colour = |pin: &Pin| run_colour(pin.slot, cx.state.dark);
-            let overlaid: Vec<_> = pinned.map(|(pin, run)| Overlaid { pin, run, colour: colour(pin) }).collect();
-            overlay::show(ui, &overlaid, cx);
-        }
+        Page::Fields => overlay::show(ui, cx),
         Page::Numbers => numbers(ui, cx),
     }
 }

@@ -5,14 +5,14 @@ use super::field::{self, Stamp};
 use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
 use super::series::{Series, Trace};
-use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields, scale_bar, title_with_bar};
+use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Lines};
@@ -27,54 +27,31 @@ const LEAST_MAP: f32 = 1.8;
 const MOST_MAP: f32 = 4.0;
 const PLATE_MAP: f32 = 7.0;
 
-/// A run among others.
-#[derive(Clone, Copy, Debug)]
-pub struct Overlaid<'a> {
+/// A pinned motor or plate at the present instant.
+struct Pinned<'a, T> {
     /// Its number, and scales and curves of its cycle.
-    pub pin: &'a Pin,
-    /// The run.
-    pub run: &'a ComparedRun,
-    /// Its colour.
-    pub colour: Color32,
-}
-
-impl<'a> Overlaid<'a> {
-    /// Its fields, if it has any.
-    fn recording(&self) -> Option<&'a Recording> {
-        let recording = &self.run.solved.as_ref().ok()?.recording;
-        (recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()).then_some(recording)
-    }
-}
-
-/// A motor at the present instant.
-struct MotorNow<'a> {
-    of: Overlaid<'a>,
+    pin: &'a Pin,
+    label: &'a str,
+    colour: Color32,
     recording: &'a Recording,
-    motor: &'a Motor,
+    of: &'a T,
     place: f64,
     lines: Lines,
 }
 
-/// A plate at the present instant.
-struct PlateNow<'a> {
-    of: Overlaid<'a>,
-    recording: &'a Recording,
-    plate: &'a Plate,
-    place: f64,
-}
-
-/// Draws the runs at the view's phase; scrolls if that takes more than there is room for.
-pub fn show(ui: &mut Ui, runs: &[Overlaid<'_>], cx: &DrawContext<'_>) {
+/// Draws the pinned runs at the view's phase; scrolls if that takes more than there is room for.
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (mut motors, mut plates) = (Vec::new(), Vec::new());
-    for run in runs {
-        let Some(recording) = run.recording() else { continue };
-        let place = cx.state.view.place(recording);
-        match &run.run.problem.scenario {
-            Scenario::Motor(motor) => {
-                let lines = Lines::at(recording, place);
-                motors.push(MotorNow { of: *run, recording, motor, place, lines });
-            }
-            Scenario::Plate(plate) => plates.push(PlateNow { of: *run, recording, plate, place }),
+    for (pin, run) in cx.state.pins.pins().iter().zip(cx.state.pins.runs()) {
+        let Ok(recording) = run.solved.as_ref().map(|solution| &solution.recording) else { continue };
+        if !has_fields(recording) {
+            continue;
+        }
+        let (label, colour, place) = (&*run.label, run_colour(pin.slot, cx.state.dark), cx.state.view.place(recording));
+        let lines = Lines::at(recording, place);
+        match &run.problem.scenario {
+            Scenario::Motor(of) => motors.push(Pinned { pin, label, colour, recording, of, place, lines }),
+            Scenario::Plate(of) => plates.push(Pinned { pin, label, colour, recording, of, place, lines }),
         }
     }
     let mixed = !motors.is_empty() && !plates.is_empty();
@@ -144,7 +121,7 @@ impl Along {
     }
 }
 
-fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext<'_>) {
+fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (title, axis) = (style.title, style.axis);
     let count = runs.len() as f32;
@@ -177,7 +154,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
     let charts = [0, 1]
         .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
 
-    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
+    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
     let titles =
         ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
     title_with_bar(&painter, &style, maps[0], "Pressure map", titles, range);
@@ -185,11 +162,11 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         let metre = along.metre(run.recording.length);
         // In metres of this run: its own teeth are where its own x says.
         let x = x.map(|x| x / metre);
-        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
         let axes = field::draw(ui, &style, &painter, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
-        key_beside(&painter, *rect, run.of.colour);
+        key_beside(&painter, *rect, run.colour);
         axes.cursor(&painter, &style, cursor.map(|x| x / metre));
-        map_name(ui, *rect, &run.of.run.label, range);
+        map_name(ui, *rect, run.label, range);
     }
     if let Some(last) = maps.last() {
         let name = if along.alike { "x, mm" } else { "x/λ" };
@@ -206,7 +183,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
-        let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(&run.of.pin.curves))).collect();
+        let kept: Vec<_> = runs.iter().map(|run| (run.colour, of(&run.pin.curves))).collect();
         over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
 
@@ -273,25 +250,24 @@ fn draw_surfaces(
     painter: &Painter,
     style: &PlotStyle,
     rect: Rect,
-    runs: &[MotorNow<'_>],
+    runs: &[Pinned<'_, Motor>],
     x: [f64; 2],
     along: &Along,
     cursor: Option<f64>,
 ) -> Axes {
     let heights = runs.iter().map(|run| {
-        let scales = &run.of.pin.curves.scales;
-        [scales.stator[0], (scales.rotor[1] - run.motor.spacing()).max(scales.stator[1])]
+        let scales = &run.pin.curves.scales.ranges;
+        [scales.stator[0], (scales.rotor[1] - run.of.spacing()).max(scales.stator[1])]
     });
     let [low, high] = common(heights);
     let margin = 0.08 * (high - low).max(1e-9);
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
-    let scale = f64::from(rect.height()) / (axes.y[1] - axes.y[0]);
-    let across = f64::from(rect.width()) / (axes.x[1] - axes.x[0]) / if along.alike { 1.0 } else { along.first };
+    let vertical = times(axes.exaggeration() * along.to_metres(1.0));
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
+    scale_bar(painter, style, &axes);
     let titles = [
-        format!("Rotor undersides (thick) over tooth tops (thin), vertical {}", times(scale / across)),
-        format!("Rotor (thick), teeth (thin), {}", times(scale / across)),
+        format!("Rotor undersides (thick) over tooth tops (thin), vertical {vertical}"),
+        format!("Rotor (thick), teeth (thin), {vertical}"),
         "Rotor and teeth".to_owned(),
     ];
     style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
@@ -304,11 +280,11 @@ fn draw_surfaces(
         };
         for tooth in 0..run.recording.teeth {
             let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
+            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.colour));
         }
         let underside = run.lines.underside(run.recording);
         let underside = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
-        painter.line(underside, Stroke::new(2.2, run.of.colour));
+        painter.line(underside, Stroke::new(2.2, run.colour));
     }
     axes.cursor(painter, style, cursor);
     axes
@@ -318,13 +294,13 @@ fn draw_pressure(
     ui: &mut Ui,
     style: &PlotStyle,
     rect: Rect,
-    runs: &[MotorNow<'_>],
+    runs: &[Pinned<'_, Motor>],
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
     field: usize,
 ) -> PlotResponse<()> {
-    let kilo = |run: &MotorNow<'_>| 1e-3 / run.motor.contact_width;
-    let ranges = runs.iter().map(|run| run.of.pin.curves.lines[field].map(|load| load * kilo(run)));
+    let kilo = |run: &Pinned<'_, Motor>| 1e-3 / run.of.contact_width;
+    let ranges = runs.iter().map(|run| run.pin.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = common(ranges.chain([[0.0, 0.0]]));
     let margin = 0.06 * (high - low).max(1e-3);
     let written = along.written();
@@ -344,8 +320,8 @@ fn draw_pressure(
                 let loads = run.recording.x.iter().zip(values);
                 let points: Vec<_> = loads.map(|(xi, load)| [(middle + xi) * metre, load * kilo(run)]).collect();
                 let columns: Vec<_> = points.iter().map(|[x, load]| [*x, *load, 0.0]).collect();
-                plot.add(between(&columns, run.of.colour.gamma_multiply(0.16)));
-                plot.line(line(&points, run.of.colour, 1.6, LineStyle::Solid));
+                plot.add(between(&columns, run.colour.gamma_multiply(0.16)));
+                plot.line(line(&points, run.colour, 1.6, LineStyle::Solid));
             }
         }
         if let Some(x) = cursor {
@@ -355,7 +331,7 @@ fn draw_pressure(
 }
 
 /// Values of every motor at x.
-fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
+fn motor_values(ui: &mut Ui, runs: &[Pinned<'_, Motor>], x: f64, along: &Along) {
     let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} λ", number(x)) };
     ui.label(place);
     egui::Grid::new("values of motors").spacing([12.0, 2.0]).show(ui, |ui| {
@@ -366,15 +342,15 @@ fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
         for run in runs {
             let (tooth, xi) =
                 sample::tooth_at(x / along.metre(run.recording.length), run.recording.pitch, run.recording.teeth);
-            ui.colored_label(run.of.colour, &run.of.run.label);
+            ui.colored_label(run.colour, run.label);
             match sample::locate(&run.recording.x, xi) {
                 None => drop(ui.weak("groove")),
                 Some(node) => {
                     let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
-                    let gap = at(&run.lines.film_thickness) - run.motor.spacing();
+                    let gap = at(&run.lines.film_thickness) - run.of.spacing();
                     ui.label(number(gap.max(0.0) * 1e9));
                     for field in [&run.lines.contact, &run.lines.film] {
-                        ui.label(number(at(field) / run.motor.contact_width / 1e3));
+                        ui.label(number(at(field) / run.of.contact_width / 1e3));
                     }
                 }
             }
@@ -383,10 +359,10 @@ fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
     });
 }
 
-fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext<'_>) {
+fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (title, axis) = (style.title, style.axis);
-    let with_map: Vec<&PlateNow<'_>> = runs.iter().filter(|run| run.plate.width.is_some()).collect();
+    let with_map: Vec<&Pinned<'_, Plate>> = runs.iter().filter(|run| run.of.width.is_some()).collect();
     let columns = with_map.len().clamp(1, 3);
     let rows = with_map.len().div_ceil(columns) as f32;
     let map = PLATE_MAP * style.row;
@@ -399,11 +375,11 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
 
     // Pressure along the plates.
     let chart = column.next(title, 0.52 * body);
-    let along = Along::of(runs.iter().map(|run| run.plate.length));
-    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
+    let along = Along::of(runs.iter().map(|run| run.of.length));
+    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.of.length * along.metre(run.of.length))));
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
-    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
-    let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
+    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
+    let ambient = common(runs.iter().map(|run| [run.of.gas.ambient_pressure; 2]));
     let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
@@ -414,10 +390,10 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let below = Some(if along.alike { "x, mm" } else { "x/length" });
     let charted = Inset { name, rect: chart, bounds, below }.show(ui, &style, |plot| {
         for run in runs {
-            plot.hline(level(1e-3 * run.plate.gas.ambient_pressure, style.palette.quiet, 1.0));
-            let to_axis = 1e-3 * along.metre(run.plate.length) * written;
+            plot.hline(level(1e-3 * run.of.gas.ambient_pressure, style.palette.quiet, 1.0));
+            let to_axis = 1e-3 * along.metre(run.of.length) * written;
             let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
-            plot.line(line(&points, run.of.colour, 1.8, LineStyle::Solid));
+            plot.line(line(&points, run.colour, 1.8, LineStyle::Solid));
         }
         if let Some(x) = cursor {
             plot.vline(upright(x * written, style.palette.accent, 1.0));
@@ -438,11 +414,11 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
         let (beside, step) = ((slot % columns) as f32, (right - start) / columns as f32);
         let left = start + beside * step;
         let rect = row.with_min_x(left + if beside > 0.0 { 16.0 } else { 0.0 }).with_max_x(left + step);
-        let x = [-0.5, 0.5].map(|x| x * run.plate.length);
-        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        let x = [-0.5, 0.5].map(|x| x * run.of.length);
+        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
         field::draw(ui, &style, &painter, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
-        key_beside(&painter, rect, run.of.colour);
-        map_name(ui, rect, &run.of.run.label, range);
+        key_beside(&painter, rect, run.colour);
+        map_name(ui, rect, run.label, range);
     }
 
     // Over the cycle, and against the gap.
@@ -451,7 +427,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.pin.curves.film)).collect();
+    let kept: Vec<_> = runs.iter().map(|run| (run.colour, &run.pin.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
     over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
     draw_loops(ui, &style, right, runs, cx.state.view.phase);
@@ -466,7 +442,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
 }
 
 /// Values of every plate at x.
-fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
+fn plate_values(ui: &mut Ui, runs: &[Pinned<'_, Plate>], x: f64, along: &Along) {
     let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} lengths", number(x)) };
     ui.label(place);
     egui::Grid::new("values of plates").spacing([12.0, 2.0]).show(ui, |ui| {
@@ -475,8 +451,8 @@ fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
         }
         ui.end_row();
         for run in runs {
-            ui.colored_label(run.of.colour, &run.of.run.label);
-            let x = x / along.metre(run.plate.length);
+            ui.colored_label(run.colour, run.label);
+            let x = x / along.metre(run.of.length);
             let pressure = sample::middle_pressure(run.recording, 0, x, run.place);
             ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
             ui.end_row();
@@ -485,15 +461,13 @@ fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
 }
 
 /// Mean gauge pressure against the gap over its mean.
-fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[PlateNow<'_>], phase: f64) {
-    let loads = common(runs.iter().map(|run| run.of.pin.curves.film.range()).chain([[0.0, 0.0]]));
-    let gaps = common(runs.iter().map(|run| run.of.pin.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
+fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[Pinned<'_, Plate>], phase: f64) {
+    let loads = common(runs.iter().map(|run| run.pin.curves.film.range()).chain([[0.0, 0.0]]));
+    let gaps = common(runs.iter().map(|run| run.pin.curves.scales.ranges.thickness.map(|gap| gap / run.of.mean_gap)));
     let kept = runs.iter().filter_map(|run| {
-        let (curves, _) = run.of.pin.curves.scales.tooth(0)?;
-        let at = move |phase: f64| {
-            [curves.thickness.at(phase) / run.plate.mean_gap, 1e-3 * run.of.pin.curves.film.at(phase)]
-        };
-        Some((run.of.colour, Box::new(at) as _))
+        let (curves, _) = run.pin.curves.scales.tooth(0)?;
+        let at = move |phase: f64| [curves.thickness.at(phase) / run.of.mean_gap, 1e-3 * run.pin.curves.film.at(phase)];
+        Some((run.colour, Box::new(at) as _))
     });
     let kept: Vec<Loop<'_>> = kept.collect();
     show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), (&kept, &[]), phase);
