@@ -2,11 +2,13 @@
 
 use super::context::DrawContext;
 use super::hint::{Hint, beside};
-use crate::gui::derived::words::label;
+use crate::gui::command::Command;
+use crate::gui::derived::words::{choice, chosen, label};
 use crate::gui::state::sweep::AxisForm;
-use crate::scene::Parameter;
+use crate::plan::Decision;
+use crate::scene::{Parameter, Value};
 use eframe::egui::accesskit::Role;
-use eframe::egui::{ComboBox, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, Response, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
 
 /// Width of the list of parameters, in heights of the text.
 const PARAMETERS: f32 = 11.0;
@@ -32,6 +34,32 @@ pub(super) fn list(
     let response = list.show_ui(ui, entries).response;
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
     response.hint(about);
+}
+
+/// A list of the `options` of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.
+pub(super) fn choices(
+    ui: &mut Ui,
+    (parameter, options): (&'static Parameter, &[&'static str]),
+    name: &str,
+    plan: &[Decision],
+    width: f32,
+    cx: &DrawContext<'_>,
+) -> Response {
+    let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, name, plan));
+    let shown = list.width(width).truncate().show_ui(ui, |ui| {
+        for option in options {
+            // A table is chosen by giving its file, below.
+            let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
+            let possible = !file || *option == name;
+            let text = choice(parameter.key, option);
+            let picked = ui.add_enabled(possible, Button::selectable(*option == name, text));
+            if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
+                let value = Value::Text((*option).to_owned());
+                cx.push(Command::Set { key: parameter.key, value, dragging: false });
+            }
+        }
+    });
+    shown.response
 }
 
 /// A parameter with two values, as they are typed.
