@@ -7,7 +7,6 @@ use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
-use crate::job::task::Task;
 use crate::job::work::Posed;
 use std::path::Path;
 use std::sync::Arc;
@@ -26,10 +25,9 @@ impl Updater {
             }
         };
         let Some(content) = self.content(export) else { return };
-        let task = Task::of(Files { path, content }, self.wake(REDRAW));
-        match task {
-            Ok(task) => self.state.exports.begin(export, task, self.now()),
-            Err(error) => self.state.fail(format!("The export cannot be started: {error}")),
+        let work = Files { path, content };
+        if let Some(task) = self.start_work("The export cannot be started", work, REDRAW) {
+            self.state.exports.begin(export, task, self.now());
         }
     }
 

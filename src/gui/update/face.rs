@@ -6,7 +6,6 @@ use crate::gui::command::FaceCommand;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::job::face::Heights;
-use crate::job::task::Task;
 use crate::scene::Kind;
 use crate::scene::heights::keys_of;
 use std::path::PathBuf;
@@ -33,9 +32,8 @@ impl Updater {
         }
         self.state.view.tab = Tab::Rotor;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        match Task::of(Heights::new(path), self.wake(Duration::ZERO)) {
-            Ok(task) => self.state.face.begin(name, task),
-            Err(error) => self.state.fail(format!("The heights cannot be read: {error}")),
+        if let Some(task) = self.start_work("The heights cannot be read", Heights::new(path), Duration::ZERO) {
+            self.state.face.begin(name, task);
         }
     }
 

@@ -7,7 +7,6 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
 use crate::job::fit::Asked;
-use crate::job::task::Task;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::Path;
@@ -67,9 +66,9 @@ impl Updater {
         }
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
         let asked = scene.clone();
-        match Task::of(Asked { scene, measured, bounds, goal, settings }, self.wake(REDRAW)) {
-            Ok(task) => self.state.fit.begin(asked, task),
-            Err(error) => self.state.fail(format!("The fit cannot be started: {error}")),
+        let work = Asked { scene, measured, bounds, goal, settings };
+        if let Some(task) = self.start_work("The fit cannot be started", work, REDRAW) {
+            self.state.fit.begin(asked, task);
         }
     }
 }

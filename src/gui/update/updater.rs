@@ -6,6 +6,8 @@ use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
 use crate::job::export::ExportTask;
+use crate::job::task::{Task, TaskOf};
+use crate::job::work::Work;
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
@@ -54,6 +56,11 @@ impl Updater {
     pub(super) fn wake(&self, every: Duration) -> impl Fn(bool) + Send + Sync + 'static {
         let ctx = self.ctx.clone();
         move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) }
+    }
+
+    /// Starts `work`, which draws the window again not more often than `every`; if it cannot be, that is said after what `failed`.
+    pub(super) fn start_work<W: Work>(&mut self, failed: &str, work: W, every: Duration) -> Option<TaskOf<W>> {
+        Task::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
     /// The scene in SI units; what is wrong with it is said.
