@@ -540,7 +540,9 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     window.ctrl(Key::Num5);
     explains(faults, &window, "Trade-off, before", &[]);
     window.click_on("Measure");
-    until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
+    until(&mut window, "measured", |app| {
+        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
+    });
     let tradeoff =
         ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
     explains(faults, &window, "Trade-off", &tradeoff);
@@ -679,14 +681,14 @@ fn a_fit_that_is_cancelled_leaves_nothing() {
         window.click_on("Add a key…");
     }
     window.click_on("Fit the scene");
-    assert!(window.known().fit.running());
+    assert!(window.known().fit.work.running());
     window.click_on("Cancel the fit");
-    until(&mut window, "it ends", |app| !app.state().fit.running());
+    until(&mut window, "it ends", |app| !app.state().fit.work.running());
     assert!(window.known().fit.found.is_none());
     assert!(window.shows("Cancelled") && !window.shows("Take these values"));
     // Another one can be begun.
     window.click_on("Fit the scene");
-    assert!(window.known().fit.running());
+    assert!(window.known().fit.work.running());
 }
 
 #[test]

@@ -170,7 +170,7 @@ impl State {
         let swept = self.sweep.swept().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
-        let fit = self.fit.running().then(|| "A fit".to_owned());
+        let fit = self.fit.work.running().then(|| "A fit".to_owned());
         export.into_iter().chain(sweep).chain(building).chain(fit).collect()
     }
 

@@ -20,7 +20,7 @@ impl Updater {
             FitCommand::Forget => state.fit.measured = None,
             FitCommand::Form(form) => state.fit.ask(form),
             FitCommand::Start => self.start_fit(),
-            FitCommand::Cancel => state.fit.cancel(),
+            FitCommand::Cancel => state.fit.work.cancel(),
             FitCommand::Take => {
                 let Some((_, found)) = state.fit.found.as_ref() else { return };
                 let values = found.values();
@@ -53,7 +53,7 @@ impl Updater {
     }
 
     fn start_fit(&mut self) {
-        if self.state.fit.running() {
+        if self.state.fit.work.running() {
             return;
         }
         let scene = self.state.document.scene().clone();

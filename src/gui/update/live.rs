@@ -110,8 +110,8 @@ impl Updater {
         match (command, startup) {
             (StartupCommand::Start, _) => self.start_from_rest(),
             (StartupCommand::Cancel, startup) => {
-                dropped.iter().for_each(Dropped::cancel);
-                startup.iter().for_each(StartupState::cancel);
+                dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
+                startup.iter_mut().for_each(|startup| startup.work.cancel());
             }
             (StartupCommand::Choose(number), Some(startup)) => startup.stay_at(number),
             (StartupCommand::Follow(follow), Some(startup)) => startup.follow(follow),

@@ -81,7 +81,7 @@ impl Updater {
             Command::Sensitivity(command) => self.sensitivity(command),
             Command::Lesson(command) => self.teach(command),
             Command::Measure => self.measure(),
-            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.cancel()),
+            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::Export(export) => self.ask(Purpose::Export(export), export.file_name()),
@@ -184,13 +184,13 @@ impl Updater {
         if let Some(startup) = &mut state.startup {
             startup.drain();
             if startup.stale(state.document.scene()) {
-                startup.cancel();
+                startup.work.cancel();
             }
         }
         if let Some(dropped) = &mut state.dropped {
             dropped.drain();
             if dropped.stale(state.document.scene()) {
-                dropped.cancel();
+                dropped.work.cancel();
             }
         }
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));

@@ -12,7 +12,7 @@ const MEASURE_INTERVAL: Duration = Duration::from_millis(200);
 impl Updater {
     /// Starts to measure, unless that goes on.
     pub(super) fn measure(&mut self) {
-        if self.state.tradeoff.as_ref().is_some_and(TradeoffState::running) {
+        if self.state.tradeoff.as_ref().is_some_and(|measured| measured.work.running()) {
             return;
         }
         let Some(problem) = self.problem() else { return };

@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let about = "A CSV file, a grid of heights or a profile, as squeezefilm surface reads it; or drop one on the window";
         cx.button(ui, "Open heights…", about, FaceCommand::Choose);
-        if state.running() {
+        if state.work.running() {
             ui.spinner();
         }
         let Some(face) = state.found.as_ref() else { return };

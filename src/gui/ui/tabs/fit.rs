@@ -176,7 +176,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     let state = &cx.state.fit;
     let agreement = state.form().sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
-        if state.running() {
+        if state.work.running() {
             cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
             ui.spinner();
             let what = if agreement { "χ²" } else { "best" };
@@ -200,8 +200,8 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     });
     if let Some(failure) = &state.failure {
         cx.say(ui, failure, cx.colours.alarm);
-    } else if state.cancelled {
-        cx.note(ui, if state.running() { "Ending…" } else { "Cancelled" });
+    } else if state.work.cancelled {
+        cx.note(ui, if state.work.running() { "Ending…" } else { "Cancelled" });
     }
 }
 

@@ -44,7 +44,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        match cx.state.startup.as_ref().filter(|startup| startup.running()) {
+        match cx.state.startup.as_ref().filter(|startup| startup.work.running()) {
             Some(_) => {
                 let about = "Ends it; the cycles computed so far stay";
                 cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);

@@ -66,7 +66,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        let running = cx.state.tradeoff.as_ref().filter(|measured| measured.running());
+        let running = cx.state.tradeoff.as_ref().filter(|measured| measured.work.running());
         match running {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
@@ -103,8 +103,8 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
         let text = format!("Measured on “{}” before the scene changed; measure again", measured.scene.name);
         cx.say(ui, text, cx.colours.alarm);
-    } else if measured.cancelled {
-        let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
+    } else if measured.work.cancelled {
+        let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
     }
     if let Some(failure) = &measured.failure {
