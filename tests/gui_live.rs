@@ -276,7 +276,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
         shown > recorded[5].time && shown < paused.time
     });
     window.get_by_label("Pause");
-    until(&mut window, "it is played to the end", |app| !held(app).plays());
+    until(&mut window, "it is played to the end", |app| !held(app).playing);
     assert_eq!(readings(&window), [paused; 2]);
     window.get_by_label("paused");
 
@@ -294,7 +294,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     window.key_press(Key::Space);
     wait(&mut window);
     window.key_press(Key::ArrowDown);
-    until(&mut window, "it follows the hand", |app| held(app).plays());
+    until(&mut window, "it follows the hand", |app| held(app).playing);
     until(&mut window, "it is there", |app| {
         let hold = held(app);
         (hold.now().reading.gap / hold.target() - 1.0).abs() < 1e-3
