@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use crate::gui::command::{Command, HoldCommand, LessonCommand, PinCommand};
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::Next;
 use crate::gui::state::view::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
@@ -117,9 +118,9 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
         "File",
         &[
-            Window.on(CTRL, Key::O, "Open a preset", || Command::OpenDialog),
+            Window.on(CTRL, Key::O, "Open a preset", || Command::Ask(Purpose::Open)),
             Window.on(CTRL, Key::S, "Save", || Command::Save(None)),
-            Window.on(CTRL_SHIFT, Key::S, "Save under another name", || Command::SaveAs),
+            Window.on(CTRL_SHIFT, Key::S, "Save under another name", || Command::Ask(Purpose::Save(None))),
             Window.on(CTRL, Key::Q, "Quit", || Command::Proceed(Next::Quit)),
         ],
     ),

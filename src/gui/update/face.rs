@@ -3,7 +3,6 @@
 use super::updater::Updater;
 use crate::digits::rounded;
 use crate::gui::command::FaceCommand;
-use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::job::face::Heights;
 use crate::scene::Kind;
@@ -17,14 +16,13 @@ const SPACING: &str = "film.min_spacing_nm";
 impl Updater {
     pub(super) fn face(&mut self, command: FaceCommand) {
         match command {
-            FaceCommand::Choose => self.ask(Purpose::Heights, ""),
-            FaceCommand::Load(path) => self.load_face(path),
             FaceCommand::Forget => self.state.face.found = None,
             FaceCommand::Take => self.take_face(),
         }
     }
 
-    fn load_face(&mut self, path: PathBuf) {
+    /// Reads a measured face.
+    pub(super) fn load_face(&mut self, path: PathBuf) {
         if self.state.document.scene().kind() == Kind::Plate {
             return self
                 .state

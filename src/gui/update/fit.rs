@@ -2,21 +2,18 @@
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
-use crate::gui::command::{FaceCommand, FitCommand};
-use crate::gui::state::dialogs::Purpose;
+use crate::gui::command::FitCommand;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
 use crate::job::fit::Asked;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
-use std::path::Path;
+use std::path::PathBuf;
 
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
         let state = &mut self.state;
         match command {
-            FitCommand::Choose => self.ask(Purpose::Measurements, ""),
-            FitCommand::Load(path) => self.load_measurements(&path),
             FitCommand::Forget => state.fit.measured = None,
             FitCommand::Form(form) => state.fit.ask(form),
             FitCommand::Start => self.start_fit(),
@@ -30,14 +27,14 @@ impl Updater {
     }
 
     /// Reads a table of measurements, or a measured face. On the torque tab torques are drawn over the curve; anything else shows the fit.
-    fn load_measurements(&mut self, path: &Path) {
+    pub(super) fn load_measurements(&mut self, path: PathBuf) {
         // No table of measurements is as large as heights may be.
-        let heights = match read_text(path, LARGEST_TABLE) {
+        let heights = match read_text(&path, LARGEST_TABLE) {
             Ok(text) => begins_as_heights(&text),
             Err(error) => matches!(error, ReadError::TooLarge(_)),
         };
         if heights {
-            return self.face(FaceCommand::Load(path.to_owned()));
+            return self.load_face(path);
         }
         let state = &mut self.state;
         match Measured::find(&path.to_string_lossy(), state.document.scene(), Method::Auto) {

@@ -2,7 +2,6 @@
 
 use super::updater::Updater;
 use crate::gui::command::{Command, HoldCommand, LessonCommand};
-use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::running_lesson::RunningLesson;
 use crate::gui::state::tour::STOPS;
 use crate::gui::state::view::Tab;
@@ -72,8 +71,6 @@ impl Updater {
             }
             LessonCommand::Choose(choice) => return self.choose(choice),
             LessonCommand::GoOn => return self.go_on(),
-            LessonCommand::ChooseFolder => return self.ask(Purpose::Lessons, ""),
-            LessonCommand::LoadFolder(folder) => return self.load_lessons(&folder),
             LessonCommand::Faults => return self.say_faults(),
             LessonCommand::Reload => return self.reload_lessons(),
             LessonCommand::Predict(_) | LessonCommand::Commit | LessonCommand::Observe(_) | LessonCommand::Hint => {

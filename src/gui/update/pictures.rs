@@ -23,7 +23,7 @@ impl Updater {
         while let Ok(image) = self.pictures.1.try_recv() {
             let size = image.size.map(|pixels| pixels as u32);
             let rgb = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
-            self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }), dialogs::PICTURE);
+            self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }));
         }
         let Self { writing, state, .. } = self;
         writing.retain(|task| {

@@ -14,6 +14,7 @@ use crate::platform::window::Parent;
 use crate::problem::Problem;
 use crate::scene::{Scene, Value};
 use eframe::egui;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -118,9 +119,11 @@ impl Updater {
     }
 
     /// Asks for a file or a folder, with a name to begin with.
-    pub(super) fn ask(&mut self, purpose: Purpose, name: &str) {
+    pub(super) fn ask(&mut self, purpose: Purpose) {
         let wake = self.ctx.clone();
-        if let Err(error) = self.dialogs.show(purpose, name, move || wake.request_repaint()) {
+        let name = self.state.suggested_path(&purpose);
+        let name = Path::new(&name).file_name().unwrap_or_default().to_string_lossy();
+        if let Err(error) = self.dialogs.show(purpose, &name, move || wake.request_repaint()) {
             self.state.fail(format!("The file dialog cannot be shown: {error}"));
         }
     }

@@ -3,9 +3,10 @@
 use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, Measured, Optimum};
 use crate::analysis::quantity::Quantity;
 use crate::digits::{capitalised, percent, signed, significant, with_error};
-use crate::gui::command::FitCommand;
+use crate::gui::command::{Command, FitCommand};
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses, quantities};
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title, whole};
 use crate::gui::ui::context::DrawContext;
@@ -113,7 +114,8 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
 /// Which measurements.
 fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        cx.button(ui, "Open measurements…", "A CSV file; or drop one on the window", FitCommand::Choose);
+        let ask = Command::Ask(Purpose::Measurements);
+        cx.button(ui, "Open measurements…", "A CSV file; or drop one on the window", ask);
         if let Some(measured) = state.measured.as_ref() {
             cx.button(ui, "Forget them", "The table is no longer drawn, nor fitted", FitCommand::Forget);
             let name = measured.name.rsplit(['/', '\\']).next().unwrap_or_default();

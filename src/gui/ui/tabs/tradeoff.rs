@@ -7,7 +7,7 @@ use crate::digits::{self, short};
 use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
 use crate::gui::derived::scales::span;
-use crate::gui::state::dialogs::Export;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
 use crate::gui::ui::chart::{axes, key, level, line, numbered, place as chart_place, powers, upright};
 use crate::gui::ui::context::DrawContext;
@@ -85,7 +85,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
-                cx.button(ui, text, export.about(), Command::Export(export));
+                cx.button(ui, text, export.about(), Command::Ask(Purpose::Export(export)));
             }
         }
     });
