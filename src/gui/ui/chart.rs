@@ -17,6 +17,8 @@ const NUMBER_EVERY: f32 = 2.6;
 const COLUMN_EVERY: f32 = 4.5;
 /// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
 pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
+/// Width of a line of a tab.
+pub(super) const WIDTH: f32 = 2.0;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 

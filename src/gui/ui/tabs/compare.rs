@@ -133,20 +133,7 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
     // In one piece, so that it is a whole that goes to the next line.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
-    let row = egui::Layout::left_to_right(egui::Align::Center);
-    ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, cx));
-}
-
-fn chip_parts(
-    ui: &mut Ui,
-    id: u64,
-    run: &ComparedRun,
-    (colour, label): (Color32, f32),
-    present: bool,
-    cx: &DrawContext<'_>,
-) {
-    let em = ui.text_style_height(&TextStyle::Body);
-    frame(ui, colour).show(ui, |ui| {
+    let parts = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
         let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, colour);
@@ -156,7 +143,9 @@ fn chip_parts(
             cx.small_button(ui, open, format!("Open {}", run.label), PinCommand::Open(id));
         }
         cx.small_button(ui, ("✕", "Remove this pin"), format!("Remove {}", run.label), PinCommand::Remove(id));
-    });
+    };
+    let row = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, row, |ui| frame(ui, colour).show(ui, parts));
 }
 
 /// The label, to be typed over; Enter or leaving takes it, Escape does not.
