@@ -119,6 +119,35 @@ impl Along {
     fn on_axis(&self, x: f64) -> f64 {
         if self.alike { x } else { x / self.first }
     }
+
+    /// Tells the other views where on the axis the pointer is, and shows the values of all `runs` there: `of` writes those of one, below `heads`.
+    /// `lengths`: what the axis is in if lengths differ.
+    fn read<T>(
+        &self,
+        (response, x): (Response, Option<f64>),
+        (lengths, heads): (&str, &[&str]),
+        runs: &[Pinned<'_, T>],
+        cx: &DrawContext<'_>,
+        of: impl Fn(&mut Ui, &Pinned<'_, T>, f64),
+    ) {
+        let response = response.on_hover_cursor(CursorIcon::Crosshair);
+        let Some(x) = x else { return };
+        cx.point_at(self.to_metres(x));
+        response.on_hover_ui_at_pointer(|ui| {
+            let (value, unit) = if self.alike { (x * 1e3, "mm") } else { (x, lengths) };
+            ui.label(format!("x {} {unit}", number(value)));
+            egui::Grid::new(lengths).spacing([12.0, 2.0]).show(ui, |ui| {
+                ui.weak("");
+                heads.iter().for_each(|head| drop(ui.weak(*head)));
+                ui.end_row();
+                for run in runs {
+                    ui.colored_label(run.colour, run.label);
+                    of(ui, run, x);
+                    ui.end_row();
+                }
+            });
+        });
+    }
 }
 
 fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawContext<'_>) {
@@ -196,12 +225,10 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         (response, x)
     });
     let on_a_term = style.explain(ui);
+    let heads = ["gap, nm", "contact, kPa", "film, kPa gauge"];
     for (response, x) in painted.into_iter().chain(charts.map(|chart| along.pointed(chart))) {
-        let response = response.on_hover_cursor(CursorIcon::Crosshair);
-        if let Some(x) = x.filter(|_| !on_a_term) {
-            cx.point_at(along.to_metres(x));
-            response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
-        }
+        let at = (response, x.filter(|_| !on_a_term));
+        along.read(at, ("λ", &heads), runs, cx, |ui, run, x| values(ui, run, x / along.metre(run.recording.length)));
     }
 }
 
@@ -330,33 +357,16 @@ fn draw_pressure(
     })
 }
 
-/// Values of every motor at x.
-fn motor_values(ui: &mut Ui, runs: &[Pinned<'_, Motor>], x: f64, along: &Along) {
-    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} λ", number(x)) };
-    ui.label(place);
-    egui::Grid::new("values of motors").spacing([12.0, 2.0]).show(ui, |ui| {
-        for head in ["", "gap, nm", "contact, kPa", "film, kPa gauge"] {
-            ui.weak(head);
-        }
-        ui.end_row();
-        for run in runs {
-            let (tooth, xi) =
-                sample::tooth_at(x / along.metre(run.recording.length), run.recording.pitch, run.recording.teeth);
-            ui.colored_label(run.colour, run.label);
-            match sample::locate(&run.recording.x, xi) {
-                None => drop(ui.weak("groove")),
-                Some(node) => {
-                    let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
-                    let gap = at(&run.lines.film_thickness) - run.of.spacing();
-                    ui.label(number(gap.max(0.0) * 1e9));
-                    for field in [&run.lines.contact, &run.lines.film] {
-                        ui.label(number(at(field) / run.of.contact_width / 1e3));
-                    }
-                }
-            }
-            ui.end_row();
-        }
-    });
+/// Values of a motor at x \[m\].
+fn values(ui: &mut Ui, run: &Pinned<'_, Motor>, x: f64) {
+    let (tooth, xi) = sample::tooth_at(x, run.recording.pitch, run.recording.teeth);
+    let Some(node) = sample::locate(&run.recording.x, xi) else { return drop(ui.weak("groove")) };
+    let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
+    let gap = at(&run.lines.film_thickness) - run.of.spacing();
+    ui.label(number(gap.max(0.0) * 1e9));
+    for field in [&run.lines.contact, &run.lines.film] {
+        ui.label(number(at(field) / run.of.contact_width / 1e3));
+    }
 }
 
 fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawContext<'_>) {
@@ -434,29 +444,10 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
 
     let on_a_term = style.explain(ui);
     let (response, x) = along.pointed(charted);
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = x.filter(|_| !on_a_term) {
-        cx.point_at(along.to_metres(x));
-        response.on_hover_ui_at_pointer(|ui| plate_values(ui, runs, x, &along));
-    }
-}
-
-/// Values of every plate at x.
-fn plate_values(ui: &mut Ui, runs: &[Pinned<'_, Plate>], x: f64, along: &Along) {
-    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} lengths", number(x)) };
-    ui.label(place);
-    egui::Grid::new("values of plates").spacing([12.0, 2.0]).show(ui, |ui| {
-        for head in ["", "p, kPa absolute"] {
-            ui.weak(head);
-        }
-        ui.end_row();
-        for run in runs {
-            ui.colored_label(run.colour, run.label);
-            let x = x / along.metre(run.of.length);
-            let pressure = sample::middle_pressure(run.recording, 0, x, run.place);
-            ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
-            ui.end_row();
-        }
+    let at = (response, x.filter(|_| !on_a_term));
+    along.read(at, ("lengths", &["p, kPa absolute"]), runs, cx, |ui, run, x| {
+        let pressure = sample::middle_pressure(run.recording, 0, x / along.metre(run.of.length), run.place);
+        ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
     });
 }
 
