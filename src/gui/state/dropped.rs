@@ -28,12 +28,15 @@ impl Dropped {
         Self { work: task.into(), scene, fidelity, cycles: Vec::new(), ended: None }
     }
 
-    /// Takes what has been computed since the last time.
-    pub fn drain(&mut self) {
+    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         self.cycles.extend(messages);
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+        }
+        if self.stale(scene) {
+            self.work.cancel();
         }
     }
 

@@ -95,12 +95,15 @@ impl StartupState {
         }
     }
 
-    /// Takes what has been computed since the last time.
-    pub fn drain(&mut self) {
+    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+        }
+        if self.stale(scene) {
+            self.work.cancel();
         }
     }
 
@@ -177,7 +180,7 @@ impl StartupState {
 }
 
 /// A cycle as the views want it: as a solve of its own.
-fn as_solved(
+pub fn as_solved(
     number: u64,
     scene: Scene,
     problem: Problem,

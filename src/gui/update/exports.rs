@@ -1,10 +1,10 @@
 //! Exports: the same code and the same names as those of the command line, in the background.
 
 use super::updater::{REDRAW, Updater};
-use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose};
+use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
 use crate::job::work::Posed;
@@ -56,11 +56,7 @@ impl Updater {
             Export::Figures => of_run(OfRun::Figures),
             Export::Fields => of_run(OfRun::Fields),
             Export::Animation => of_run(OfRun::Animation),
-            Export::Report => {
-                let SolvedScene { scene, problem, solution, .. } = self.named()?;
-                let run = ComparedRun { label: scene.name.clone(), scene, problem, solved: Ok(Arc::new(solution)) };
-                Some(Content::Runs(OfRuns::Report, vec![run]))
-            }
+            Export::Report => Some(Content::Runs(OfRuns::Report, vec![to_compare(&self.named()?)])),
             Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs().to_vec())),
             Export::Comparison => {
                 let all = self.state.pins.all_parameters;

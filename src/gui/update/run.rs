@@ -179,18 +179,9 @@ impl Updater {
         state.torque.drain();
         state.rotor.drain();
         state.sensitivity.drain();
-        if let Some(startup) = &mut state.startup {
-            startup.drain();
-            if startup.stale(state.document.scene()) {
-                startup.work.cancel();
-            }
-        }
-        if let Some(dropped) = &mut state.dropped {
-            dropped.drain();
-            if dropped.stale(state.document.scene()) {
-                dropped.work.cancel();
-            }
-        }
+        let scene = state.document.scene();
+        state.startup.iter_mut().for_each(|startup| startup.drain(scene));
+        state.dropped.iter_mut().for_each(|dropped| dropped.drain(scene));
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
         self.receive_pictures();
         self.update_hold();

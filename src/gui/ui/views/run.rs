@@ -57,6 +57,7 @@ mod tests {
     use crate::fidelity::Fidelity;
     use crate::gui::command::Command;
     use crate::gui::state::document::Document;
+    use crate::gui::state::startup::as_solved;
     use crate::gui::state::view::View;
     use crate::gui::state::window::State;
     use crate::gui::ui::theme;
@@ -76,18 +77,7 @@ mod tests {
         let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
-        let (validity, history) = (Vec::new(), Vec::new());
-        SolvedScene {
-            number: 1,
-            scene,
-            problem,
-            fidelity: Fidelity::Draft,
-            solution,
-            validity,
-            wall_s: 0.0,
-            warm: false,
-            history,
-        }
+        as_solved(1, scene, problem, Fidelity::Draft, solution.outcome, solution.recording)
     }
 
     /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
