@@ -499,7 +499,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     window.run_steps(2);
     window.click_on("Measure");
     until(&mut window, "the measurement ends", |app| {
-        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running())
+        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
     });
     let points = &window.known().tradeoff.as_ref().unwrap().tradeoff.points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
@@ -552,11 +552,11 @@ fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
             .is_some_and(|measured| measured.tradeoff.points.iter().any(|point| point.median.is_finite()))
     });
     window.click_on("Cancel the measurement");
-    until(&mut window, "it ends", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
+    until(&mut window, "it ends", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running()));
     window.get_by_label_contains("Cancelled");
     // What was measured stays, another can begin, and the window does not wait for it.
     window.click_on("Measure");
-    assert!(window.known().tradeoff.as_ref().unwrap().running());
+    assert!(window.known().tradeoff.as_ref().unwrap().work.running());
     drop(window);
 }
 

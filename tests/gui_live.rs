@@ -113,13 +113,13 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
     window.type_into("Minimum spacing H_m in nm", "150");
     window.get_by_label_contains("before the scene changed; start again");
-    until(&mut window, "it has ended", |app| !starting(app).running());
+    until(&mut window, "it has ended", |app| !starting(app).work.running());
 
     window.click_on("Start from rest");
     assert!(window.query_by_label_contains("before the scene changed; start again").is_none());
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
     window.click_on("Cancel the start-up");
-    until(&mut window, "it has ended", |app| !starting(app).running());
+    until(&mut window, "it has ended", |app| !starting(app).work.running());
     window.get_by_label_contains("Cancelled after cycle");
     // One that goes on does not keep the window open.
     window.click_on("Start from rest");
@@ -276,7 +276,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
         shown > recorded[5].time && shown < paused.time
     });
     window.get_by_label("Pause");
-    until(&mut window, "it is played to the end", |app| !held(app).plays());
+    until(&mut window, "it is played to the end", |app| !held(app).playing);
     assert_eq!(readings(&window), [paused; 2]);
     window.get_by_label("paused");
 
@@ -294,7 +294,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     window.key_press(Key::Space);
     wait(&mut window);
     window.key_press(Key::ArrowDown);
-    until(&mut window, "it follows the hand", |app| held(app).plays());
+    until(&mut window, "it follows the hand", |app| held(app).playing);
     until(&mut window, "it is there", |app| {
         let hold = held(app);
         (hold.now().reading.gap / hold.target() - 1.0).abs() < 1e-3
@@ -322,11 +322,11 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
         window.known().dropped.as_ref().unwrap().cycles.iter().map(|cycle| cycle.height.value).collect();
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
     window.run_steps(2);
-    assert!(window.known().dropped.as_ref().unwrap().running());
+    assert!(window.known().dropped.as_ref().unwrap().work.running());
     window.get_by_label_contains("does not shake, has 4.96");
     window.get_by_role_and_label(Role::Image, "Height of the plate over time");
     window.click_on("Cancel");
-    until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.running()));
+    until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.work.running()));
     window.get_by_label_contains("Cancelled at");
     window.get_by_label("Drop it");
 }

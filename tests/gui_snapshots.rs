@@ -244,7 +244,9 @@ fn the_window_looks_as_it_did() {
     }
     let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
     window.click_on("Measure");
-    until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
+    until(&mut window, "measured", |app| {
+        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
+    });
     compare(&mut results, &mut window, "trade-off");
     let mut window = self::window("plate-crossover", USUAL, &[LECTURE, TORQUE]);
     window.get_by_label_contains("6mH^2").scroll_to_me();

@@ -111,7 +111,7 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     let pressure = window.known().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
     let all: Vec<f64> = pressure.flatten().copied().collect();
     let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
-    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.pressure[1]).collect();
+    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.ranges.pressure[1]).collect();
     assert!(own[0] != own[1], "each alone would have another scale");
     for label in labels(window.state()) {
         let about = format!("Pressure map of {label}, colours from ");
@@ -540,7 +540,9 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     window.ctrl(Key::Num5);
     explains(faults, &window, "Trade-off, before", &[]);
     window.click_on("Measure");
-    until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
+    until(&mut window, "measured", |app| {
+        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
+    });
     let tradeoff =
         ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
     explains(faults, &window, "Trade-off", &tradeoff);
@@ -679,14 +681,14 @@ fn a_fit_that_is_cancelled_leaves_nothing() {
         window.click_on("Add a key…");
     }
     window.click_on("Fit the scene");
-    assert!(window.known().fit.running());
+    assert!(window.known().fit.work.running());
     window.click_on("Cancel the fit");
-    until(&mut window, "it ends", |app| !app.state().fit.running());
+    until(&mut window, "it ends", |app| !app.state().fit.work.running());
     assert!(window.known().fit.found.is_none());
     assert!(window.shows("Cancelled") && !window.shows("Take these values"));
     // Another one can be begun.
     window.click_on("Fit the scene");
-    assert!(window.known().fit.running());
+    assert!(window.known().fit.work.running());
 }
 
 #[test]

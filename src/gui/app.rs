@@ -1,6 +1,7 @@
 //! The application: between the frames of eframe it takes what has happened, carries out commands, and draws.
 
 use super::command::Command;
+use super::state::dialogs::Purpose;
 use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
 use super::state::link::Link;
@@ -142,7 +143,7 @@ impl eframe::App for App {
         let (waiting, at_once): (Vec<_>, Vec<_>) =
             pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
         commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
-        commands.extend(dropped(ctx).into_iter().map(Command::opened));
+        commands.extend(dropped(ctx).into_iter().map(|path| Command::Chosen(Purpose::Open, path)));
         commands.into_iter().for_each(|command| self.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;

@@ -1,16 +1,15 @@
 //! Everything that a panel or a key asks for. `ui` pushes commands; `update` alone carries them out.
 
-use super::state::dialogs::{Export, Purpose};
+use super::state::dialogs::Purpose;
 use super::state::document::Next;
-use super::state::fit::Sought;
+use super::state::fit::FitForm;
 use super::state::pins::Page;
-use super::state::sweep::AxisEdit;
+use super::state::sweep::Form;
 use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::ring::Orbit;
-use crate::job::export::Picture;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
@@ -69,14 +68,12 @@ pub enum Command {
     AnswerNewMotor(&'static str, String),
     /// Makes the motor that the answers describe.
     MakeNewMotor(Answers),
-    /// Asks for a file to open.
-    OpenDialog,
+    /// Asks for a file or a folder to do this with.
+    Ask(Purpose),
+    /// Does this with the file or the folder that was chosen.
+    Chosen(Purpose, PathBuf),
     /// Saves to the scene's file, or asks for one; then does this.
     Save(Option<Next>),
-    /// Asks for a file and saves there.
-    SaveAs,
-    /// Saves to this file, then does this.
-    SavePath(PathBuf, Option<Next>),
     /// Closes the window although work goes on; asks about unsaved changes.
     QuitAnyway,
     /// Gives unsaved changes up, then does this.
@@ -111,14 +108,10 @@ pub enum Command {
     CancelMeasure,
     /// What is asked of the trade-off.
     Target(Target),
-    /// Asks where to write this, and writes it.
-    Export(Export),
     /// Ends the export under way; nothing is written.
     CancelExport,
     /// What the last export wrote has been read.
     CloseExportNote,
-    /// Writes this to a file.
-    WriteExport(Export, PathBuf),
     /// Play or pause what moves in the middle.
     TogglePlay,
     /// Moves by this many frames, pausing.
@@ -147,8 +140,6 @@ pub enum Command {
     ToggleResults,
     /// Takes a picture of the window and asks where to save it.
     Screenshot,
-    /// Saves a picture of the window to this file.
-    WritePicture(Picture, PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
     /// About lessons.
@@ -189,12 +180,8 @@ pub enum PinCommand {
 /// About the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweepCommand {
-    /// Changes what is varied along x (0) or y (1).
-    Axis(usize, AxisEdit),
-    /// Varies a second parameter.
-    Second(bool),
-    /// Solves every point at this.
-    Fidelity(Fidelity),
+    /// Asks for this.
+    Form(Form),
     /// Draws this.
     Draw(Quantity),
     /// Begins anew.
@@ -210,24 +197,10 @@ pub enum SweepCommand {
 /// About measurements, and fits to them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FitCommand {
-    /// Asks for a table of measurements.
-    Choose,
-    /// Reads this table.
-    Load(PathBuf),
     /// Forgets the table.
     Forget,
-    /// Looks for this.
-    Seek(Sought),
-    /// For the optimum of the number of this name.
-    Quantity(&'static str),
-    /// Within these limits on other numbers, as they are typed.
-    Limits(String),
-    /// Changes a line of the form: what is chosen, and between which bounds.
-    Axis(usize, AxisEdit),
-    /// One more line.
-    Add,
-    /// One line less.
-    Remove(usize),
+    /// Asks for this.
+    Form(FitForm),
     /// Begins.
     Start,
     /// Ends it.
@@ -239,10 +212,6 @@ pub enum FitCommand {
 /// About a measured face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaceCommand {
-    /// Asks for a file of heights.
-    Choose,
-    /// Reads this one.
-    Load(PathBuf),
     /// Forgets it.
     Forget,
     /// Gives the scene the roughness that follows: one edit.
@@ -332,10 +301,6 @@ pub enum LessonCommand {
     SetUp,
     /// Shows all results in place of the lesson's text, or the text again.
     AllResults(bool),
-    /// Asks for a folder of lessons.
-    ChooseFolder,
-    /// Loads the lessons of this folder, beside those that are there.
-    LoadFolder(PathBuf),
     /// Reads the lessons of all folders again.
     Reload,
     /// Says again what was wrong with lessons.
@@ -361,26 +326,6 @@ impl Command {
         match self {
             Self::Set { key, .. } | Self::SetText { key, .. } => Some(key),
             _ => None,
-        }
-    }
-
-    /// What is done with a file that is opened, or dropped on the window: a CSV file is a table of measurements, or a measured face,
-    /// anything else a preset.
-    pub fn opened(path: PathBuf) -> Self {
-        let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-        if table { Self::Fit(FitCommand::Load(path)) } else { Self::Proceed(Next::File(path)) }
-    }
-
-    /// What is done with the path that was chosen for `purpose`.
-    pub fn with_path(purpose: Purpose, path: PathBuf) -> Self {
-        match purpose {
-            Purpose::Open => Self::opened(path),
-            Purpose::Measurements => Self::Fit(FitCommand::Load(path)),
-            Purpose::Heights => Self::Face(FaceCommand::Load(path)),
-            Purpose::Lessons => Self::Lesson(LessonCommand::LoadFolder(path)),
-            Purpose::Save(then) => Self::SavePath(path, then),
-            Purpose::Picture(picture) => Self::WritePicture(picture, path),
-            Purpose::Export(export) => Self::WriteExport(export, path),
         }
     }
 }

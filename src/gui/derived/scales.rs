@@ -66,11 +66,6 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Those of one cycle.
-    pub fn of(recording: &Recording) -> Self {
-        Scales::new(recording).ranges
-    }
-
     /// Those that hold both cycles.
     pub fn and(self, other: Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
@@ -88,26 +83,14 @@ impl Ranges {
 /// Ranges and curves of a whole cycle.
 #[derive(Debug, Default)]
 pub struct Scales {
-    ranges: Ranges,
+    /// Ranges of the axes.
+    pub ranges: Ranges,
     /// For each stored tooth.
     teeth: Vec<ToothCurves>,
     lag: f64,
 }
 
-impl std::ops::Deref for Scales {
-    type Target = Ranges;
-
-    fn deref(&self) -> &Ranges {
-        &self.ranges
-    }
-}
-
 impl Scales {
-    /// The same with other ranges, of one cycle among several.
-    pub fn within(self, ranges: Option<&Ranges>) -> Self {
-        Self { ranges: ranges.copied().unwrap_or(self.ranges), ..self }
-    }
-
     /// Reads the whole recording once.
     pub fn new(recording: &Recording) -> Self {
         let (nodes, frames) = (recording.x.len().max(1), recording.frames);
@@ -233,16 +216,17 @@ mod tests {
                 assert!((b.film.at(phase) - 2.0 * expected).abs() < 1e-9);
             }
         }
-        assert_eq!(one.loads, all.loads);
+        assert_eq!(one.ranges, all.ranges);
     }
 
     #[test]
     fn cycles_of_a_transient_have_axes_in_common_and_do_not_run_back() {
         let (small, mut large) = (recording(3), recording(3));
         large.film.iter_mut().for_each(|film| *film = 2.0 * *film - 1.0);
-        let both = Ranges::of(&small).and(Ranges::of(&large));
+        let [of_small, of_large] = [&small, &large].map(|recording| Scales::new(recording).ranges);
+        let both = of_small.and(of_large);
         assert_eq!(both.loads, [-1.0, 9.0]);
-        assert_eq!(both, both.and(Ranges::of(&small)));
+        assert_eq!(both, both.and(of_small));
         let once = Scales::new(&Recording { transient: true, ..small });
         let (curves, _) = once.tooth(0).unwrap();
         assert_eq!([5.0 / 6.0, 0.99, 1.0].map(|phase| curves.film.at(phase)), [10.0; 3]);
@@ -251,7 +235,7 @@ mod tests {
     #[test]
     fn an_empty_recording_has_ranges_too() {
         let scales = Scales::new(&Recording::default());
-        assert_eq!(scales.pressure, [0.0, 0.0]);
+        assert_eq!(scales.ranges, Ranges::default());
         assert!(scales.tooth(0).is_none());
         assert!(Curve::default().at(0.3).abs() < 1e-12);
     }

@@ -2,62 +2,35 @@
 
 use crate::digits::{capitalised, rounded};
 use crate::plan::Decision;
-use crate::scene::{Parameter, Scene, Value};
+use crate::scene::{PARAMETERS, Parameter, Scene, Value};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
-/// Names of the parameters, by key.
+/// Names of the parameters whose keys say too little themselves, by key.
 const LABELS: &[(&str, &str)] = &[
-    ("name", "Name"),
     ("about", "What this scene is"),
-    ("motor.contact_radius_mm", "Contact radius"),
     ("motor.waves", "Waves round the ring"),
     ("motor.load_per_wave_n", "Load on one wave"),
     ("motor.load_n", "Load on the ring"),
     ("motor.dry_friction", "Dry friction coefficient"),
-    ("motor.rotor_speed_rpm", "Rotor speed"),
     ("motor.rotor_speed_mm_per_s", "Surface speed of the rotor"),
-    ("stator.frequency_khz", "Frequency"),
-    ("stator.normal_amplitude_um", "Normal amplitude"),
-    ("stator.tangential_amplitude_um", "Tangential amplitude"),
     ("stator.teeth_per_wave", "Teeth on one wave"),
-    ("stator.tooth_width_mm", "Tooth width"),
     ("stator.tooth_share", "Share of the pitch"),
-    ("stator.tooth_radius_m", "Tooth radius"),
-    ("rotor.contact_width_mm", "Contact width"),
     ("rotor.model", "Compliance model"),
-    ("rotor.decay_length_mm", "Decay length"),
-    ("rotor.elastic_modulus_gpa", "Elastic modulus"),
     ("rotor.thickness_mm", "Thickness of the rim"),
     ("rotor.width_mm", "Width of the rim"),
-    ("rotor.point_compliance_um_per_n", "Point compliance"),
-    ("rotor.local_compliance_m2_per_n", "Local compliance"),
     ("rotor.compliance_csv", "Compliance from a CSV file"),
     ("rotor.compliance", "Compliance table"),
     ("rotor.green_csv", "Deflection from a CSV file"),
     ("rotor.green", "Deflection table"),
     ("rotor.part", "Parts"),
     ("rotor.support", "Supports"),
-    ("plate.shape", "Shape"),
-    ("plate.length_mm", "Length"),
-    ("plate.width_mm", "Width"),
-    ("plate.radius_mm", "Radius"),
     ("plate.inner_radius_mm", "Radius of the hole"),
-    ("plate.mean_gap_um", "Mean gap"),
-    ("plate.load_n", "Load"),
-    ("plate.mass_g", "Mass"),
-    ("plate.amplitude_um", "Amplitude"),
-    ("plate.frequency_khz", "Frequency"),
     ("film.min_spacing_nm", "Minimum spacing H_m"),
-    ("film.gas", "Gas"),
-    ("film.temperature_c", "Temperature"),
-    ("film.ambient_pressure_kpa", "Ambient pressure"),
-    ("film.altitude_m", "Altitude"),
-    ("film.viscosity_upa_s", "Viscosity"),
-    ("film.mean_free_path_nm", "Mean free path"),
     ("film.slip", "Slip at the walls"),
     ("film.accommodation", "Accommodation coefficient"),
     ("film.shear", "Sliding drags gas along"),
     ("surface.model", "Faces meet on"),
-    ("surface.contact_law", "Contact law"),
     ("surface.summit_heights", "Heights of summits"),
     ("surface.heights_csv", "Measured heights from a CSV file"),
     ("surface.rms_nm", "Rms roughness σ"),
@@ -65,11 +38,7 @@ const LABELS: &[(&str, &str)] = &[
     ("surface.summit_density_per_mm2", "Density of summits"),
     ("surface.elastic_modulus_gpa", "Contact modulus"),
     ("surface.flow_factors", "Flow between rough faces"),
-    ("surface.lay", "Lay"),
     ("surface.stator_share", "Stator's share of the roughness"),
-    ("numerics.film_nodes_along", "Film nodes along"),
-    ("numerics.film_nodes_across", "Film nodes across"),
-    ("numerics.contact_nodes", "Contact nodes"),
     ("numerics.steps_per_cycle", "Steps in a cycle"),
     ("numerics.tolerance", "Tolerance of a cycle"),
     ("numerics.wedge", "Wedge term"),
@@ -146,9 +115,12 @@ fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'s
     table.iter().find(|(found, _)| *found == key).map(|(_, words)| *words)
 }
 
-/// The name of a parameter; its key if it has none, which a test excludes.
+/// The name of a parameter: that of the table, or its key in words with a capital letter.
 pub fn label(parameter: &Parameter) -> &'static str {
-    find(LABELS, parameter.key).or_else(|| find(COLUMNS, parameter.key)).unwrap_or(parameter.key)
+    static WORDS: LazyLock<BTreeMap<&str, String>> =
+        LazyLock::new(|| PARAMETERS.iter().map(|of| (of.key, capitalised(&of.words()))).collect());
+    let named = find(LABELS, parameter.key).or_else(|| find(COLUMNS, parameter.key));
+    named.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
 }
 
 /// What the checkbox of an optional parameter says.
@@ -228,12 +200,13 @@ mod tests {
     use super::*;
     use crate::plan::Choice;
     use crate::problem::Wedge;
-    use crate::scene::{PARAMETERS, ParameterKind};
+    use crate::scene::ParameterKind;
 
     #[test]
     fn every_parameter_has_a_label() {
         for parameter in PARAMETERS {
-            assert!(find(LABELS, parameter.key).is_some(), "{}", parameter.key);
+            assert!(label(parameter).starts_with(char::is_uppercase), "{}", parameter.key);
+            assert_ne!(find(LABELS, parameter.key), Some(&*capitalised(&parameter.words())), "{}", parameter.key);
             assert_eq!(find(SWITCHES, parameter.key).is_some(), parameter.absent.is_some(), "{}", parameter.key);
             if let ParameterKind::Choice { options, .. } = parameter.kind {
                 let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));

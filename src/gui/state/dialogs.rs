@@ -163,7 +163,7 @@ pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBu
 }
 
 /// What a picture of the window is called at first.
-pub const PICTURE: &str = "squeezefilm.png";
+pub(super) const PICTURE: &str = "squeezefilm.png";
 
 /// What a dialog is for, with all that its answer needs.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! A plate that was dropped on its vibration: of which scene, its way so far, and how it ended.
 
+use super::background::Background;
 use super::document::solved_alike;
-use super::followed::news;
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::job::drop::DropTask;
@@ -11,7 +11,8 @@ use crate::scene::Scene;
 /// A drop, under way or ended.
 #[derive(Debug)]
 pub struct Dropped {
-    task: Option<DropTask>,
+    /// It tells each cycle, and returns how it ended.
+    pub work: Background<Cycle, Result<Fall, String>>,
     scene: Scene,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
@@ -24,28 +25,19 @@ pub struct Dropped {
 impl Dropped {
     /// A drop of `scene` that has begun.
     pub fn new(task: DropTask, scene: Scene, fidelity: Fidelity) -> Self {
-        Self { task: Some(task), scene, fidelity, cycles: Vec::new(), ended: None }
+        Self { work: task.into(), scene, fidelity, cycles: Vec::new(), ended: None }
     }
 
-    /// Takes what has been computed since the last time.
-    pub fn drain(&mut self) {
-        let News { messages, end } = news(&mut self.task);
+    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    pub fn drain(&mut self, scene: &Scene) {
+        let News { messages, end } = self.work.news();
         self.cycles.extend(messages);
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
         }
-    }
-
-    /// Asks it to end.
-    pub fn cancel(&self) {
-        if let Some(task) = &self.task {
-            task.cancel();
+        if self.stale(scene) {
+            self.work.cancel();
         }
-    }
-
-    /// Whether it goes on.
-    pub fn running(&self) -> bool {
-        self.task.is_some()
     }
 
     /// Whether `scene` is another one than was dropped.

@@ -1,5 +1,6 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
+use super::background::Background;
 use crate::export::surface::{self, Object};
 use crate::job::task::Task;
 use crate::surface::height_map::HeightMap;
@@ -25,8 +26,10 @@ pub type FaceTask = Task<(), Result<(HeightMap, Texture), String>>;
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]
 pub struct FaceState {
-    /// Name of the file, and what reads it.
-    task: Option<(String, FaceTask)>,
+    /// What reads a file.
+    pub work: Background<(), Result<(HeightMap, Texture), String>>,
+    /// Name of that file.
+    name: String,
     /// The face.
     pub found: Option<Arc<Face>>,
 }
@@ -34,15 +37,14 @@ pub struct FaceState {
 impl FaceState {
     /// `task` reads the file of this name.
     pub fn begin(&mut self, name: String, task: FaceTask) {
-        self.task = Some((name, task));
+        (self.work, self.name) = (task.into(), name);
     }
 
     /// Takes what was read since the last time; why it was not is to be shown.
     pub fn drain(&mut self) -> Option<String> {
-        let end = self.task.as_ref()?.1.drain().end?;
-        let (name, _) = self.task.take()?;
-        match end {
+        match self.work.news().end? {
             Ok(Ok((map, texture))) => {
+                let name = self.name.clone();
                 let pair = Pair::of(&texture, &texture);
                 let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
                 self.found = Some(Arc::new(Face { name, map, pair, told }));
@@ -51,10 +53,5 @@ impl FaceState {
             Err(panic) => return Some(format!("The heights cannot be read: {panic}")),
         }
         None
-    }
-
-    /// Whether one is being read.
-    pub fn running(&self) -> bool {
-        self.task.is_some()
     }
 }

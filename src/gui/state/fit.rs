@@ -1,11 +1,14 @@
 //! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
 
+use super::background::Background;
 use super::document::solved_alike;
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
+use crate::job::fit::Asked;
 pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
+use crate::job::work::Work;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
 use std::sync::Arc;
@@ -26,7 +29,7 @@ pub enum Sought {
 }
 
 /// What is asked for.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
     /// The keys to be chosen.
     pub axes: Vec<AxisForm>,
@@ -50,16 +53,16 @@ pub struct FitState {
     judged: Option<Scene>,
     /// What is wrong with the limits.
     goal_fault: Option<String>,
-    /// The search under way, and the scene that it is of.
-    task: Option<(Scene, FitTask)>,
+    /// The search: it tells how many points were tried, and the best so far.
+    pub work: Background<<Asked as Work>::Message, <Asked as Work>::Found>,
+    /// The scene that it is of.
+    asked: Option<Scene>,
     /// How many points were tried, and the least χ² or the best number so far.
     pub told: Option<(usize, f64)>,
     /// What was found, and for which scene.
     pub found: Option<(Scene, Arc<Found>)>,
     /// Why there is nothing.
     pub failure: Option<String>,
-    /// Whether the last one was told to end.
-    pub cancelled: bool,
 }
 
 impl FitForm {
@@ -134,10 +137,9 @@ impl FitState {
         &self.form
     }
 
-    /// Changes what is asked for.
-    pub fn edit(&mut self, change: impl FnOnce(&mut FitForm)) {
-        change(&mut self.form);
-        self.judged = None;
+    /// Asks for this.
+    pub fn ask(&mut self, form: FitForm) {
+        (self.form, self.judged) = (form, None);
     }
 
     /// What is wrong with the limits.
@@ -175,37 +177,19 @@ impl FitState {
 
     /// `task` searches for `scene`.
     pub fn begin(&mut self, scene: Scene, task: FitTask) {
-        self.task = Some((scene, task));
-        (self.failure, self.told, self.cancelled) = (None, None, false);
+        (self.work, self.asked, self.failure, self.told) = (task.into(), Some(scene), None, None);
     }
 
     /// Takes what was told and found since the last time.
     pub fn drain(&mut self) {
-        let Some((scene, task)) = &self.task else { return };
-        let News { messages, end } = task.drain();
+        let News { messages, end } = self.work.news();
         self.told = messages.into_iter().last().or(self.told);
-        let Some(end) = end else { return };
-        let scene = scene.clone();
-        self.task = None;
         match end {
-            Ok(Ok(Some(found))) => self.found = Some((scene, Arc::new(found))),
-            Ok(Ok(None)) => {}
-            Ok(Err(why)) => self.failure = Some(why),
-            Err(panic) => self.failure = Some(format!("it failed: {panic}")),
+            Some(Ok(Ok(Some(found)))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
+            None | Some(Ok(Ok(None))) => {}
+            Some(Ok(Err(why))) => self.failure = Some(why),
+            Some(Err(panic)) => self.failure = Some(format!("it failed: {panic}")),
         }
-    }
-
-    /// Asks it to end.
-    pub fn cancel(&mut self) {
-        if let Some((_, task)) = &self.task {
-            task.cancel();
-            self.cancelled = true;
-        }
-    }
-
-    /// Whether a fit goes on.
-    pub fn running(&self) -> bool {
-        self.task.is_some()
     }
 
     /// Whether `scene` is another one than was fitted: neither that nor the one that came out.

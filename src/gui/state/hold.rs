@@ -17,22 +17,6 @@ const WINDOW: f64 = 8.0;
 /// Pressures that the colours hold at least, over ambient.
 const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
 
-/// What is shown of a held plate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shown {
-    /// It, as it moves.
-    Now,
-    /// It, and it does not go on.
-    Paused,
-    /// What was recorded, while it does not go on.
-    Recorded {
-        /// Time of the film \[s\].
-        time: f64,
-        /// Whether it is played on from there.
-        playing: bool,
-    },
-}
-
 /// A held plate.
 #[derive(Debug)]
 pub struct HoldState {
@@ -47,7 +31,10 @@ pub struct HoldState {
     pub free: Option<bool>,
     now: Arc<Snapshot>,
     trail: VecDeque<Arc<Snapshot>>,
-    shown: Shown,
+    /// The time of the film that is shown of what was recorded \[s\], while the plate does not go on; `None`: the plate itself.
+    recorded: Option<f64>,
+    /// Whether what is shown moves, if anything does.
+    pub playing: bool,
     /// Least and greatest pressure since it was reset \[Pa\].
     pub pressure_range: [f64; 2],
     /// Least and greatest force since it was reset \[N or N/m\], zero included.
@@ -66,7 +53,8 @@ impl HoldState {
             free: None,
             now,
             trail: VecDeque::new(),
-            shown: Shown::Now,
+            recorded: None,
+            playing: true,
             pressure_range: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
             force_range: [0.0; 2],
             plate,
@@ -101,7 +89,7 @@ impl HoldState {
 
     /// Puts the film to rest at the mean gap, and clears the charts.
     pub fn reset(&mut self) {
-        (self.target, self.free, self.shown) = (self.plate.mean_gap, None, Shown::Now);
+        (self.target, self.free, self.recorded, self.playing) = (self.plate.mean_gap, None, None, true);
         self.trail.clear();
         self.pressure_range = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
         self.force_range = [0.0; 2];
@@ -117,7 +105,7 @@ impl HoldState {
     /// Holds the plate at `gap` \[m\], or as near as it may come.
     pub fn move_to(&mut self, gap: f64) {
         self.target = Hold::within_reach(&self.plate, gap);
-        (self.free, self.shown) = (None, Shown::Now);
+        (self.free, self.recorded, self.playing) = (None, None, true);
         self.job.move_to(self.target);
     }
 
@@ -126,23 +114,19 @@ impl HoldState {
         if self.plate.load.is_none() {
             return self.move_to(self.plate.mean_gap);
         }
-        (self.free, self.shown) = (Some(vibrates), Shown::Now);
+        (self.free, self.recorded, self.playing) = (Some(vibrates), None, true);
         self.job.let_go(vibrates);
     }
 
     /// Pauses what moves on screen, or lets it go on: the plate itself, or what was recorded of it.
     pub fn toggle_play(&mut self) {
-        self.show(match self.shown {
-            Shown::Now => Shown::Paused,
-            Shown::Paused => Shown::Now,
-            Shown::Recorded { time, playing } => Shown::Recorded { time, playing: !playing },
-        });
+        self.show(self.recorded, !self.playing);
     }
 
     /// Plays what the charts hold once more, from its beginning or from where that was paused, in slow motion; at its end the plate is paused.
     pub fn replay(&mut self) {
         if let Some(first) = self.trail.front() {
-            self.show(Shown::Recorded { time: first.reading.time, playing: true });
+            self.show(Some(first.reading.time), true);
         }
     }
 
@@ -158,39 +142,33 @@ impl HoldState {
 
     fn show_recorded(&mut self, place: usize) {
         let recorded = self.trail.get(place).filter(|_| place + 1 < self.trail.len());
-        self.show(recorded.map_or(Shown::Paused, |at| Shown::Recorded { time: at.reading.time, playing: false }));
+        self.show(recorded.map(|at| at.reading.time), false);
     }
 
-    fn show(&mut self, shown: Shown) {
-        let goes_on = |shown| shown == Shown::Now;
-        if goes_on(shown) != goes_on(std::mem::replace(&mut self.shown, shown)) {
-            self.job.pause(!goes_on(shown));
+    fn show(&mut self, recorded: Option<f64>, playing: bool) {
+        let goes_on = |hold: &Self| hold.recorded.is_none() && hold.playing;
+        let before = goes_on(self);
+        (self.recorded, self.playing) = (recorded, playing);
+        if goes_on(self) != before {
+            self.job.pause(before);
         }
     }
 
     /// Plays what was recorded on by `elapsed` \[s\] of the clock; whether that moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
-        let Shown::Recorded { time, playing: true } = self.shown else { return false };
+        let (Some(time), true) = (self.recorded, self.playing) else { return false };
         let on = time + elapsed / self.slowed();
         let ended = self.trail.back().is_none_or(|last| on >= last.reading.time);
-        self.show(if ended { Shown::Paused } else { Shown::Recorded { time: on, playing: true } });
+        self.show(Some(on).filter(|_| !ended), !ended);
         true
-    }
-
-    /// Whether what is shown moves, if anything does.
-    pub fn plays(&self) -> bool {
-        matches!(self.shown, Shown::Now | Shown::Recorded { playing: true, .. })
     }
 
     /// The place of what is shown among what is recorded, oldest first; the newest is last.
     pub fn place(&self) -> usize {
         let newest = self.trail.len().saturating_sub(1);
-        match self.shown {
-            Shown::Now | Shown::Paused => newest,
-            Shown::Recorded { time, .. } => {
-                self.trail.partition_point(|snapshot| snapshot.reading.time <= time).clamp(1, newest + 1) - 1
-            }
-        }
+        let place =
+            |time| self.trail.partition_point(|snapshot| snapshot.reading.time <= time).clamp(1, newest + 1) - 1;
+        self.recorded.map_or(newest, place)
     }
 
     /// Whether `scene` has another plate.
@@ -220,8 +198,7 @@ impl HoldState {
 
     /// The film as it is shown.
     pub fn shown(&self) -> &Snapshot {
-        let recorded = matches!(self.shown, Shown::Recorded { .. });
-        self.trail.get(self.place()).filter(|_| recorded).unwrap_or(&self.now)
+        self.recorded.and_then(|_| self.trail.get(self.place())).unwrap_or(&self.now)
     }
 
     /// What was read off it lately, oldest first.

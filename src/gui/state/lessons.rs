@@ -4,7 +4,7 @@
 
 use super::document::{Document, absolute};
 use super::lesson_tabs::{OffTabs, OnScreen};
-use super::running_lesson::{RunningLesson, StartingPoint};
+use super::running_lesson::{REVEALED, RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
 use crate::job::SolvedScene;
@@ -20,8 +20,6 @@ use std::sync::Arc;
 use std::time::Duration;
 /// How long Enter does not lead on after a key has answered what was seen.
 const UNREAD: Duration = Duration::from_secs(1);
-/// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
-const REVEALED: u8 = 16;
 /// Parts of the window that lessons can highlight.
 pub const PLACES: &[&str] = &[
     "parameters",
@@ -105,6 +103,11 @@ impl LessonState {
     /// The lesson that is followed.
     pub fn running(&self) -> Option<&RunningLesson> {
         self.running.as_ref()
+    }
+
+    /// The same, to be changed.
+    pub fn running_mut(&mut self) -> Option<&mut RunningLesson> {
+        self.running.as_mut()
     }
 
     /// The step on screen, with its lesson.
@@ -227,37 +230,16 @@ impl LessonState {
         start.run.as_ref().filter(|_| step.task.is_some() && start.scene != *scene)
     }
 
-    /// Notes that a key answered what was seen, `now`.
-    pub fn answer_by_key(&mut self, now: Instant) {
-        if let Some(running) = &mut self.running {
-            running.answered = Some(now);
-        }
-    }
-
     /// Whether a key answered what was seen so shortly before `now` that nobody can have read what is told then.
     pub fn has_just_answered(&self, now: Instant) -> bool {
         let answered = self.running.as_ref().and_then(|running| running.answered);
         answered.is_some_and(|answered| now.saturating_duration_since(answered) < UNREAD)
     }
 
-    /// Lets the marked parameter take the keyboard.
-    pub fn enter_marked(&mut self) {
-        if let Some(running) = &mut self.running {
-            (running.enter, running.reveal) = (true, REVEALED);
-        }
-    }
-
     /// The lesson after the one that is followed.
     pub fn following(&self) -> Option<usize> {
         let next = self.running.as_ref()?.lesson + 1;
         (next < self.lessons.len()).then_some(next)
-    }
-
-    /// Shows all results in place of the lesson's text, or the text again.
-    pub fn show_all_results(&mut self, all: bool) {
-        if let Some(running) = &mut self.running {
-            running.all_results = all;
-        }
     }
 
     /// Shows a stop of the tour; none, and one after the last, ends it.

@@ -1,6 +1,7 @@
 //! All that the window knows: plain data, and how each part of it changes. Nothing is drawn here, and no work is started.
 
 pub mod activity;
+pub mod background;
 pub mod dialogs;
 pub mod document;
 pub mod dropped;

@@ -13,7 +13,7 @@ pub type RotorState = Followed<(RotorCompliance, Wave), RotorCurves, Arc<RotorCu
 impl RotorState {
     /// Whether the rotor of `motor` is still to be computed, and nothing else is at work: while a dimension is dragged, one after the other.
     pub fn lacks(&self, motor: &Motor) -> bool {
-        !self.running() && !self.asked.as_ref().is_some_and(|asked| is_of(asked, motor))
+        !self.work.running() && !self.asked.as_ref().is_some_and(|asked| is_of(asked, motor))
     }
 
     /// `task` computes that of `motor`.

@@ -16,6 +16,9 @@ use crate::scene::Scene;
 use crate::solution::Status;
 use std::sync::Arc;
 
+/// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
+pub(super) const REVEALED: u8 = 16;
+
 /// The run that a step compares with.
 #[derive(Clone, Debug)]
 pub struct StartingPoint {
@@ -64,6 +67,11 @@ pub struct RunningLesson {
 }
 
 impl RunningLesson {
+    /// Lets the marked parameter take the keyboard.
+    pub fn enter_marked(&mut self) {
+        (self.enter, self.reveal) = (true, REVEALED);
+    }
+
     /// The value of what a text quotes: of the run of `scene` or, for what is `told` once a task is done, of the run that did it.
     pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
         let kept = self.work.get(self.step).filter(|_| told).and_then(|work| work.readings.get(&reading.source));

@@ -1,10 +1,11 @@
 //! What the results depend on, as the window has it: what was found, of which scene, and the uncertainties that were typed.
 
+use super::background::Background;
 use super::document::solved_alike;
-use super::followed::news;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
 use crate::job::sensitivity::{Derivatives, Draws};
 use crate::job::task::TaskOf;
+use crate::job::work::Work;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,8 +18,8 @@ pub const SEED: u64 = 1;
 /// Derivatives, uncertainties and random scenes.
 #[derive(Debug, Default)]
 pub struct SensitivityState {
-    derivatives: Option<TaskOf<Derivatives>>,
-    drawing: Option<TaskOf<Draws>>,
+    derivatives: Background<<Derivatives as Work>::Message, <Derivatives as Work>::Found>,
+    drawing: Background<<Draws as Work>::Message, <Draws as Work>::Found>,
     share: f64,
     /// Why nothing came of the last work.
     pub failure: Option<String>,
@@ -46,9 +47,9 @@ impl SensitivityState {
 
     /// `task` computes the derivatives. What was found before stays until it has.
     pub fn begin(&mut self, task: std::io::Result<TaskOf<Derivatives>>) {
-        (self.share, self.failure, self.drawing) = (0.0, None, None);
+        (self.share, self.failure, self.drawing) = (0.0, None, Background::default());
         match task {
-            Ok(task) => self.derivatives = Some(task),
+            Ok(task) => self.derivatives = task.into(),
             Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
         }
     }
@@ -57,14 +58,14 @@ impl SensitivityState {
     pub fn begin_drawing(&mut self, task: std::io::Result<TaskOf<Draws>>) {
         (self.share, self.failure) = (0.0, None);
         match task {
-            Ok(task) => self.drawing = Some(task),
+            Ok(task) => self.drawing = task.into(),
             Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
         }
     }
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        let derivatives = news(&mut self.derivatives);
+        let derivatives = self.derivatives.news();
         match derivatives.end {
             Some(Ok(Some(Ok(found)))) => {
                 (self.found, self.carlo) = (Some(found.into()), None);
@@ -73,7 +74,7 @@ impl SensitivityState {
             Some(Ok(Some(Err(why))) | Err(why)) => self.failure = Some(why),
             None | Some(Ok(None)) => {}
         }
-        let drawing = news(&mut self.drawing);
+        let drawing = self.drawing.news();
         match drawing.end {
             Some(Ok(Some(carlo))) => self.carlo = Some(carlo),
             Some(Err(why)) => self.failure = Some(why),
@@ -84,13 +85,13 @@ impl SensitivityState {
 
     /// Ends what goes on; what was found stays.
     pub fn cancel(&mut self) {
-        self.derivatives.iter().for_each(|task| task.cancel());
-        self.drawing.iter().for_each(|task| task.cancel());
+        self.derivatives.cancel();
+        self.drawing.cancel();
     }
 
     /// The share of the work that is done, while it goes on.
     pub fn running(&self) -> Option<f64> {
-        (self.derivatives.is_some() || self.drawing.is_some()).then_some(self.share)
+        (self.derivatives.running() || self.drawing.running()).then_some(self.share)
     }
 
     /// Whether they are of another scene than this.
@@ -106,7 +107,7 @@ impl SensitivityState {
             self.typed.insert(key, text)
         };
         self.judge();
-        (self.carlo, self.drawing) = (None, None);
+        (self.carlo, self.drawing) = (None, Background::default());
     }
 
     /// What was typed for a key.

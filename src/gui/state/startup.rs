@@ -1,11 +1,12 @@
 //! A start-up as the window has it: of which scene, every cycle's numbers, the recordings that are kept, and the cycle looked at.
 
+use super::background::Background;
 use super::document::solved_alike;
-use super::followed::news;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::scales::Ranges;
+use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
-use crate::job::task::{News, Task};
+use crate::job::startup::FromRest;
+use crate::job::task::{News, TaskOf};
 use crate::problem::Problem;
 use crate::recording::Recording;
 use crate::scene::Scene;
@@ -50,13 +51,11 @@ fn bytes(recording: &Recording) -> usize {
     8 * (fields + maps + 5 * film_load.len())
 }
 
-/// The work of a start-up: it tells each cycle, and returns how it ended.
-pub type StartupTask = Task<Cycle, Result<Startup, String>>;
-
 /// A start-up, under way or ended.
 #[derive(Debug)]
 pub struct StartupState {
-    job: Option<StartupTask>,
+    /// It tells each cycle, and returns how it ended.
+    pub work: Background<Cycle, Result<Startup, String>>,
     /// The scene that was started.
     pub scene: Scene,
     /// What it poses.
@@ -80,9 +79,9 @@ pub struct StartupState {
 
 impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
-    pub fn new(job: StartupTask, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
+    pub fn new(task: TaskOf<FromRest>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
         Self {
-            job: Some(job),
+            work: task.into(),
             scene,
             problem,
             fidelity,
@@ -96,12 +95,15 @@ impl StartupState {
         }
     }
 
-    /// Takes what has been computed since the last time.
-    pub fn drain(&mut self) {
-        let News { messages, end } = news(&mut self.job);
+    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    pub fn drain(&mut self, scene: &Scene) {
+        let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
             self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+        }
+        if self.stale(scene) {
+            self.work.cancel();
         }
     }
 
@@ -115,7 +117,7 @@ impl StartupState {
             // The same cycle on finer grids.
             self.points[number - 1] = point;
         }
-        let ranges = Ranges::of(&recording);
+        let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
         let (scene, problem) = (self.scene.clone(), self.problem.clone());
@@ -126,13 +128,6 @@ impl StartupState {
         } else {
             // What was looked at may no longer be kept.
             self.choose(self.chosen);
-        }
-    }
-
-    /// Asks it to end.
-    pub fn cancel(&self) {
-        if let Some(job) = &self.job {
-            job.cancel();
         }
     }
 
@@ -163,11 +158,6 @@ impl StartupState {
         }
     }
 
-    /// Whether it goes on.
-    pub fn running(&self) -> bool {
-        self.job.is_some()
-    }
-
     /// Cycles whose recordings are kept, ascending.
     pub fn kept(&self) -> impl DoubleEndedIterator<Item = usize> {
         self.kept.keys().copied()
@@ -190,7 +180,7 @@ impl StartupState {
 }
 
 /// A cycle as the views want it: as a solve of its own.
-fn as_solved(
+pub fn as_solved(
     number: u64,
     scene: Scene,
     problem: Problem,

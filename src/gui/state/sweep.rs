@@ -44,21 +44,6 @@ pub struct AxisForm {
     pub log: bool,
 }
 
-/// A change of what is varied along an axis.
-#[derive(Clone, Debug, PartialEq)]
-pub enum AxisEdit {
-    /// Another key, over a range round its present value.
-    Key(&'static str),
-    /// The first value, as typed.
-    From(String),
-    /// The last one, likewise.
-    To(String),
-    /// Their number, likewise.
-    Count(String),
-    /// By equal ratios, or by equal steps.
-    Log(bool),
-}
-
 impl AxisForm {
     /// A useful range of `key` round its value in `scene`.
     pub fn around(scene: &Scene, key: &'static str, count: usize) -> Self {
@@ -90,17 +75,6 @@ impl AxisForm {
             form.count = format!("{}", high - low + 1.0);
         }
         form
-    }
-
-    /// Changes it; another key is varied by `count` values over a range round its value in `scene`.
-    pub fn edit(&mut self, scene: &Scene, edit: AxisEdit, count: usize) {
-        match edit {
-            AxisEdit::Key(key) => *self = Self::around(scene, key, count),
-            AxisEdit::From(text) => self.from = text,
-            AxisEdit::To(text) => self.to = text,
-            AxisEdit::Count(text) => self.count = text,
-            AxisEdit::Log(log) => self.log = log,
-        }
     }
 
     /// What it says, if it says something.
@@ -141,10 +115,8 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// Along x.
-    pub x: AxisForm,
-    /// Along y, for a map; kept while it is not asked for.
-    pub y: AxisForm,
+    /// Along x and, for a map, along y, which is kept while it is not asked for.
+    axes: [AxisForm; 2],
     /// Whether a second parameter is varied.
     pub second: bool,
     /// How every point is solved.
@@ -158,19 +130,22 @@ impl Form {
             let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(FIRST[axis][0]);
             AxisForm::around(scene, key, if axis == 0 { LINE } else { SIDE })
         };
-        Self { x: first(0), y: first(1), second: false, fidelity: Fidelity::default() }
+        Self { axes: [first(0), first(1)], second: false, fidelity: Fidelity::default() }
     }
 
     /// The axes that are asked for.
-    pub fn axes(&self) -> impl Iterator<Item = &AxisForm> {
-        [&self.x, &self.y].into_iter().take(if self.second { 2 } else { 1 })
+    pub fn axes(&self) -> &[AxisForm] {
+        &self.axes[..if self.second { 2 } else { 1 }]
     }
 
-    /// Changes the axis along x (0) or y (1).
-    pub fn edit(&mut self, scene: &Scene, axis: usize, edit: AxisEdit) {
-        let count = if self.second { SIDE } else { LINE };
-        let axis = if axis == 0 { &mut self.x } else { &mut self.y };
-        axis.edit(scene, edit, count);
+    /// An axis that is asked for, to be changed.
+    pub fn axis_mut(&mut self, axis: usize) -> &mut AxisForm {
+        &mut self.axes[axis]
+    }
+
+    /// How many values another parameter is varied by at first.
+    pub fn usual_count(&self) -> usize {
+        if self.second { SIDE } else { LINE }
     }
 
     /// Whether a second parameter is varied from now on.
@@ -178,8 +153,8 @@ impl Form {
         // A map as fine along x as a line would take its time.
         let usual = [LINE.to_string(), SIDE.to_string()];
         let [old, new] = if second { [&usual[0], &usual[1]] } else { [&usual[1], &usual[0]] };
-        if self.x.count == *old {
-            self.x.count.clone_from(new);
+        if self.axes[0].count == *old {
+            self.axes[0].count.clone_from(new);
         }
         self.second = second;
     }
@@ -319,10 +294,10 @@ impl SweepState {
             return;
         }
         let form = self.form.get_or_insert_with(|| Form::of(scene));
-        if !varies(scene, form.x.key) || !varies(scene, form.y.key) {
+        if !form.axes.iter().all(|axis| varies(scene, axis.key)) {
             *form = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
         }
-        let faults = form.axes().map(|axis| axis.vary(scene).err()).collect();
+        let faults = form.axes().iter().map(|axis| axis.vary(scene).err()).collect();
         self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::try_from(scene).ok() }));
     }
 
@@ -331,13 +306,9 @@ impl SweepState {
         self.quantity = Some(quantity);
     }
 
-    /// Changes what is asked for.
-    pub fn edit(&mut self, change: impl FnOnce(&mut Form)) {
-        self.refusal = None;
-        self.checked = None;
-        if let Some(form) = &mut self.form {
-            change(form);
-        }
+    /// Asks for this.
+    pub fn ask(&mut self, form: Form) {
+        (self.form, self.refusal, self.checked) = (Some(form), None, None);
     }
 
     /// What is asked for, checked.
@@ -408,6 +379,12 @@ mod tests {
     use crate::scene::presets;
     use crate::solve::Settings;
 
+    fn ask(sweeps: &mut SweepState, change: impl Fn(&mut Form)) {
+        let mut form = sweeps.form().unwrap().clone();
+        change(&mut form);
+        sweeps.ask(form);
+    }
+
     #[test]
     fn default_ranges_can_be_swept_and_hold_the_present_value() {
         for preset in ["fundamental", "tooth-radius-3m", "levitating", "plate-crossover", "plate-trapped"] {
@@ -447,16 +424,16 @@ mod tests {
         let (motor, plate) = (presets::find("fundamental").unwrap(), presets::find("plate-crossover").unwrap());
         let mut sweeps = SweepState::default();
         sweeps.review(&motor);
-        sweeps.edit(|form| form.x.from = "50".to_owned());
+        ask(&mut sweeps, |form| form.axes[0].from = "50".to_owned());
         sweeps.review(&motor);
-        assert_eq!(sweeps.form().unwrap().x.from, "50");
+        assert_eq!(sweeps.form().unwrap().axes[0].from, "50");
         assert_eq!(sweeps.faults(), [None]);
         // What has no effect on a plate is not offered.
         assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
-        sweeps.edit(|form| form.set_second(true));
+        ask(&mut sweeps, |form| form.set_second(true));
         sweeps.review(&plate);
         let form = sweeps.form().unwrap();
-        assert!(form.x.key == "plate.frequency_khz" && form.second, "{form:?}");
+        assert!(form.axes[0].key == "plate.frequency_khz" && form.second, "{form:?}");
         assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
     }
 
@@ -472,7 +449,7 @@ mod tests {
         let (first, _) = check(&|_| (), &scene);
         let (again, _) = check(&|sweeps| sweeps.draw(Quantity::FilmLoad), &scene);
         assert!(Arc::ptr_eq(&first, &again), "nothing has changed");
-        let (typed, fault) = check(&|sweeps| sweeps.edit(|form| form.x.from = "wide".to_owned()), &scene);
+        let (typed, fault) = check(&|sweeps| ask(sweeps, |form| form.axes[0].from = "wide".to_owned()), &scene);
         assert!(!Arc::ptr_eq(&first, &typed) && fault.is_some_and(|fault| fault.contains("from 5 to 10000 nm")));
         let mut edited = scene.clone();
         edited.set_all([("motor.waves", "8")]).unwrap();

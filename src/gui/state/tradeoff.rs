@@ -1,6 +1,6 @@
 //! Error against time as the window has it: of which scene, how far, and what was found.
 
-use super::followed::news;
+use super::background::Background;
 use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
 use crate::job::task::{News, Task};
@@ -19,12 +19,11 @@ pub type MeasurementTask = Task<Progress, Vec<MeasuredSetting>>;
 /// A measurement, under way or ended.
 #[derive(Debug)]
 pub struct TradeoffState {
-    job: Option<MeasurementTask>,
+    /// It tells what is measured so far.
+    pub work: Background<Progress, Vec<MeasuredSetting>>,
     /// The scene that is measured.
     pub scene: Scene,
     started: Instant,
-    /// Whether it was told to end before it was done.
-    pub cancelled: bool,
     /// Why it ended before it was done, if it was not cancelled.
     pub failure: Option<String>,
     /// Share of the work that is done, 0 to 1.
@@ -35,21 +34,13 @@ pub struct TradeoffState {
 
 impl TradeoffState {
     /// A measurement of `scene` that began at `started`.
-    pub fn new(job: MeasurementTask, scene: Scene, started: Instant) -> Self {
-        Self {
-            job: Some(job),
-            scene,
-            started,
-            cancelled: false,
-            failure: None,
-            share: 0.0,
-            tradeoff: Tradeoff::of(&[]),
-        }
+    pub fn new(task: MeasurementTask, scene: Scene, started: Instant) -> Self {
+        Self { work: task.into(), scene, started, failure: None, share: 0.0, tradeoff: Tradeoff::of(&[]) }
     }
 
     /// Takes what has been measured since the last time.
     pub fn drain(&mut self) {
-        let News { messages, end } = news(&mut self.job);
+        let News { messages, end } = self.work.news();
         if let Some((runs, share)) = messages.into_iter().last() {
             (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
         }
@@ -59,19 +50,6 @@ impl TradeoffState {
             None | Some(Ok(_)) => {}
             Some(Err(panic)) => self.failure = Some(panic),
         }
-    }
-
-    /// Asks it to end.
-    pub fn cancel(&mut self) {
-        if let Some(job) = &self.job {
-            job.cancel();
-            self.cancelled = true;
-        }
-    }
-
-    /// Whether it goes on.
-    pub fn running(&self) -> bool {
-        self.job.is_some()
     }
 
     /// Time that is left \[s\], as far as can be said.
@@ -114,12 +92,12 @@ mod tests {
         let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
         for _ in 0..6000 {
             state.drain();
-            if !state.running() {
+            if !state.work.running() {
                 break;
             }
             std::thread::sleep(std::time::Duration::from_millis(10));
         }
-        assert!(!state.running());
+        assert!(!state.work.running());
         assert_eq!(state.failure.as_deref(), Some("out of luck"));
     }
 

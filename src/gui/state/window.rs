@@ -1,7 +1,7 @@
 //! The state of the whole window.
 
 use super::activity::Activity;
-use super::dialogs::{Export, Purpose};
+use super::dialogs::{Export, PICTURE, Purpose};
 use super::document::{Document, absolute, solved_alike};
 use super::dropped::Dropped;
 use super::edits::RejectedEdits;
@@ -170,17 +170,22 @@ impl State {
         let swept = self.sweep.swept().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
-        let fit = self.fit.running().then(|| "A fit".to_owned());
+        let fit = self.fit.work.running().then(|| "A fit".to_owned());
         export.into_iter().chain(sweep).chain(building).chain(fit).collect()
     }
 
-    /// What a new file of the scene is called at first.
-    pub fn suggested_name(&self) -> String {
-        if let Some(path) = self.document.path() {
-            return path.display().to_string();
+    /// The file that is suggested for `purpose`; empty if it is one that is there already.
+    pub fn suggested_path(&self, purpose: &Purpose) -> String {
+        match (purpose, self.document.path()) {
+            (Purpose::Save(_), Some(path)) => path.display().to_string(),
+            (Purpose::Save(_), None) => {
+                let stem = self.document.scene().name.replace(|c: char| !c.is_alphanumeric(), "-");
+                format!("{}.toml", stem.to_lowercase())
+            }
+            (Purpose::Picture(_), _) => PICTURE.to_owned(),
+            (Purpose::Export(export), _) => export.file_name().to_owned(),
+            (Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights, _) => String::new(),
         }
-        let stem = self.document.scene().name.replace(|c: char| !c.is_alphanumeric(), "-");
-        format!("{}.toml", stem.to_lowercase())
     }
 
     /// Lets the lesson look at what is on screen; whether it needs another frame soon.

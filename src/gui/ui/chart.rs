@@ -17,6 +17,8 @@ const NUMBER_EVERY: f32 = 2.6;
 const COLUMN_EVERY: f32 = 4.5;
 /// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
 pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
+/// Width of a line of a tab.
+pub(super) const WIDTH: f32 = 2.0;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
@@ -128,8 +130,6 @@ pub(super) struct Inset<'a> {
     pub(super) name: &'a str,
     /// Where its curves are. Its numbers are left of it, and below.
     pub(super) rect: Rect,
-    /// Room for the numbers left of it.
-    pub(super) gutter: f32,
     /// Ranges of the axes until they are zoomed.
     pub(super) bounds: [[f64; 2]; 2],
     /// Name of the axis below; `None` if its numbers are below another drawing, empty if it is
@@ -156,8 +156,8 @@ impl<'a> Inset<'a> {
         change: impl FnOnce(Plot<'a>) -> Plot<'a>,
         add: impl FnOnce(&mut PlotUi<'a>) + 'a,
     ) -> PlotResponse<()> {
-        let Self { name, rect, gutter, below, .. } = *self;
-        let axis = style.row + 3.0;
+        let Self { name, rect, below, .. } = *self;
+        let (gutter, axis) = (style.gutter, style.axis);
         let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
         let whole = Rect::from_min_max(pos2(rect.left() - gutter, rect.top()), low);
         let (row, height) = (style.row, rect.height());

@@ -64,20 +64,11 @@ fn list<T>(
     if shown.inner.is_none() {
         ui.data_mut(|data| {
             for field in [ACCURACY, BUDGET] {
-                data.remove::<String>(typed((id, field)));
-                data.remove::<String>(refused((id, field)));
+                data.remove::<Typed>(Id::unique((id, field)));
             }
         });
     }
     (shown.response, shown.inner.flatten())
-}
-
-fn typed(id: (&'static str, &'static str)) -> Id {
-    Id::unique((id, "typed"))
-}
-
-fn refused(id: (&'static str, &'static str)) -> Id {
-    Id::unique((id, "refused"))
 }
 
 fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext<'_>) -> Option<Fidelity> {
@@ -98,6 +89,9 @@ fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext
     chosen.or(typed.map(Fidelity::to)).filter(|fidelity| *fidelity != present)
 }
 
+/// What was typed into a field, and why it was refused, if it was.
+type Typed = (String, Option<String>);
+
 /// A field whose text is taken when it is left.
 struct Field {
     label: &'static str,
@@ -116,8 +110,9 @@ impl Field {
         read: impl Fn(&str) -> Result<T, String>,
         cx: &DrawContext<'_>,
     ) -> Option<T> {
-        let (typed, refused) = (typed(id), refused(id));
-        let mut text: String = ui.data(|data| data.get_temp(typed)).unwrap_or_else(|| present.clone());
+        let id = Id::unique(id);
+        let typed = ui.data(|data| data.get_temp::<Typed>(id));
+        let (mut text, mut refused) = typed.unwrap_or_else(|| (present.clone(), None));
         let field = ui.horizontal(|ui| {
             let label = ui.label(self.label);
             let field = TextEdit::singleline(&mut text).desired_width(FIELD).hint_text(self.example);
@@ -132,16 +127,15 @@ impl Field {
                     ui.close();
                 }
                 Err(fault) => {
-                    ui.data_mut(|data| data.insert_temp(refused, fault));
+                    refused = Some(fault);
+                    ui.data_mut(|data| data.insert_temp::<Typed>(id, (text, refused.clone())));
                 }
             }
         } else if field.changed() {
-            ui.data_mut(|data| {
-                data.remove::<String>(refused);
-                data.insert_temp(typed, text);
-            });
+            refused = None;
+            ui.data_mut(|data| data.insert_temp::<Typed>(id, (text, None)));
         }
-        if let Some(fault) = ui.data(|data| data.get_temp::<String>(refused)) {
+        if let Some(fault) = refused {
             // Beside the list, which does not grow once it is open.
             Tooltip::for_widget(&field).show(|ui| cx.say(ui, fault, cx.colours.alarm));
         }

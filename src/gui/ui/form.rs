@@ -3,28 +3,22 @@
 use super::context::DrawContext;
 use super::hint::{Hint, beside};
 use crate::gui::command::Command;
-use crate::gui::derived::words::label;
-use crate::gui::state::sweep::{AxisEdit, AxisForm};
-use crate::scene::Parameter;
+use crate::gui::derived::words::{choice, chosen, label};
+use crate::gui::state::sweep::AxisForm;
+use crate::plan::Decision;
+use crate::scene::{Parameter, Value};
 use eframe::egui::accesskit::Role;
-use eframe::egui::{ComboBox, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, Response, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
 
 /// Width of the list of parameters, in heights of the text.
 const PARAMETERS: f32 = 11.0;
 
-/// A field for a line of text, called `name`, which says `empty` while there is none; what the text was changed to. The width is in heights
-/// of the text.
-pub(super) fn field(
-    ui: &mut Ui,
-    (name, about): (&str, &str),
-    (text, empty): (&str, &'static str),
-    width: f32,
-) -> Option<String> {
-    let mut text = text.to_owned();
+/// A field for a line of text, called `name`, which says `empty` while there is none. The width is in heights of the text.
+pub(super) fn field(ui: &mut Ui, (name, about): (&str, &str), (text, empty): (&mut String, &'static str), width: f32) {
     let width = width * ui.text_style_height(&TextStyle::Body);
-    let response = ui.add(TextEdit::singleline(&mut text).desired_width(width).hint_text(empty));
+    let response = ui.add(TextEdit::singleline(text).desired_width(width).hint_text(empty));
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
-    response.hint(about).changed().then_some(text)
+    response.hint(about);
 }
 
 /// A list called `name` that shows what is chosen; `entries` draws what can be. The width of the box is in heights of the text.
@@ -42,10 +36,36 @@ pub(super) fn list(
     response.hint(about);
 }
 
+/// A list of the `options` of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.
+pub(super) fn choices(
+    ui: &mut Ui,
+    (parameter, options): (&'static Parameter, &[&'static str]),
+    name: &str,
+    plan: &[Decision],
+    width: f32,
+    cx: &DrawContext<'_>,
+) -> Response {
+    let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, name, plan));
+    let shown = list.width(width).truncate().show_ui(ui, |ui| {
+        for option in options {
+            // A table is chosen by giving its file, below.
+            let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
+            let possible = !file || *option == name;
+            let text = choice(parameter.key, option);
+            let picked = ui.add_enabled(possible, Button::selectable(*option == name, text));
+            if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
+                let value = Value::Text((*option).to_owned());
+                cx.push(Command::Set { key: parameter.key, value, dragging: false });
+            }
+        }
+    });
+    shown.response
+}
+
 /// A parameter with two values, as they are typed.
 pub(super) struct AxisRow<'a> {
-    /// What was typed.
-    pub(super) axis: &'a AxisForm,
+    /// How many values another parameter is varied by at first.
+    pub(super) usual_count: usize,
     /// What stands before it, what the parameter is for, and what it is called.
     pub(super) parameter: [&'a str; 3],
     /// What can be chosen, in groups with a title each; one without a title has no line for it.
@@ -61,10 +81,9 @@ pub(super) struct AxisRow<'a> {
 }
 
 impl AxisRow<'_> {
-    /// Shows it; `command` is asked for with each change.
-    pub(super) fn show(self, ui: &mut Ui, cx: &DrawContext<'_>, command: impl Fn(AxisEdit) -> Command) {
-        let Self { axis, parameter: [before, what, name], groups, values: [from, to], width, count, log } = self;
-        let edit = |edit: AxisEdit| cx.push(command(edit));
+    /// Shows what was typed, to be changed.
+    pub(super) fn show(self, ui: &mut Ui, axis: &mut AxisForm, cx: &DrawContext<'_>) {
+        let Self { usual_count, parameter: [before, what, name], groups, values: [from, to], width, count, log } = self;
         ui.label(before);
         let parameter = Parameter::find(axis.key);
         let about = format!("{what}. {}", parameter.map_or("", |parameter| parameter.about));
@@ -76,27 +95,22 @@ impl AxisRow<'_> {
                 for parameter in group {
                     let entry = ui.selectable_label(parameter.key == axis.key, label(parameter));
                     if beside(ui.clip_rect(), entry, parameter.about).clicked() {
-                        edit(AxisEdit::Key(parameter.key));
+                        *axis = AxisForm::around(cx.state.document.scene(), parameter.key, usual_count);
                     }
                 }
             }
         });
         ui.label("from");
-        field(ui, from, (&axis.from, ""), width).map(AxisEdit::From).map(edit);
+        field(ui, from, (&mut axis.from, ""), width);
         ui.label("to");
-        field(ui, to, (&axis.to, ""), width).map(AxisEdit::To).map(edit);
+        field(ui, to, (&mut axis.to, ""), width);
         if let Some(unit) = parameter.map(|parameter| parameter.unit).filter(|unit| !unit.is_empty()) {
             ui.label(RichText::new(unit).color(cx.colours.quiet));
         }
         if let Some(name) = count {
-            let about = (name, "How many values, both ends counted");
-            field(ui, about, (&axis.count, ""), 2.2).map(AxisEdit::Count).map(edit);
+            field(ui, (name, "How many values, both ends counted"), (&mut axis.count, ""), 2.2);
             ui.label("values");
         }
-        let mut equal_ratios = axis.log;
-        let checkbox = ui.checkbox(&mut equal_ratios, "log").hint(log.1);
-        if checkbox.accessible_name(log.0).changed() {
-            edit(AxisEdit::Log(equal_ratios));
-        }
+        ui.checkbox(&mut axis.log, "log").hint(log.1).accessible_name(log.0);
     }
 }

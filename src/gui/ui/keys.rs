@@ -1,9 +1,12 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use crate::gui::command::{Command, HoldCommand, LessonCommand, PinCommand};
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::Next;
 use crate::gui::state::view::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
+
+use Scope::{Always, History, Idle, Window};
 
 /// When a shortcut acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,32 +45,15 @@ pub struct Shortcut {
     pub scope: Scope,
 }
 
-const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
-    KeyboardShortcut::new(modifiers, key)
-}
-
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-const fn shortcut(scope: Scope, keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    Shortcut { keys, also: None, about, command, scope }
-}
-
-const fn always(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    shortcut(Scope::Always, keys, about, command)
-}
-
-const fn window(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    shortcut(Scope::Window, keys, about, command)
-}
-
-const fn history(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    shortcut(Scope::History, keys, about, command)
-}
-
-const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    shortcut(Scope::Idle, keys, about, command)
+impl Scope {
+    /// A shortcut that acts then.
+    const fn on(self, modifiers: Modifiers, key: Key, about: &'static str, command: fn() -> Command) -> Shortcut {
+        Shortcut { keys: KeyboardShortcut::new(modifiers, key), also: None, about, command, scope: self }
+    }
 }
 
 /// The group of the keys that move the cycle.
@@ -88,72 +74,75 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
         MOTION,
         &[
-            idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
-            idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
-            idle(key(NONE, Key::ArrowRight), "One frame on", || Command::StepFrames(1)),
-            idle(key(NONE, Key::Home), "To the start", || Command::Seek(0.0)),
-            idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
-            idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
+            Idle.on(NONE, Key::Space, "Play or pause", || Command::TogglePlay),
+            Idle.on(NONE, Key::ArrowLeft, "One frame back", || Command::StepFrames(-1)),
+            Idle.on(NONE, Key::ArrowRight, "One frame on", || Command::StepFrames(1)),
+            Idle.on(NONE, Key::Home, "To the start", || Command::Seek(0.0)),
+            Idle.on(NONE, Key::OpenBracket, "Follow the tooth before", || Command::NextTooth(-1)),
+            Idle.on(NONE, Key::CloseBracket, "Follow the next tooth", || Command::NextTooth(1)),
         ],
     ),
     (
         HOLDING,
         &[
-            idle(key(NONE, Key::ArrowUp), "Held plate up", || Command::Hold(HoldCommand::By(HOLD_STEP))),
-            idle(key(NONE, Key::ArrowDown), "Held plate down", || Command::Hold(HoldCommand::By(-HOLD_STEP))),
+            Idle.on(NONE, Key::ArrowUp, "Held plate up", || Command::Hold(HoldCommand::By(HOLD_STEP))),
+            Idle.on(NONE, Key::ArrowDown, "Held plate down", || Command::Hold(HoldCommand::By(-HOLD_STEP))),
         ],
     ),
     (
         "Scene",
         &[
-            history(key(CTRL, Key::Z), "Undo", || Command::Undo),
-            Shortcut { also: Some(key(CTRL, Key::Y)), ..history(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo) },
-            window(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
-            idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
+            History.on(CTRL, Key::Z, "Undo", || Command::Undo),
+            Shortcut {
+                also: Some(KeyboardShortcut::new(CTRL, Key::Y)),
+                ..History.on(CTRL_SHIFT, Key::Z, "Redo", || Command::Redo)
+            },
+            Window.on(CTRL, Key::D, "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
+            Idle.on(NONE, Key::Escape, "Stop solving", || Command::CancelSolve),
         ],
     ),
     (
         "Lessons",
         &[
-            idle(key(NONE, Key::PageDown), "Next step", || Command::Lesson(LessonCommand::Next)),
-            idle(key(NONE, Key::PageUp), "Previous step", || Command::Lesson(LessonCommand::Back)),
-            idle(key(NONE, Key::Enter), "Confirm the answer, go to the marked parameter, or go on", || GO_ON),
-            idle(key(NONE, Key::Num1), "First answer", || choose(0)),
-            idle(key(NONE, Key::Num2), "Second answer", || choose(1)),
-            idle(key(NONE, Key::Num3), "Third answer", || choose(2)),
-            idle(key(NONE, Key::Num4), "Fourth answer", || choose(3)),
-            window(key(NONE, Key::F5), "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
-            idle(key(NONE, Key::H), "Hint", || Command::Lesson(LessonCommand::Hint)),
+            Idle.on(NONE, Key::PageDown, "Next step", || Command::Lesson(LessonCommand::Next)),
+            Idle.on(NONE, Key::PageUp, "Previous step", || Command::Lesson(LessonCommand::Back)),
+            Idle.on(NONE, Key::Enter, "Confirm the answer, go to the marked parameter, or go on", || GO_ON),
+            Idle.on(NONE, Key::Num1, "First answer", || choose(0)),
+            Idle.on(NONE, Key::Num2, "Second answer", || choose(1)),
+            Idle.on(NONE, Key::Num3, "Third answer", || choose(2)),
+            Idle.on(NONE, Key::Num4, "Fourth answer", || choose(3)),
+            Window.on(NONE, Key::F5, "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
+            Idle.on(NONE, Key::H, "Hint", || Command::Lesson(LessonCommand::Hint)),
         ],
     ),
     (
         "File",
         &[
-            window(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
-            window(key(CTRL, Key::S), "Save", || Command::Save(None)),
-            window(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
-            window(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
+            Window.on(CTRL, Key::O, "Open a preset", || Command::Ask(Purpose::Open)),
+            Window.on(CTRL, Key::S, "Save", || Command::Save(None)),
+            Window.on(CTRL_SHIFT, Key::S, "Save under another name", || Command::Ask(Purpose::Save(None))),
+            Window.on(CTRL, Key::Q, "Quit", || Command::Proceed(Next::Quit)),
         ],
     ),
     (
         "Window",
         &[
-            window(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
-            window(key(CTRL, Key::Num2), "Compare pinned runs", || Command::Show(Tab::Compare)),
-            window(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
-            window(key(CTRL, Key::Num4), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
-            window(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
-            window(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
-            window(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
-            window(key(CTRL, Key::Num8), "Show the rotor", || Command::Show(Tab::Rotor)),
-            window(key(CTRL, Key::Num9), "Show what the results depend on", || Command::Show(Tab::Sensitivity)),
-            window(key(CTRL_SHIFT, Key::F), "Fit to measurements", || Command::Show(Tab::Fit)),
-            always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
-            always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
-            window(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
-            window(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
-            window(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
-            always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
+            Window.on(CTRL, Key::Num1, "Show the motion", || Command::Show(Tab::Motion)),
+            Window.on(CTRL, Key::Num2, "Compare pinned runs", || Command::Show(Tab::Compare)),
+            Window.on(CTRL, Key::Num3, "Sweep a parameter", || Command::Show(Tab::Sweep)),
+            Window.on(CTRL, Key::Num4, "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
+            Window.on(CTRL, Key::Num5, "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            Window.on(CTRL, Key::Num6, "Show the start-up", || Command::Show(Tab::Startup)),
+            Window.on(CTRL, Key::Num7, "Hold a plate", || Command::Show(Tab::Hold)),
+            Window.on(CTRL, Key::Num8, "Show the rotor", || Command::Show(Tab::Rotor)),
+            Window.on(CTRL, Key::Num9, "Show what the results depend on", || Command::Show(Tab::Sensitivity)),
+            Window.on(CTRL_SHIFT, Key::F, "Fit to measurements", || Command::Show(Tab::Fit)),
+            Always.on(CTRL, Key::L, "Lecture size", || Command::ToggleLecture),
+            Always.on(CTRL, Key::T, "Light or dark", || Command::ToggleTheme),
+            Window.on(NONE, Key::F2, "Show or hide the parameters", || Command::ToggleParameters),
+            Window.on(NONE, Key::F3, "Show or hide the results", || Command::ToggleResults),
+            Window.on(CTRL, Key::P, "Picture of the window", || Command::Screenshot),
+            Always.on(NONE, Key::F1, "This sheet", || Command::ToggleShortcuts),
         ],
     ),
 ];
@@ -172,10 +161,10 @@ pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
     let text = ctx.text_edit_focused();
     let idle = !obstacles.typing && !ctx.egui_wants_keyboard_input() && !Popup::is_any_open(ctx);
     let acts = |scope: Scope| match scope {
-        Scope::Always => true,
-        Scope::Window => !obstacles.modal,
-        Scope::History => !obstacles.modal && !text,
-        Scope::Idle => !obstacles.modal && idle,
+        Always => true,
+        Window => !obstacles.modal,
+        History => !obstacles.modal && !text,
+        Idle => !obstacles.modal && idle,
     };
     let mut found = Vec::new();
     ctx.input_mut(|input| {
@@ -247,9 +236,9 @@ mod tests {
         assert_eq!(of(&Command::CancelSolve), "Esc");
         assert_eq!(of(&Command::TogglePlay), "Space");
         let names = |keys| [false, true].map(|mac| name_on(mac, &keys));
-        assert_eq!(names(key(CTRL, Key::Z)), ["Ctrl+Z", "⌘Z"]);
-        assert_eq!(names(key(CTRL_SHIFT, Key::S)), ["Ctrl+Shift+S", "⇧⌘S"]);
-        assert_eq!(names(key(NONE, Key::F1)), ["F1", "F1"]);
+        assert_eq!(names(KeyboardShortcut::new(CTRL, Key::Z)), ["Ctrl+Z", "⌘Z"]);
+        assert_eq!(names(KeyboardShortcut::new(CTRL_SHIFT, Key::S)), ["Ctrl+Shift+S", "⇧⌘S"]);
+        assert_eq!(names(KeyboardShortcut::new(NONE, Key::F1)), ["F1", "F1"]);
         assert_eq!(of(&Command::OpenPathPrompt), "");
     }
 

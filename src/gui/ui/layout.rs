@@ -112,7 +112,7 @@ fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     match (cx.state.view.tab, &cx.state.run) {
         (Tab::Motion, Some(run)) => {
             let first = cx.state.lessons.compared(cx.state.document.scene());
-            views::run::show_compared(ui, run, first.map(AsRef::as_ref), cx);
+            views::run::show(ui, run, None, first.map(AsRef::as_ref), cx);
         }
         (Tab::Torque, Some(run)) => match run.problem.scenario {
             Scenario::Motor(_) => tabs::torque::show(ui, run, cx),

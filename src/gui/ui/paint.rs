@@ -7,7 +7,7 @@ use crate::gui::derived::format::{ends, plain};
 use crate::recording::Recording;
 use crate::ticks::{Steps, round_down};
 use eframe::egui::epaint::{Mesh, Shape};
-use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
@@ -19,6 +19,11 @@ pub(super) struct PlotStyle {
     pub(super) font: FontId,
     /// Height of a line of text.
     pub(super) row: f32,
+    /// Room for the numbers left of a drawing.
+    pub(super) gutter: f32,
+    /// Room for the title above it, and for the numbers below it.
+    pub(super) title: f32,
+    pub(super) axis: f32,
     /// Terms that were written, and where; and what they mean, if the glossary does not say.
     terms: RefCell<Vec<(Rect, String, Option<String>)>>,
 }
@@ -29,12 +34,16 @@ impl PlotStyle {
         let body = TextStyle::Body.resolve(ui.style());
         let font = FontId::new((0.85 * body.size).max(9.0), body.family);
         let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        let widest = ui.painter().layout_no_wrap("−0.000".to_owned(), font.clone(), palette.quiet);
         Self {
             palette,
             text: ui.visuals().text_color(),
             grid: palette.quiet.gamma_multiply(0.22),
             font,
             row,
+            gutter: widest.size().x + 6.0,
+            title: row + 7.0,
+            axis: row + 3.0,
             terms: RefCell::default(),
         }
     }
@@ -116,9 +125,14 @@ impl PlotStyle {
     }
 }
 
+/// Whether there is something to draw.
+pub(super) fn has_fields(recording: &Recording) -> bool {
+    recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()
+}
+
 /// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
 pub(super) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
-    if recording.frames == 0 || recording.x.is_empty() || recording.film.is_empty() {
+    if !has_fields(recording) {
         ui.label("This run has no fields to show.");
         return None;
     }
@@ -133,6 +147,29 @@ pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
         return None;
     }
     Some(ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover()).0)
+}
+
+/// Drawings below each other, with numbers left of them.
+pub(super) struct Column {
+    /// Where they are, the numbers left out.
+    pub(super) x: Rangef,
+    /// The end of the last one.
+    pub(super) bottom: f32,
+}
+
+impl Column {
+    /// From the top of `area` on.
+    pub(super) fn of(area: Rect, style: &PlotStyle) -> Self {
+        let x = Rangef::new(area.left() + style.gutter, area.right() - 0.5 * style.row);
+        Self { x, bottom: area.top() }
+    }
+
+    /// The place of the next one, with so much room above it.
+    pub(super) fn next(&mut self, above: f32, height: f32) -> Rect {
+        let top = self.bottom + above;
+        self.bottom = top + height;
+        Rect::from_x_y_ranges(self.x, top..=self.bottom)
+    }
 }
 
 /// A rectangle on the screen and what its edges mean.
@@ -159,10 +196,14 @@ impl Axes {
         self.rect.bottom() - part as f32 * self.rect.height()
     }
 
+    /// Length of a metre along y on the screen.
+    pub(super) fn points_per_metre(&self) -> f64 {
+        f64::from(self.rect.height()) / (self.y[1] - self.y[0])
+    }
+
     /// By how much y is drawn larger than x.
     pub(super) fn exaggeration(&self) -> f64 {
-        let scale = |length: f32, [from, to]: [f64; 2]| f64::from(length) / (to - from);
-        scale(self.rect.height(), self.y) / scale(self.rect.width(), self.x)
+        self.points_per_metre() * (self.x[1] - self.x[0]) / f64::from(self.rect.width())
     }
 
     pub(super) fn at(&self, x: f64, y: f64) -> Pos2 {
@@ -333,8 +374,9 @@ pub(super) fn title_with_ends(
     style.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], style.palette.quiet);
 }
 
-/// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.
-pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, plot: Rect, scale: f64) {
+/// A vertical bar left of `axes`, as long as a round number of micrometres.
+pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, axes: &Axes) {
+    let (plot, scale) = (axes.rect, axes.points_per_metre());
     let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
     let height = (length * 1e-6 * scale) as f32;
     let x = plot.left() - 6.0;

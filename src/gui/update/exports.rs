@@ -1,13 +1,12 @@
 //! Exports: the same code and the same names as those of the command line, in the background.
 
 use super::updater::{REDRAW, Updater};
-use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose};
+use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
-use crate::job::task::Task;
 use crate::job::work::Posed;
 use std::path::Path;
 use std::sync::Arc;
@@ -26,10 +25,9 @@ impl Updater {
             }
         };
         let Some(content) = self.content(export) else { return };
-        let task = Task::of(Files { path, content }, self.wake(REDRAW));
-        match task {
-            Ok(task) => self.state.exports.begin(export, task, self.now()),
-            Err(error) => self.state.fail(format!("The export cannot be started: {error}")),
+        let work = Files { path, content };
+        if let Some(task) = self.start_work("The export cannot be started", work, REDRAW) {
+            self.state.exports.begin(export, task, self.now());
         }
     }
 
@@ -58,11 +56,7 @@ impl Updater {
             Export::Figures => of_run(OfRun::Figures),
             Export::Fields => of_run(OfRun::Fields),
             Export::Animation => of_run(OfRun::Animation),
-            Export::Report => {
-                let SolvedScene { scene, problem, solution, .. } = self.named()?;
-                let run = ComparedRun { label: scene.name.clone(), scene, problem, solved: Ok(Arc::new(solution)) };
-                Some(Content::Runs(OfRuns::Report, vec![run]))
-            }
+            Export::Report => Some(Content::Runs(OfRuns::Report, vec![to_compare(&self.named()?)])),
             Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs().to_vec())),
             Export::Comparison => {
                 let all = self.state.pins.all_parameters;

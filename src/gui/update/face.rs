@@ -3,10 +3,8 @@
 use super::updater::Updater;
 use crate::digits::rounded;
 use crate::gui::command::FaceCommand;
-use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::job::face::Heights;
-use crate::job::task::Task;
 use crate::scene::Kind;
 use crate::scene::heights::keys_of;
 use std::path::PathBuf;
@@ -18,14 +16,13 @@ const SPACING: &str = "film.min_spacing_nm";
 impl Updater {
     pub(super) fn face(&mut self, command: FaceCommand) {
         match command {
-            FaceCommand::Choose => self.ask(Purpose::Heights, ""),
-            FaceCommand::Load(path) => self.load_face(path),
             FaceCommand::Forget => self.state.face.found = None,
             FaceCommand::Take => self.take_face(),
         }
     }
 
-    fn load_face(&mut self, path: PathBuf) {
+    /// Reads a measured face.
+    pub(super) fn load_face(&mut self, path: PathBuf) {
         if self.state.document.scene().kind() == Kind::Plate {
             return self
                 .state
@@ -33,9 +30,8 @@ impl Updater {
         }
         self.state.view.tab = Tab::Rotor;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        match Task::of(Heights::new(path), self.wake(Duration::ZERO)) {
-            Ok(task) => self.state.face.begin(name, task),
-            Err(error) => self.state.fail(format!("The heights cannot be read: {error}")),
+        if let Some(task) = self.start_work("The heights cannot be read", Heights::new(path), Duration::ZERO) {
+            self.state.face.begin(name, task);
         }
     }
 

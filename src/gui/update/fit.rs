@@ -2,40 +2,22 @@
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
-use crate::gui::command::{FaceCommand, FitCommand};
-use crate::gui::state::dialogs::Purpose;
+use crate::gui::command::FitCommand;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
 use crate::job::fit::Asked;
-use crate::job::task::Task;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
-use std::path::Path;
+use std::path::PathBuf;
 
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
         let state = &mut self.state;
-        let scene = state.document.scene();
         match command {
-            FitCommand::Choose => self.ask(Purpose::Measurements, ""),
-            FitCommand::Load(path) => self.load_measurements(&path),
             FitCommand::Forget => state.fit.measured = None,
-            FitCommand::Seek(sought) => state.fit.edit(|form| form.sought = sought),
-            FitCommand::Quantity(name) => state.fit.edit(|form| form.quantity = Some(name)),
-            FitCommand::Limits(limits) => state.fit.edit(|form| form.limits = limits),
-            FitCommand::Axis(line, edit) => state.fit.edit(|form| {
-                if let Some(axis) = form.axes.get_mut(line) {
-                    axis.edit(scene, edit, 2);
-                }
-            }),
-            FitCommand::Add => state.fit.edit(|form| form.add(scene)),
-            FitCommand::Remove(line) => state.fit.edit(|form| {
-                if line < form.axes.len() {
-                    form.axes.remove(line);
-                }
-            }),
+            FitCommand::Form(form) => state.fit.ask(form),
             FitCommand::Start => self.start_fit(),
-            FitCommand::Cancel => state.fit.cancel(),
+            FitCommand::Cancel => state.fit.work.cancel(),
             FitCommand::Take => {
                 let Some((_, found)) = state.fit.found.as_ref() else { return };
                 let values = found.values();
@@ -45,14 +27,14 @@ impl Updater {
     }
 
     /// Reads a table of measurements, or a measured face. On the torque tab torques are drawn over the curve; anything else shows the fit.
-    fn load_measurements(&mut self, path: &Path) {
+    pub(super) fn load_measurements(&mut self, path: PathBuf) {
         // No table of measurements is as large as heights may be.
-        let heights = match read_text(path, LARGEST_TABLE) {
+        let heights = match read_text(&path, LARGEST_TABLE) {
             Ok(text) => begins_as_heights(&text),
             Err(error) => matches!(error, ReadError::TooLarge(_)),
         };
         if heights {
-            return self.face(FaceCommand::Load(path.to_owned()));
+            return self.load_face(path);
         }
         let state = &mut self.state;
         match Measured::find(&path.to_string_lossy(), state.document.scene(), Method::Auto) {
@@ -68,7 +50,7 @@ impl Updater {
     }
 
     fn start_fit(&mut self) {
-        if self.state.fit.running() {
+        if self.state.fit.work.running() {
             return;
         }
         let scene = self.state.document.scene().clone();
@@ -81,9 +63,9 @@ impl Updater {
         }
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
         let asked = scene.clone();
-        match Task::of(Asked { scene, measured, bounds, goal, settings }, self.wake(REDRAW)) {
-            Ok(task) => self.state.fit.begin(asked, task),
-            Err(error) => self.state.fail(format!("The fit cannot be started: {error}")),
+        let work = Asked { scene, measured, bounds, goal, settings };
+        if let Some(task) = self.start_work("The fit cannot be started", work, REDRAW) {
+            self.state.fit.begin(asked, task);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::updater::Updater;
 use crate::gui::command::{Command, HoldCommand, LessonCommand};
-use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::running_lesson::RunningLesson;
 use crate::gui::state::tour::STOPS;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
@@ -66,13 +66,11 @@ impl Updater {
             LessonCommand::SetUp => lessons.set_up(document, view, true),
             LessonCommand::ShowMe => lessons.show_me(document),
             LessonCommand::AllResults(all) => {
-                lessons.show_all_results(all);
+                lessons.running_mut().into_iter().for_each(|running| running.all_results = all);
                 false
             }
             LessonCommand::Choose(choice) => return self.choose(choice),
             LessonCommand::GoOn => return self.go_on(),
-            LessonCommand::ChooseFolder => return self.ask(Purpose::Lessons, ""),
-            LessonCommand::LoadFolder(folder) => return self.load_lessons(&folder),
             LessonCommand::Faults => return self.say_faults(),
             LessonCommand::Reload => return self.reload_lessons(),
             LessonCommand::Predict(_) | LessonCommand::Commit | LessonCommand::Observe(_) | LessonCommand::Hint => {
@@ -99,7 +97,8 @@ impl Updater {
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Predict(Prediction::Choice(choice))),
             Some(Stage::Observation) => {
-                self.state.lessons.answer_by_key(self.now());
+                let now = self.now();
+                self.state.lessons.running_mut().into_iter().for_each(|running| running.answered = Some(now));
                 self.teach(LessonCommand::Observe(choice));
             }
             _ => {}
@@ -117,7 +116,7 @@ impl Updater {
         }
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Commit),
-            Some(Stage::Task) => self.state.lessons.enter_marked(),
+            Some(Stage::Task) => self.state.lessons.running_mut().into_iter().for_each(RunningLesson::enter_marked),
             Some(Stage::Observation) => {}
             // An answer is followed by Enter out of habit.
             Some(Stage::Told) if self.state.lessons.has_just_answered(self.now()) => {}

@@ -110,8 +110,8 @@ impl Updater {
         match (command, startup) {
             (StartupCommand::Start, _) => self.start_from_rest(),
             (StartupCommand::Cancel, startup) => {
-                dropped.iter().for_each(Dropped::cancel);
-                startup.iter().for_each(StartupState::cancel);
+                dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
+                startup.iter_mut().for_each(|startup| startup.work.cancel());
             }
             (StartupCommand::Choose(number), Some(startup)) => startup.stay_at(number),
             (StartupCommand::Follow(follow), Some(startup)) => startup.follow(follow),
@@ -130,9 +130,9 @@ impl Updater {
         let scene = self.state.document.scene().clone();
         if scene.floats() {
             let posed = Posed { scene: scene.clone(), problem };
-            match Task::of(Dropping { posed, fidelity }, self.wake(Duration::ZERO)) {
-                Ok(task) => self.state.dropped = Some(Dropped::new(task, scene, fidelity)),
-                Err(error) => self.state.fail(format!("The plate cannot be dropped: {error}")),
+            let work = Dropping { posed, fidelity };
+            if let Some(task) = self.start_work("The plate cannot be dropped", work, Duration::ZERO) {
+                self.state.dropped = Some(Dropped::new(task, scene, fidelity));
             }
             return;
         }
@@ -140,9 +140,9 @@ impl Updater {
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
         let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-        match Task::of(FromRest { posed, settings }, self.wake(Duration::ZERO)) {
-            Ok(task) => self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count)),
-            Err(error) => self.state.fail(format!("The start-up cannot be started: {error}")),
+        let work = FromRest { posed, settings };
+        if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {
+            self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count));
         }
     }
 }

@@ -3,7 +3,6 @@
 use super::updater::Updater;
 use crate::gui::state::dialogs::{self, Purpose};
 use crate::job::export::{Content, Files, Picture};
-use crate::job::task::Task;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,7 +23,7 @@ impl Updater {
         while let Ok(image) = self.pictures.1.try_recv() {
             let size = image.size.map(|pixels| pixels as u32);
             let rgb = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
-            self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }), dialogs::PICTURE);
+            self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }));
         }
         let Self { writing, state, .. } = self;
         writing.retain(|task| {
@@ -44,10 +43,8 @@ impl Updater {
             Ok(path) => path,
             Err(reason) => return self.state.fail(reason),
         };
-        let task = Task::of(Files { path, content: Content::Picture(picture) }, self.wake(Duration::ZERO));
-        match task {
-            Ok(task) => self.writing.push(task),
-            Err(error) => self.state.fail(format!("The picture cannot be written: {error}")),
-        }
+        let work = Files { path, content: Content::Picture(picture) };
+        let task = self.start_work("The picture cannot be written", work, Duration::ZERO);
+        self.writing.extend(task);
     }
 }

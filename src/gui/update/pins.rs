@@ -1,12 +1,10 @@
 //! What is asked of the pins, carried out.
 
 use super::updater::Updater;
-use crate::fidelity::Fidelity;
 use crate::gui::command::PinCommand;
 use crate::gui::state::pins::to_compare;
-use crate::job::pin::{Compared, PinTask};
-use crate::job::task::Task;
-use crate::scene::{Scene, presets};
+use crate::job::pin::Compared;
+use crate::scene::presets;
 use std::time::Duration;
 
 impl Updater {
@@ -44,9 +42,9 @@ impl Updater {
             Err(error) => return self.state.fail(error),
         };
         let fidelity = self.state.document.target();
-        match self.solve_pin(scene.clone(), fidelity) {
-            Ok(task) => self.state.pins.wait(scene, fidelity, task),
-            Err(error) => self.state.fail(format!("The preset cannot be solved: {error}")),
+        let work = Compared { scene: scene.clone(), fidelity };
+        if let Some(task) = self.start_work("The preset cannot be solved", work, Duration::ZERO) {
+            self.state.pins.wait(scene, fidelity, task);
         }
     }
 
@@ -56,17 +54,10 @@ impl Updater {
             return;
         }
         let Some((id, scene, fidelity)) = self.state.pins.turn() else { return };
-        match self.solve_pin(scene.clone(), fidelity) {
-            Ok(task) => self.state.pins.begin(id, task),
-            Err(error) => {
-                self.state.pins.forget(id);
-                self.state.fail(format!("A pinned run cannot be solved again: {error}"));
-            }
+        let work = Compared { scene: scene.clone(), fidelity };
+        match self.start_work("A pinned run cannot be solved again", work, Duration::ZERO) {
+            Some(task) => self.state.pins.begin(id, task),
+            None => self.state.pins.forget(id),
         }
-    }
-
-    /// Solves a scene to be pinned, in the background.
-    fn solve_pin(&self, scene: Scene, fidelity: Fidelity) -> std::io::Result<PinTask> {
-        Task::of(Compared { scene, fidelity }, self.wake(Duration::ZERO))
     }
 }

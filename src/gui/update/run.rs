@@ -6,7 +6,7 @@ use crate::analysis::tradeoff::Target;
 use crate::citation;
 use crate::control::Cancel;
 use crate::gui::command::Command;
-use crate::gui::state::dialogs::{Answer, PICTURE, Purpose};
+use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
@@ -14,6 +14,7 @@ use crate::gui::state::view::Tab;
 use crate::job::Event;
 use crate::platform::timed;
 use crate::scene::new_motor::Answers;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// How long each of the few solves of a new motor may take: the window waits for them. Usual are some milliseconds.
@@ -44,15 +45,15 @@ impl Updater {
                     answers.insert(question, answer);
                 }
             }
-            Command::OpenDialog => self.ask(Purpose::Open, ""),
+            Command::Ask(purpose) => self.ask(purpose),
+            Command::Chosen(purpose, path) => self.chosen(purpose, path),
             Command::OpenPathPrompt => {
                 let purposes = vec![Purpose::Open, Purpose::Save(None)];
-                let path = state.failed_path.take().map_or_else(|| state.suggested_name(), |(_, path)| path);
+                let path =
+                    state.failed_path.take().map_or_else(|| state.suggested_path(&purposes[1]), |(_, path)| path);
                 state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: false, fresh: true }));
             }
             Command::Save(then) => self.save(then),
-            Command::SaveAs => self.save_as(None),
-            Command::SavePath(path, then) => self.save_to(&path, then),
             Command::QuitAnyway => self.proceed_with_document(Next::Quit),
             Command::DiscardThen(next) => self.discard_then(next),
             Command::CloseModal => state.modal = None,
@@ -61,7 +62,6 @@ impl Updater {
                     (prompt.path, prompt.fresh) = (path, false);
                 }
             }
-            Command::WritePicture(picture, path) => self.write_picture(picture, &path),
             Command::Refine(fidelity) => self.solve(vec![fidelity], None),
             Command::Budget(budget) => {
                 state.budget = budget;
@@ -81,11 +81,9 @@ impl Updater {
             Command::Sensitivity(command) => self.sensitivity(command),
             Command::Lesson(command) => self.teach(command),
             Command::Measure => self.measure(),
-            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.cancel()),
+            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
-            Command::Export(export) => self.ask(Purpose::Export(export), export.file_name()),
-            Command::WriteExport(export, path) => self.export(export, &path),
             Command::CancelExport => state.exports.cancel(),
             Command::CloseExportNote => state.exports.written = None,
             Command::TogglePlay => match state.held() {
@@ -181,37 +179,35 @@ impl Updater {
         state.torque.drain();
         state.rotor.drain();
         state.sensitivity.drain();
-        if let Some(startup) = &mut state.startup {
-            startup.drain();
-            if startup.stale(state.document.scene()) {
-                startup.cancel();
-            }
-        }
-        if let Some(dropped) = &mut state.dropped {
-            dropped.drain();
-            if dropped.stale(state.document.scene()) {
-                dropped.cancel();
-            }
-        }
+        let scene = state.document.scene();
+        state.startup.iter_mut().for_each(|startup| startup.drain(scene));
+        state.dropped.iter_mut().for_each(|dropped| dropped.drain(scene));
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
         self.receive_pictures();
         self.update_hold();
     }
 
+    /// Does that for which a file or a folder was chosen. A CSV file that is opened is a table of measurements, or a measured face.
+    fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
+        let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        match purpose {
+            Purpose::Open if !table => self.proceed(Next::File(path)),
+            Purpose::Open | Purpose::Measurements => self.load_measurements(path),
+            Purpose::Heights => self.load_face(path),
+            Purpose::Lessons => self.load_lessons(&path),
+            Purpose::Save(then) => self.save_to(&path, then),
+            Purpose::Picture(picture) => self.write_picture(picture, &path),
+            Purpose::Export(export) => self.export(export, &path),
+        }
+    }
+
     fn answered(&mut self, purpose: Purpose, answer: Answer) {
         match answer {
-            Answer::Path(path) => self.carry_out(Command::with_path(purpose, path)),
+            Answer::Path(path) => self.chosen(purpose, path),
             Answer::Cancelled => {}
             Answer::NoDialog => {
-                let failed =
-                    self.state.failed_path.take_if(|(failed, _)| failed.is_like(&purpose)).map(|(_, path)| path);
-                let path = match &purpose {
-                    Purpose::Open => failed.unwrap_or_default(),
-                    Purpose::Save(_) => failed.unwrap_or_else(|| self.state.suggested_name()),
-                    Purpose::Picture(_) => PICTURE.to_owned(),
-                    Purpose::Export(export) => failed.unwrap_or_else(|| export.file_name().to_owned()),
-                    Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
-                };
+                let failed = self.state.failed_path.take_if(|(failed, _)| failed.is_like(&purpose));
+                let path = failed.map_or_else(|| self.state.suggested_path(&purpose), |(_, path)| path);
                 let purposes = vec![purpose];
                 self.state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: true, fresh: true }));
             }

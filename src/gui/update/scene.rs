@@ -144,15 +144,8 @@ impl Updater {
     pub(super) fn save(&mut self, then: Option<Next>) {
         match self.state.document.path().map(Path::to_path_buf) {
             Some(path) => self.save_to(&path, then),
-            None => self.save_as(then),
+            None => self.ask(Purpose::Save(then)),
         }
-    }
-
-    /// Asks for a file and saves there.
-    pub(super) fn save_as(&mut self, then: Option<Next>) {
-        let name = self.state.suggested_name();
-        let name = Path::new(&name).file_name().map(|name| name.to_string_lossy().into_owned());
-        self.ask(Purpose::Save(then), &name.unwrap_or_default());
     }
 
     /// Saves to this file, and goes on with what waited for it.

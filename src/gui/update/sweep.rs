@@ -2,8 +2,7 @@
 
 use super::updater::{REDRAW, Updater};
 use crate::gui::command::SweepCommand;
-use crate::job::sweep::{Points, SweepTask};
-use crate::job::task::Task;
+use crate::job::sweep::Points;
 use crate::solve::Settings;
 use std::sync::Arc;
 
@@ -14,8 +13,7 @@ impl Updater {
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running) {
-                    let points = Points::Known(Arc::clone(&swept.sweep), swept.rows.to_vec());
-                    self.begin_sweep(Task::of(points, self.wake(REDRAW)), true);
+                    self.begin_sweep(Points::Known(Arc::clone(&swept.sweep), swept.rows.to_vec()));
                 }
             }
             SweepCommand::Open(point) => {
@@ -29,12 +27,7 @@ impl Updater {
                 }
             }
             SweepCommand::Draw(quantity) => self.state.sweep.draw(quantity),
-            SweepCommand::Axis(axis, edit) => {
-                let scene = self.state.document.scene();
-                self.state.sweep.edit(|form| form.edit(scene, axis, edit));
-            }
-            SweepCommand::Second(second) => self.state.sweep.edit(|form| form.set_second(second)),
-            SweepCommand::Fidelity(fidelity) => self.state.sweep.edit(|form| form.fidelity = fidelity),
+            SweepCommand::Form(form) => self.state.sweep.ask(form),
         }
     }
 
@@ -46,14 +39,13 @@ impl Updater {
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        let task = Task::of(Points::New(swept, vary, settings), self.wake(REDRAW));
-        self.begin_sweep(task, false);
+        self.begin_sweep(Points::New(swept, vary, settings));
     }
 
-    fn begin_sweep(&mut self, task: std::io::Result<SweepTask>, goes_on: bool) {
-        match task {
-            Ok(task) => self.state.sweep.begin(task, goes_on, self.now()),
-            Err(error) => self.state.fail(format!("The sweep cannot be started: {error}")),
+    fn begin_sweep(&mut self, points: Points) {
+        let goes_on = matches!(points, Points::Known(..));
+        if let Some(task) = self.start_work("The sweep cannot be started", points, REDRAW) {
+            self.state.sweep.begin(task, goes_on, self.now());
         }
     }
 }

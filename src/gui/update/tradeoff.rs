@@ -2,7 +2,6 @@
 
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
-use crate::job::task::Task;
 use crate::job::tradeoff::Measurement;
 use crate::job::work::Posed;
 use std::time::Duration;
@@ -13,7 +12,7 @@ const MEASURE_INTERVAL: Duration = Duration::from_millis(200);
 impl Updater {
     /// Starts to measure, unless that goes on.
     pub(super) fn measure(&mut self) {
-        if self.state.tradeoff.as_ref().is_some_and(TradeoffState::running) {
+        if self.state.tradeoff.as_ref().is_some_and(|measured| measured.work.running()) {
             return;
         }
         let Some(problem) = self.problem() else { return };
@@ -22,9 +21,9 @@ impl Updater {
         with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
         let posed = Posed { scene: scene.clone(), problem };
-        match Task::of(Measurement { posed, candidates, effort, now }, self.wake(MEASURE_INTERVAL)) {
-            Ok(task) => self.state.tradeoff = Some(TradeoffState::new(task, scene, now())),
-            Err(error) => self.state.fail(format!("The measurement cannot be started: {error}")),
+        let work = Measurement { posed, candidates, effort, now };
+        if let Some(task) = self.start_work("The measurement cannot be started", work, MEASURE_INTERVAL) {
+            self.state.tradeoff = Some(TradeoffState::new(task, scene, now()));
         }
     }
 }

@@ -6,12 +6,15 @@ use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
 use crate::job::export::ExportTask;
+use crate::job::task::{Task, TaskOf};
+use crate::job::work::Work;
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
 use crate::problem::Problem;
 use crate::scene::{Scene, Value};
 use eframe::egui;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -54,6 +57,11 @@ impl Updater {
     pub(super) fn wake(&self, every: Duration) -> impl Fn(bool) + Send + Sync + 'static {
         let ctx = self.ctx.clone();
         move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) }
+    }
+
+    /// Starts `work`, which draws the window again not more often than `every`; if it cannot be, that is said after what `failed`.
+    pub(super) fn start_work<W: Work>(&mut self, failed: &str, work: W, every: Duration) -> Option<TaskOf<W>> {
+        Task::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
     /// The scene in SI units; what is wrong with it is said.
@@ -111,9 +119,11 @@ impl Updater {
     }
 
     /// Asks for a file or a folder, with a name to begin with.
-    pub(super) fn ask(&mut self, purpose: Purpose, name: &str) {
+    pub(super) fn ask(&mut self, purpose: Purpose) {
         let wake = self.ctx.clone();
-        if let Err(error) = self.dialogs.show(purpose, name, move || wake.request_repaint()) {
+        let name = self.state.suggested_path(&purpose);
+        let name = Path::new(&name).file_name().unwrap_or_default().to_string_lossy();
+        if let Err(error) = self.dialogs.show(purpose, &name, move || wake.request_repaint()) {
             self.state.fail(format!("The file dialog cannot be shown: {error}"));
         }
     }

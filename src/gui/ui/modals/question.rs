@@ -162,7 +162,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
             // Enter takes the first, but replaces nothing.
             let replacing = replaces && *purpose != Purpose::Open;
             if clicked || (entered && named && i == 0 && !replacing) {
-                answer = Some(vec![Command::with_path(purpose.clone(), path.clone())]);
+                answer = Some(vec![Command::Chosen(purpose.clone(), path.clone())]);
             }
         }
         let cancelled = ui.button("Cancel").clicked();

@@ -1,7 +1,7 @@
 //! The menu bar.
 
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::state::dialogs::Export;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::document::Next;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
@@ -116,7 +116,7 @@ pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], cx: &DrawConte
 fn export_item(ui: &mut egui::Ui, text: &str, export: Export, enabled: bool, cx: &DrawContext<'_>) {
     let entry = ui.add_enabled(enabled, Button::new(text));
     if beside(ui.max_rect(), entry, export.about()).clicked() {
-        cx.push(Command::Export(export));
+        cx.push(Command::Ask(Purpose::Export(export)));
         ui.close();
     }
 }
@@ -134,7 +134,7 @@ fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "New motor…", true, Command::NewMotor, cx);
-    item(ui, "Open…", true, Command::OpenDialog, cx);
+    item(ui, "Open…", true, Command::Ask(Purpose::Open), cx);
     if HAS_FILES {
         item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
         menu(ui, "Recent", &mut |ui| {
@@ -148,7 +148,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     }
     ui.separator();
     item(ui, "Save", true, Command::Save(None), cx);
-    item(ui, "Save as…", true, Command::SaveAs, cx);
+    item(ui, "Save as…", true, Command::Ask(Purpose::Save(None)), cx);
     ui.separator();
     menu(ui, "Export", &mut |ui| exports(ui, cx));
     if HAS_FILES {
@@ -179,7 +179,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let running = state.running().is_some();
     item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
     if HAS_FILES {
-        item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+        item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
         item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
     }
     export_item(ui, "Save my answers…", Export::Answers, cx.state.can_export(Export::Answers), cx);

@@ -11,6 +11,7 @@ use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
+use crate::gui::ui::form::choices;
 use crate::gui::ui::hint::{beside, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
@@ -238,30 +239,11 @@ impl Row<'_> {
         beside(ui.clip_rect(), label, about);
     }
 
-    fn combo(
-        &self,
-        ui: &mut egui::Ui,
-        parameter: &'static Parameter,
-        width: f32,
-        explanation: &str,
-        labelled_by: egui::Id,
-    ) {
+    fn combo(&self, ui: &mut egui::Ui, parameter: &'static Parameter, width: f32, about: &str, labelled_by: egui::Id) {
         let name = asked(self.document().scene(), parameter.key);
         let decisions = &self.run.solution.model.decisions;
-        let combo = egui::ComboBox::from_id_salt(parameter.key)
-            .selected_text(words::chosen(parameter.key, &name, decisions))
-            .width(width)
-            .truncate()
-            .show_ui(ui, |ui| {
-                for option in options(parameter) {
-                    let text = words::choice(parameter.key, option);
-                    if ui.selectable_label(*option == name, text).clicked() && *option != name {
-                        let value = Value::Text((*option).to_owned());
-                        self.cx.push(Command::Set { key: parameter.key, value, dragging: false });
-                    }
-                }
-            });
-        beside(ui.clip_rect(), combo.response, explanation).labelled_by(labelled_by);
+        let combo = choices(ui, (parameter, options(parameter)), &name, decisions, width, self.cx);
+        beside(ui.clip_rect(), combo, about).labelled_by(labelled_by);
     }
 
     /// Says that the scene decides, and offers to leave it to the plan again.

@@ -7,6 +7,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label, switch};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::gui::ui::scroll::scrolled;
@@ -339,24 +340,8 @@ impl Panel<'_> {
 
     fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
         let named = self.label_row(ui, parameter);
-        let combo = egui::ComboBox::from_id_salt(parameter.key)
-            .selected_text(words::chosen(parameter.key, name, self.plan))
-            .width(ui.available_width())
-            .truncate()
-            .show_ui(ui, |ui| {
-                for option in options {
-                    // A table is chosen by giving its file, below.
-                    let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
-                    let possible = !file || *option == name;
-                    let text = choice(parameter.key, option);
-                    let picked = ui.add_enabled(possible, egui::Button::selectable(*option == name, text));
-                    if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
-                        let value = Value::Text((*option).to_owned());
-                        self.cx.push(Command::Set { key: parameter.key, value, dragging: false });
-                    }
-                }
-            });
-        combo.response.labelled_by(named.id);
+        let width = ui.available_width();
+        choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
     }
 
     fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {

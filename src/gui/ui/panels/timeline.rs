@@ -64,7 +64,7 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     ui.add_space(2.0);
     let newest = hold.trail().len().saturating_sub(1);
     let row = ui.horizontal(|ui| {
-        play_and_step(ui, hold.plays(), cx);
+        play_and_step(ui, hold.playing, cx);
         let hover = "Plays what the charts show once more, in slow motion; the plate waits";
         if ui.add_enabled(newest > 0, egui::Button::new("Replay")).hint(hover).clicked() {
             cx.push(HoldCommand::Replay);
@@ -75,7 +75,7 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
             cx.push(Command::Seek(at / most));
         }
         let ago = hold.now().reading.time - hold.shown().reading.time;
-        ui.label(match (ago > 0.0, hold.plays()) {
+        ui.label(match (ago > 0.0, hold.playing) {
             (true, _) => format!("{} ago", time(ago)),
             (false, true) => "now".to_owned(),
             (false, false) => "paused".to_owned(),

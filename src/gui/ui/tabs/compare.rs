@@ -6,12 +6,12 @@ use crate::digits::capitalised;
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
-use crate::gui::state::pins::{Note, Page, Pin, fidelity};
+use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::theme::run_colour;
-use crate::gui::ui::views::overlay::{self, Overlaid};
+use crate::gui::ui::views::overlay;
 use crate::gui::ui::{button, glossary, keys};
 use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
 
@@ -45,12 +45,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     }
     ui.add_space(2.0);
     match pins.page {
-        Page::Fields => {
-            let pinned = pins.pins().iter().zip(pins.runs());
-            let colour = |pin: &Pin| run_colour(pin.slot, cx.state.dark);
-            let overlaid: Vec<_> = pinned.map(|(pin, run)| Overlaid { pin, run, colour: colour(pin) }).collect();
-            overlay::show(ui, &overlaid, cx);
-        }
+        Page::Fields => overlay::show(ui, cx),
         Page::Numbers => numbers(ui, cx),
     }
 }
@@ -138,20 +133,7 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
     // In one piece, so that it is a whole that goes to the next line.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
-    let row = egui::Layout::left_to_right(egui::Align::Center);
-    ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, cx));
-}
-
-fn chip_parts(
-    ui: &mut Ui,
-    id: u64,
-    run: &ComparedRun,
-    (colour, label): (Color32, f32),
-    present: bool,
-    cx: &DrawContext<'_>,
-) {
-    let em = ui.text_style_height(&TextStyle::Body);
-    frame(ui, colour).show(ui, |ui| {
+    let parts = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
         let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, colour);
@@ -161,7 +143,9 @@ fn chip_parts(
             cx.small_button(ui, open, format!("Open {}", run.label), PinCommand::Open(id));
         }
         cx.small_button(ui, ("✕", "Remove this pin"), format!("Remove {}", run.label), PinCommand::Remove(id));
-    });
+    };
+    let row = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, row, |ui| frame(ui, colour).show(ui, parts));
 }
 
 /// The label, to be typed over; Enter or leaving takes it, Escape does not.

@@ -19,7 +19,7 @@ const SHARE: f32 = 0.75;
 pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
     let dropped = cx.state.dropped.as_ref();
-    ui.horizontal_wrapped(|ui| match dropped.filter(|dropped| dropped.running()) {
+    ui.horizontal_wrapped(|ui| match dropped.filter(|dropped| dropped.work.running()) {
         Some(_) => {
             cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
         }

@@ -7,7 +7,7 @@ use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::{power_of_ten, uncertain};
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, powers, title, upright};
+use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, level, line, powers, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
@@ -23,7 +23,6 @@ const SHARES: [f32; 2] = [0.33, 0.27];
 const LEAST_LINES: [f32; 2] = [10.0, 9.0];
 /// A tab wider than this, in heights of the text, has room for a column of remarks.
 const WIDE: f32 = 28.0;
-const WIDTH: f32 = 2.0;
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
 const RADIUS: f32 = 5.0;

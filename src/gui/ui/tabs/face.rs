@@ -1,8 +1,9 @@
 //! A measured face below the rotor: its heights as a map, the profile where the pointer is, and what it comes to.
 
 use crate::digits::significant;
-use crate::gui::command::FaceCommand;
+use crate::gui::command::{Command, FaceCommand};
 use crate::gui::derived::scales::span;
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::face::Face;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, SOLID, line, title};
@@ -25,8 +26,8 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     let state = &cx.state.face;
     ui.horizontal_wrapped(|ui| {
         let about = "A CSV file, a grid of heights or a profile, as squeezefilm surface reads it; or drop one on the window";
-        cx.button(ui, "Open heights…", about, FaceCommand::Choose);
-        if state.running() {
+        cx.button(ui, "Open heights…", about, Command::Ask(Purpose::Heights));
+        if state.work.running() {
             ui.spinner();
         }
         let Some(face) = state.found.as_ref() else { return };

@@ -3,11 +3,11 @@
 use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, Measured, Optimum};
 use crate::analysis::quantity::Quantity;
 use crate::digits::{capitalised, percent, signed, significant, with_error};
-use crate::gui::command::FitCommand;
+use crate::gui::command::{Command, FitCommand};
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses, quantities};
-use crate::gui::state::sweep::AxisForm;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title, whole};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, field, list};
@@ -37,21 +37,21 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let state = &cx.state.fit;
     outline_fields(ui);
     scrolled(ui, "fit", 8.0, |ui| {
-        sought(ui, state, cx);
+        let mut form = state.form().clone();
+        sought(ui, &mut form, cx);
         let agreement = state.form().sought == Sought::Agreement;
         if agreement {
             measurements(ui, state, cx);
         }
-        if state.measured.is_some() || !agreement {
-            for (i, axis) in state.form().axes.iter().enumerate() {
-                ui.push_id(i, |ui| {
-                    ui.horizontal_wrapped(|ui| key(ui, i, axis, cx));
-                    if let Some(fault) = state.faults().get(i).and_then(Option::as_ref) {
-                        cx.say(ui, fault, cx.colours.alarm);
-                    }
-                });
-            }
-            buttons(ui, state, cx);
+        let asks = state.measured.is_some() || !agreement;
+        if asks {
+            keys(ui, &mut form, cx);
+        }
+        if form != *state.form() {
+            cx.push(FitCommand::Form(form.clone()));
+        }
+        if asks {
+            buttons(ui, form, cx);
         } else {
             cx.introduce(ui, INTRODUCTION);
         }
@@ -72,14 +72,13 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 }
 
 /// What is looked for: agreement with measurements, or the optimum of a number, within limits on others.
-fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
+fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
     const KINDS: [(Sought, &str); 3] = [
         (Sought::Agreement, "agreement with measurements"),
         (Sought::Greatest, "the greatest value of"),
         (Sought::Least, "the least value of"),
     ];
-    let FitForm { sought, quantity: name, limits, .. } = state.form();
-    let (sought, name) = (*sought, *name);
+    let (sought, name) = (form.sought, form.quantity);
     ui.horizontal_wrapped(|ui| {
         ui.label("Look for");
         let chosen = KINDS.iter().find(|(kind, _)| *kind == sought).map_or("", |(_, words)| *words);
@@ -89,9 +88,7 @@ fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         );
         list(ui, "sought", called, (chosen, WIDE), |ui| {
             for (kind, words) in KINDS {
-                if ui.selectable_label(kind == sought, words).clicked() {
-                    cx.push(FitCommand::Seek(kind));
-                }
+                ui.selectable_value(&mut form.sought, kind, words);
             }
         });
         if sought == Sought::Agreement {
@@ -102,18 +99,14 @@ fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         let called = ("Number that is sought", "The result whose optimum is sought");
         list(ui, "quantity", called, (words, WIDE), |ui| {
             for (other, words) in &known {
-                if ui.selectable_label(Some(*other) == name, words).clicked() {
-                    cx.push(FitCommand::Quantity(other));
-                }
+                ui.selectable_value(&mut form.quantity, Some(*other), words);
             }
         });
         ui.label("with");
         let about = "Limits on other results, divided by commas: alpha<0.3, stall_torque_nm>0.2. Their names are those of the columns that are exported";
-        if let Some(limits) = field(ui, ("Limits on other results", about), (limits, "no limits"), WIDE) {
-            cx.push(FitCommand::Limits(limits));
-        }
+        field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
-    if let (Some(fault), true) = (state.goal_fault(), sought != Sought::Agreement) {
+    if let (Some(fault), true) = (cx.state.fit.goal_fault(), sought != Sought::Agreement) {
         cx.say(ui, fault, cx.colours.alarm);
     }
 }
@@ -121,7 +114,8 @@ fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
 /// Which measurements.
 fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        cx.button(ui, "Open measurements…", "A CSV file; or drop one on the window", FitCommand::Choose);
+        let ask = Command::Ask(Purpose::Measurements);
+        cx.button(ui, "Open measurements…", "A CSV file; or drop one on the window", ask);
         if let Some(measured) = state.measured.as_ref() {
             cx.button(ui, "Forget them", "The table is no longer drawn, nor fitted", FitCommand::Forget);
             let name = measured.name.rsplit(['/', '\\']).next().unwrap_or_default();
@@ -144,11 +138,27 @@ const INTRODUCTION: &[&str] = &[
     "Nothing is solved before you ask.",
 ];
 
-/// One key with its bounds.
-fn key(ui: &mut Ui, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
+/// The keys that are to be chosen, each with its bounds and what is wrong with it.
+fn keys(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
+    let mut less = None;
+    for i in 0..form.axes.len() {
+        ui.push_id(i, |ui| {
+            if ui.horizontal_wrapped(|ui| key(ui, form, i, cx)).inner {
+                less = Some(i);
+            }
+            if let Some(fault) = cx.state.fit.faults().get(i).and_then(Option::as_ref) {
+                cx.say(ui, fault, cx.colours.alarm);
+            }
+        });
+    }
+    less.map(|i| form.axes.remove(i));
+}
+
+/// One key with its bounds; whether it is no longer to be chosen.
+fn key(ui: &mut Ui, form: &mut FitForm, i: usize, cx: &DrawContext<'_>) -> bool {
     let (scene, of) = (cx.state.document.scene(), format!("parameter {}", i + 1));
     let row = AxisRow {
-        axis,
+        usual_count: 2,
         parameter: [if i == 0 { "Choose" } else { "and" }, "What is chosen", &capitalised(&of)],
         groups: &|| vec![("", scene.parameters().filter(|parameter| chooses(scene, parameter)).collect())],
         values: [
@@ -159,17 +169,16 @@ fn key(ui: &mut Ui, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
         count: None,
         log: (&format!("Equal ratios of {of}"), "Searched by equal ratios instead of equal steps"),
     };
-    row.show(ui, cx, |edit| FitCommand::Axis(i, edit).into());
-    if cx.state.fit.form().axes.len() > 1 {
-        let less = ("✕", "Leaves it as it is in the scene");
-        cx.small_button(ui, less, format!("Do not choose {of}"), FitCommand::Remove(i));
-    }
+    row.show(ui, &mut form.axes[i], cx);
+    let (less, name) = ("Leaves it as it is in the scene", format!("Do not choose {of}"));
+    form.axes.len() > 1 && ui.small_button("✕").hint(less).accessible_name(name).clicked()
 }
 
-fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
+fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
+    let state = &cx.state.fit;
     let agreement = state.form().sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
-        if state.running() {
+        if state.work.running() {
             cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
             ui.spinner();
             let what = if agreement { "χ²" } else { "best" };
@@ -186,14 +195,15 @@ fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         if button::first(ui, text, (state.found.is_none(), good), cx).hint(about).clicked() {
             cx.push(FitCommand::Start);
         }
-        if state.form().has_room() {
-            cx.button(ui, "Add a key…", "One more parameter to choose", FitCommand::Add);
+        if state.form().has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
+            form.add(cx.state.document.scene());
+            cx.push(FitCommand::Form(form));
         }
     });
     if let Some(failure) = &state.failure {
         cx.say(ui, failure, cx.colours.alarm);
-    } else if state.cancelled {
-        cx.note(ui, if state.running() { "Ending…" } else { "Cancelled" });
+    } else if state.work.cancelled {
+        cx.note(ui, if state.work.running() { "Ending…" } else { "Cancelled" });
     }
 }
 

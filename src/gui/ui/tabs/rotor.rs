@@ -9,7 +9,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::format::power_of_ten;
 use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, powers, title};
+use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::scroll::scrolled;
@@ -24,7 +24,6 @@ const SHARES: [f32; 3] = [0.3, 0.3, 0.5];
 const LEAST_LINES: [f32; 3] = [10.0, 10.0, 14.0];
 /// In a tab wider than this, in heights of the text, the charts stand beside each other.
 const BESIDE: f32 = 36.0;
-const WIDTH: f32 = 2.0;
 /// Harmonics that the chart of compliances shows.
 const SHOWN: usize = 64;
 /// The greatest displacement as it is drawn, as a share of the section's size.

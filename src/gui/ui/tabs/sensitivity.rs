@@ -6,7 +6,7 @@ use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::uncertain;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::{explanation, label};
-use crate::gui::state::dialogs::Export;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::sensitivity::SensitivityState;
 use crate::gui::ui::chart::{Chart, between, line, title, upright};
 use crate::gui::ui::context::DrawContext;
@@ -84,7 +84,8 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
             }
         }
         if state.found.is_some() {
-            cx.button(ui, "Export…", Export::Sensitivity.about(), Command::Export(Export::Sensitivity));
+            let export = Command::Ask(Purpose::Export(Export::Sensitivity));
+            cx.button(ui, "Export…", Export::Sensitivity.about(), export);
         }
     });
 }

@@ -38,13 +38,13 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
     cx.mark(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
-        views::run::show(ui, run, startup.ranges.as_ref(), cx);
+        views::run::show(ui, run, startup.ranges.as_ref(), None, cx);
     }
 }
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        match cx.state.startup.as_ref().filter(|startup| startup.running()) {
+        match cx.state.startup.as_ref().filter(|startup| startup.work.running()) {
             Some(_) => {
                 let about = "Ends it; the cycles computed so far stay";
                 cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);

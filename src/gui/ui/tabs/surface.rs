@@ -4,14 +4,12 @@ use crate::analysis::surface::SurfaceCurves;
 use crate::digits::significant;
 use crate::gui::derived::format::power_of_ten;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, powers, title};
+use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::problem::Motor;
 use crate::surface::Surface;
 use eframe::egui::Ui;
 use egui_plot::LineStyle;
-
-const WIDTH: f32 = 2.0;
 
 /// Shows what there is to show of the faces of a motor; nothing of a hard stop between smooth ones.
 pub(super) fn show(ui: &mut Ui, motor: &Motor, height: f32, cx: &DrawContext<'_>) {

@@ -4,7 +4,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::digits::capitalised;
 use crate::gui::command::SweepCommand;
-use crate::gui::state::sweep::{AxisForm, Form, Swept, candidates};
+use crate::gui::state::sweep::{Form, Swept, candidates};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, list};
 use crate::gui::ui::hint::Hint;
@@ -20,8 +20,12 @@ use eframe::egui::{Ui, WidgetInfo};
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let Some(form) = cx.state.sweep.form() else { return };
     outline_fields(ui);
-    ask(ui, form, cx);
-    buttons(ui, form, cx);
+    let mut asked = form.clone();
+    ask(ui, &mut asked, cx);
+    if asked != *form {
+        cx.push(SweepCommand::Form(asked.clone()));
+    }
+    buttons(ui, &asked, cx);
     let Some(swept) = cx.state.sweep.swept() else {
         cx.introduce(ui, INTRODUCTION);
         return;
@@ -33,11 +37,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 }
 
 /// The form, with what is wrong with it.
-fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
+fn ask(ui: &mut Ui, form: &mut Form, cx: &DrawContext<'_>) {
     let faults = cx.state.sweep.faults();
-    for (i, axis) in form.axes().enumerate() {
+    for i in 0..form.axes().len() {
         ui.push_id(i, |ui| {
-            ui.horizontal_wrapped(|ui| axis_row(ui, form, i, axis, cx));
+            ui.horizontal_wrapped(|ui| axis_row(ui, form, i, cx));
             if let Some(fault) = faults.get(i).and_then(Option::as_ref) {
                 cx.say(ui, fault, cx.colours.alarm);
             }
@@ -48,7 +52,7 @@ fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     }
 }
 
-fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
+fn axis_row(ui: &mut Ui, form: &mut Form, i: usize, cx: &DrawContext<'_>) {
     let along = ["along x", "along y"][i];
     let groups = || {
         let group =
@@ -57,7 +61,7 @@ fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContex
         groups.filter(|(_, group): &(_, Vec<_>)| !group.is_empty()).collect()
     };
     let row = AxisRow {
-        axis,
+        usual_count: form.usual_count(),
         parameter: [if i == 0 { "Vary" } else { "and" }, "What is varied", &format!("Parameter {along}")],
         groups: &groups,
         values: [(&format!("From {along}"), "The first value"), (&format!("To {along}"), "The last value")],
@@ -65,12 +69,16 @@ fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContex
         count: Some(&format!("Values {along}")),
         log: (&format!("Equal ratios {along}"), "Equal ratios from value to value instead of equal steps"),
     };
-    row.show(ui, cx, |edit| SweepCommand::Axis(i, edit).into());
+    row.show(ui, form.axis_mut(i), cx);
     if i == 0 && !form.second {
-        cx.button(ui, "Add a second…", "A map over two parameters", SweepCommand::Second(true));
+        if ui.button("Add a second…").hint("A map over two parameters").clicked() {
+            form.set_second(true);
+        }
     } else if i == 1 {
-        let less = ("✕", "Back to one parameter");
-        cx.small_button(ui, less, less.1, SweepCommand::Second(false));
+        let less = "Back to one parameter";
+        if ui.small_button("✕").hint(less).accessible_name(less).clicked() {
+            form.set_second(false);
+        }
     }
 }
 
@@ -102,7 +110,9 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 }
                 let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);
                 if let Some(fidelity) = chosen {
-                    cx.push(SweepCommand::Fidelity(fidelity));
+                    let mut next = form.clone();
+                    next.fidelity = fidelity;
+                    cx.push(SweepCommand::Form(next));
                 }
                 combo.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
                 glossary::here(ui, combo, "Fidelity");

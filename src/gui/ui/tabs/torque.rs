@@ -5,7 +5,7 @@ use crate::analysis::torque::TorqueCurves;
 use crate::digits::{as_given, significant};
 use crate::estimate::Estimate;
 use crate::gui::derived::format::uncertain;
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, title, upright};
+use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::scroll::scrolled;
@@ -29,8 +29,6 @@ const HEADROOM: f64 = 1.08;
 const DIGITS: usize = 4;
 /// Radius of a measured point.
 const MEASURED: f32 = 3.5;
-/// Width of the lines.
-const WIDTH: f32 = 2.0;
 /// Titles of the charts, and what the glossary explains them under.
 const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];

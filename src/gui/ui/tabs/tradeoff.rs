@@ -7,7 +7,7 @@ use crate::digits::{self, short};
 use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
 use crate::gui::derived::scales::span;
-use crate::gui::state::dialogs::Export;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
 use crate::gui::ui::chart::{axes, key, level, line, numbered, place as chart_place, powers, upright};
 use crate::gui::ui::context::DrawContext;
@@ -66,7 +66,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        let running = cx.state.tradeoff.as_ref().filter(|measured| measured.running());
+        let running = cx.state.tradeoff.as_ref().filter(|measured| measured.work.running());
         match running {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
@@ -85,7 +85,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
-                cx.button(ui, text, export.about(), Command::Export(export));
+                cx.button(ui, text, export.about(), Command::Ask(Purpose::Export(export)));
             }
         }
     });
@@ -103,8 +103,8 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
         let text = format!("Measured on “{}” before the scene changed; measure again", measured.scene.name);
         cx.say(ui, text, cx.colours.alarm);
-    } else if measured.cancelled {
-        let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
+    } else if measured.work.cancelled {
+        let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
     }
     if let Some(failure) = &measured.failure {

@@ -79,7 +79,6 @@ const OF_PLATE: &[(Quantity, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let gutter = style.width(ui.painter(), "−0.000") + 6.0;
     let quantities = match startup.problem.scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
@@ -89,12 +88,12 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
     for (quantity, share) in quantities {
         let right = left + share * area.width();
         let rect = Rect::from_min_max(
-            pos2(left + gutter, area.top() + style.row + 7.0),
-            pos2(right - 0.5 * style.row, area.bottom() - style.row - 3.0),
+            pos2(left + style.gutter, area.top() + style.title),
+            pos2(right - 0.5 * style.row, area.bottom() - style.axis),
         );
         left = right;
         if rect.width() > 20.0 && rect.height() > 10.0 {
-            plot(ui, &style, (rect, gutter), quantity, startup, periodic, cx);
+            plot(ui, &style, rect, quantity, startup, periodic, cx);
         }
     }
     style.explain(ui);
@@ -104,7 +103,7 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
 fn plot(
     ui: &mut Ui,
     style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
+    rect: Rect,
     quantity: &Quantity,
     startup: &StartupState,
     periodic: Option<&SolvedScene>,
@@ -132,7 +131,7 @@ fn plot(
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };
     let name = format!("{}: click to look at a cycle", quantity.titles[0]);
     let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], [low - margin, high + margin]];
-    let inset = Inset { name: &name, rect, gutter, bounds, below: Some("cycle") };
+    let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let chosen = startup.chosen() as f64;
     let shown = inset.show(ui, style, |plot| {
         if let Some((aim, error)) = aim {

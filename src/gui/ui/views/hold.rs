@@ -10,7 +10,7 @@ use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, room, scale_bar, shaded, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, band, field_colours, room, scale_bar, shaded, title_with_bar};
 use crate::hold::Reading;
 use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
@@ -51,8 +51,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     // One unit whatever the hand does: that of ambient pressure on a tenth of the plate.
     let unit = load_unit(0.1 * ambient * plate.area(), plate.is_strip());
     let shown = HoldFrame { hold, ambient, half: 0.5 * plate.length, unit };
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let with_map = plate.width.is_some();
     let parts: &[f32] = if with_map { &PARTS_WITH_MAP } else { &PARTS };
     let charts = (CHARTS * area.height()).max(6.0 * style.row + title + axis);
@@ -62,13 +61,8 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         area.split_top_bottom_at_y(area.bottom() - charts)
     };
     let body = (views.height() - parts.len() as f32 * title - axis).max(40.0);
-    let mut top = views.top();
-    let mut next = |part: f32| {
-        let low = pos2(views.right() - 0.5 * style.row, top + title + part * body);
-        let rect = Rect::from_min_max(pos2(views.left() + gutter, top + title), low);
-        top = rect.bottom();
-        rect
-    };
+    let mut column = Column::of(views, &style);
+    let mut next = |part: f32| column.next(title, part * body);
     let drawing = next(parts[0]);
     let profile_place = next(parts[1]);
     let axes = draw_plate(&painter, &style, drawing, &shown);
@@ -84,7 +78,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let (right, bottom) = (charts.right() - 0.5 * style.row, charts.bottom() - axis);
     let middle = charts.left() + 0.56 * (right - charts.left());
     let place = |left: f32, right: f32, top: f32, bottom: f32| {
-        Rect::from_min_max(pos2(left + gutter, top), pos2(right, bottom.max(top + 8.0)))
+        Rect::from_min_max(pos2(left + style.gutter, top), pos2(right, bottom.max(top + 8.0)))
     };
     let between = 0.5 * (bottom - top - title);
     let left_end = middle - 0.5 * style.row;
@@ -137,15 +131,13 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
     let part = f64::from(1.0 - BELOW - ABOVE);
     let bottom = -highest * f64::from(BELOW) / part;
     let axes = Axes::new(rect, [-shown.half, shown.half], [bottom, bottom + highest / part]);
-    let scale = f64::from(rect.height()) * part / highest;
-    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
+    scale_bar(painter, style, &axes);
     let (name, unit) = shown.unit;
     let force_text = with_known_digits(force / unit, error / unit);
     let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));
     let more = format!("   load ratio {}   mean pressure {} kPa absolute", number(ratio), number(mean_pressure / 1e3));
-    let exaggerated = format!("   vertical {}", times(scale / along));
+    let exaggerated = format!("   vertical {}", times(axes.exaggeration()));
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
     let titles = titles.each_ref().map(String::as_str);
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];

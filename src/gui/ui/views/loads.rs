@@ -1,6 +1,6 @@
 //! Contact pressure and film pressure along the wave, gauge, as in the paper's Fig. 4: line loads over the contact width.
 
-use super::motor_frame::{FirstMotor, MotorFrame};
+use super::frame::Frame;
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
@@ -12,28 +12,24 @@ use egui_plot::{LineStyle, PlotResponse, Span};
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
 /// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
-pub(super) fn draw(
-    ui: &mut Ui,
-    style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
-    shown: &MotorFrame<'_>,
-) -> PlotResponse<()> {
-    let kilo = 1e-3 / shown.motor.contact_width;
+pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<()> {
+    let kilo = 1e-3 / shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
     let mut legend = vec![("contact", contact), ("film", film)];
     legend.extend(style.at_first(shown.first.as_ref()));
     style.title(ui.painter(), rect, "Gauge pressure", &title, &legend);
-    let [low, high] = shown.scales.loads.map(|load| load * kilo);
+    let [low, high] = shown.ranges.loads.map(|load| load * kilo);
     let margin = 0.06 * (high - low).max(1e-3);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];
-    let inset = Inset { name: NAME, rect, gutter, bounds, below: None };
+    let inset = Inset { name: NAME, rect, bounds, below: None };
     inset.show(ui, style, |plot| {
         let [left, right] = shown.followed().map(|x| x * 1e3);
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
         plot.span(column);
         plot.hline(level(0.0, style.palette.quiet, 1.0));
-        if let Some(FirstMotor { recording, motor, lines, .. }) = &shown.first {
+        if let Some(first) = &shown.first {
+            let Frame { recording, of: motor, lines, .. } = &**first;
             for tooth in 0..recording.teeth {
                 for field in [&lines.contact, &lines.film] {
                     let curve = curve(recording, motor, tooth, &field[lines.of(tooth)]);
@@ -43,7 +39,7 @@ pub(super) fn draw(
         }
         for tooth in 0..shown.recording.teeth {
             let nodes = shown.lines.of(tooth);
-            let curve = |field: &[f64]| curve(shown.recording, shown.motor, tooth, &field[nodes.clone()]);
+            let curve = |field: &[f64]| curve(shown.recording, shown.of, tooth, &field[nodes.clone()]);
             let touching = curve(&shown.lines.contact);
             if touching.iter().any(|at| at[1] != 0.0) {
                 let columns: Vec<[f64; 3]> = touching.iter().map(|at| [at[0], at[1], 0.0]).collect();
@@ -52,7 +48,7 @@ pub(super) fn draw(
             }
             plot.line(line(&curve(&shown.lines.film), film, 1.8, LineStyle::Solid));
         }
-        if let Some(x) = shown.cursor {
+        if let Some(x) = shown.view.cursor_x {
             plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
         }
     })

@@ -1,14 +1,15 @@
 //! The pressure map of all teeth.
 
 use super::field::{self, Stamp};
-use super::motor_frame::MotorFrame;
+use super::frame::Frame;
 use crate::gui::derived::format::plain;
 use crate::gui::ui::paint::{Axes, PlotStyle, title_with_bar};
+use crate::problem::Motor;
 use eframe::egui::{Align2, Painter, Rect, Stroke, StrokeKind, Ui, pos2};
 
 /// Draws the map into `rect`, with the colour bar in its title and the values of x below.
-pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) {
-    let range = shown.scales.pressure;
+pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) {
+    let range = shown.ranges.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
     let axes = field::draw(ui, style, painter, rect, shown.recording, "all teeth", stamp);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
@@ -19,7 +20,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, sh
     let [left, right] = shown.followed().map(|x| axes.px(x));
     let outline = Rect::from_x_y_ranges(left..=right, rect.y_range());
     painter.rect_stroke(outline, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
-    axes.cursor(painter, style, shown.cursor);
+    axes.cursor(painter, style, shown.view.cursor_x);
 }
 
 /// The ends of y, and its name between them if there is room.

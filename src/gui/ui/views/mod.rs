@@ -5,18 +5,17 @@
 //! (`ui::chart::Inset`), which are dragged, zoomed and brought back by a double click. Until one is zoomed, all parts of a view share one x axis.
 
 mod field;
+mod frame;
 pub mod history;
 pub mod hold;
 mod loads;
 mod map;
 mod motor;
-mod motor_frame;
 pub mod overlay;
 mod plate;
 mod pointer;
 mod ring;
 pub mod run;
-mod scales;
 mod series;
 pub mod swept;
 mod tooth;

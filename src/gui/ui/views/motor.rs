@@ -1,17 +1,14 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
-use super::motor_frame::{FirstMotor, MotorFrame};
+use super::frame::Frame;
 use super::pointer::{named, read_out, readout_height};
-use super::scales::{FirstRun, scales_of};
 use super::velocity::Place;
 use super::{loads, map, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
-use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{PlotStyle, area};
-use crate::job::SolvedScene;
-use crate::problem::Scenario;
+use crate::gui::ui::paint::PlotStyle;
+use crate::problem::Motor;
 use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, CursorIcon, Pos2, Rect, pos2};
 
@@ -59,54 +56,30 @@ impl Layout {
     }
 }
 
-/// Draws `run` at the view's phase.
-pub(super) fn show(
-    ui: &mut egui::Ui,
-    run: &SolvedScene,
-    within: Option<&Ranges>,
-    first: Option<&FirstRun<'_>>,
-    cx: &DrawContext<'_>,
-) {
-    let recording = &run.solution.recording;
-    let Scenario::Motor(motor) = &run.problem.scenario else { return };
-    let Some(area) = area(ui, recording) else { return };
-    let scales = scales_of(ui, run, within);
-    let place = cx.state.view.place(recording);
-    let lines = Lines::at(recording, place);
-    let shown = MotorFrame {
-        run: (run.number, run.fidelity),
-        recording,
-        motor,
-        scales: &scales,
-        place,
-        cycles: cx.state.view.cycles,
-        underside: lines.underside(recording),
-        lines,
-        tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
-        cursor: cx.state.view.cursor_x,
-        first: first.and_then(FirstMotor::of),
-    };
+/// Draws it into `area`.
+pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: &DrawContext<'_>) {
+    let recording = shown.recording;
+    let underside = shown.lines.underside(recording);
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let layout = Layout::new(area, style.row, gutter, readout_height(&LONGEST, &painter, &style, area.width()));
+    let layout = Layout::new(area, style.row, style.gutter, readout_height(&LONGEST, &painter, &style, area.width()));
 
-    let axes = wave::draw(&painter, &style, layout.wave, &shown);
-    let charted = loads::draw(ui, &style, (layout.loads, gutter), &shown);
-    map::draw(ui, &painter, &style, layout.map, &shown);
+    let axes = wave::draw(&painter, &style, layout.wave, shown, &underside);
+    let charted = loads::draw(ui, &style, layout.loads, shown);
+    map::draw(ui, &painter, &style, layout.map, shown);
     if let Some([rect, profile]) = layout.side {
-        ring::draw(ui, &style, rect, (&shown, &axes), cx);
-        velocity(ui, &style, (profile, gutter), &shown);
+        ring::draw(ui, &style, rect, (shown, &underside, &axes), cx);
+        velocity(ui, &style, profile, shown);
     }
     if let Some(rect) = layout.tooth {
-        let charts = tooth::draw(ui, &style, (rect, gutter), &shown, cx);
+        let charts = tooth::draw(ui, &style, rect, shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
             cx.mark_plot(ui, place, chart);
         }
         cx.mark(ui, "tooth", rect);
     }
-    wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, &shown);
-    read_out(&readout(&shown), &painter, &style, layout.readout);
+    wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, shown);
+    read_out(&readout(shown), &painter, &style, layout.readout);
 
     let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
     let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
@@ -130,10 +103,10 @@ pub(super) fn show(
 }
 
 /// Velocity across the film under the pointer, or else over the middle of the followed tooth.
-fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &MotorFrame<'_>) {
-    let (recording, motor) = (shown.recording, shown.motor);
+fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_, Motor>) {
+    let (recording, motor) = (shown.recording, shown.of);
     let reach = recording.x.last().copied().unwrap_or(0.0);
-    let pointed = shown.cursor.map(|x| sample::tooth_at(x, recording.pitch, recording.teeth));
+    let pointed = shown.view.cursor_x.map(|x| sample::tooth_at(x, recording.pitch, recording.teeth));
     let (tooth, xi) = pointed.filter(|(_, xi)| xi.abs() <= reach).unwrap_or((shown.tooth, 0.0));
     let x = tooth as f64 * recording.pitch + xi;
     let frames = recording.frames.max(1) as f64;
@@ -145,9 +118,8 @@ fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &Mo
         let lines = Lines::at(recording, instant);
         Some(sample::between(&lines.film_thickness[lines.of(tooth)], sample::locate(&recording.x, xi)?))
     };
-    let (run, gas, thickest) = (shown.run, &motor.gas, shown.scales.thickness[1]);
-    let of = Place { run, recording, gas, tooth, xi, walls: &walls, thickness: &thickness, thickest };
-    of.draw(ui, style, place, shown.place, x);
+    let of = Place { shown, gas: &motor.gas, tooth, xi, walls: &walls, thickness: &thickness };
+    of.draw(ui, style, place, x);
 }
 
 /// A row of values, as wide as it takes.
@@ -161,10 +133,10 @@ const LONGEST: [&str; 7] = [
     "p at y = 0 0000 kPa absolute",
 ];
 
-fn readout(shown: &MotorFrame<'_>) -> Vec<String> {
+fn readout(shown: &Frame<'_, Motor>) -> Vec<String> {
     let recording = shown.recording;
     let [left, right] = shown.x_range();
-    let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
+    let Some(x) = shown.view.cursor_x.filter(|x| (left..=right).contains(x)) else {
         return vec!["Point at a view to read its values, click a tooth to follow it".to_owned()];
     };
     let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth);
@@ -176,9 +148,9 @@ fn readout(shown: &MotorFrame<'_>) -> Vec<String> {
     let lines = &shown.lines;
     let at = |field: &[f64]| sample::between(&field[lines.of(tooth)], node);
     let thickness = at(&lines.film_thickness);
-    let width = shown.motor.contact_width;
+    let width = shown.of.contact_width;
     values.push(format!("tooth {tooth}"));
-    values.push(format!("gap {} µm", number((thickness - shown.motor.spacing()).max(0.0) * 1e6)));
+    values.push(format!("gap {} µm", number((thickness - shown.of.spacing()).max(0.0) * 1e6)));
     values.push(format!("film thickness {} µm", number(thickness * 1e6)));
     values.push(format!("contact {} kPa", number(at(&lines.contact) / width / 1e3)));
     values.push(format!("film {} kPa gauge", number(at(&lines.film) / width / 1e3)));

@@ -5,14 +5,14 @@ use super::field::{self, Stamp};
 use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
 use super::series::{Series, Trace};
-use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields, scale_bar, title_with_bar};
+use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Lines};
@@ -27,54 +27,31 @@ const LEAST_MAP: f32 = 1.8;
 const MOST_MAP: f32 = 4.0;
 const PLATE_MAP: f32 = 7.0;
 
-/// A run among others.
-#[derive(Clone, Copy, Debug)]
-pub struct Overlaid<'a> {
+/// A pinned motor or plate at the present instant.
+struct Pinned<'a, T> {
     /// Its number, and scales and curves of its cycle.
-    pub pin: &'a Pin,
-    /// The run.
-    pub run: &'a ComparedRun,
-    /// Its colour.
-    pub colour: Color32,
-}
-
-impl<'a> Overlaid<'a> {
-    /// Its fields, if it has any.
-    fn recording(&self) -> Option<&'a Recording> {
-        let recording = &self.run.solved.as_ref().ok()?.recording;
-        (recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()).then_some(recording)
-    }
-}
-
-/// A motor at the present instant.
-struct MotorNow<'a> {
-    of: Overlaid<'a>,
+    pin: &'a Pin,
+    label: &'a str,
+    colour: Color32,
     recording: &'a Recording,
-    motor: &'a Motor,
+    of: &'a T,
     place: f64,
     lines: Lines,
 }
 
-/// A plate at the present instant.
-struct PlateNow<'a> {
-    of: Overlaid<'a>,
-    recording: &'a Recording,
-    plate: &'a Plate,
-    place: f64,
-}
-
-/// Draws the runs at the view's phase; scrolls if that takes more than there is room for.
-pub fn show(ui: &mut Ui, runs: &[Overlaid<'_>], cx: &DrawContext<'_>) {
+/// Draws the pinned runs at the view's phase; scrolls if that takes more than there is room for.
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (mut motors, mut plates) = (Vec::new(), Vec::new());
-    for run in runs {
-        let Some(recording) = run.recording() else { continue };
-        let place = cx.state.view.place(recording);
-        match &run.run.problem.scenario {
-            Scenario::Motor(motor) => {
-                let lines = Lines::at(recording, place);
-                motors.push(MotorNow { of: *run, recording, motor, place, lines });
-            }
-            Scenario::Plate(plate) => plates.push(PlateNow { of: *run, recording, plate, place }),
+    for (pin, run) in cx.state.pins.pins().iter().zip(cx.state.pins.runs()) {
+        let Ok(recording) = run.solved.as_ref().map(|solution| &solution.recording) else { continue };
+        if !has_fields(recording) {
+            continue;
+        }
+        let (label, colour, place) = (&*run.label, run_colour(pin.slot, cx.state.dark), cx.state.view.place(recording));
+        let lines = Lines::at(recording, place);
+        match &run.problem.scenario {
+            Scenario::Motor(of) => motors.push(Pinned { pin, label, colour, recording, of, place, lines }),
+            Scenario::Plate(of) => plates.push(Pinned { pin, label, colour, recording, of, place, lines }),
         }
     }
     let mixed = !motors.is_empty() && !plates.is_empty();
@@ -142,11 +119,40 @@ impl Along {
     fn on_axis(&self, x: f64) -> f64 {
         if self.alike { x } else { x / self.first }
     }
+
+    /// Tells the other views where on the axis the pointer is, and shows the values of all `runs` there: `of` writes those of one, below `heads`.
+    /// `lengths`: what the axis is in if lengths differ.
+    fn read<T>(
+        &self,
+        (response, x): (Response, Option<f64>),
+        (lengths, heads): (&str, &[&str]),
+        runs: &[Pinned<'_, T>],
+        cx: &DrawContext<'_>,
+        of: impl Fn(&mut Ui, &Pinned<'_, T>, f64),
+    ) {
+        let response = response.on_hover_cursor(CursorIcon::Crosshair);
+        let Some(x) = x else { return };
+        cx.point_at(self.to_metres(x));
+        response.on_hover_ui_at_pointer(|ui| {
+            let (value, unit) = if self.alike { (x * 1e3, "mm") } else { (x, lengths) };
+            ui.label(format!("x {} {unit}", number(value)));
+            egui::Grid::new(lengths).spacing([12.0, 2.0]).show(ui, |ui| {
+                ui.weak("");
+                heads.iter().for_each(|head| drop(ui.weak(*head)));
+                ui.end_row();
+                for run in runs {
+                    ui.colored_label(run.colour, run.label);
+                    of(ui, run, x);
+                    ui.end_row();
+                }
+            });
+        });
+    }
 }
 
-fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext<'_>) {
+fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let count = runs.len() as f32;
     let gap = 4.0;
     let fixed = 5.0 * title + 2.0 * axis + (count - 1.0) * gap + 8.0;
@@ -156,19 +162,13 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
     let body = area.height() - fixed;
     let map = (0.20 * body / count).clamp(LEAST_MAP * style.row, MOST_MAP * style.row);
     let rest = body - count * map;
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let right = area.right() - 0.5 * style.row;
-    let mut top = area.top();
-    let mut next = |before: f32, height: f32| {
-        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + before), pos2(right, top + before + height));
-        top = rect.bottom();
-        rect
-    };
-    let wave = next(title, 0.36 * rest);
-    let contact = next(title, 0.21 * rest);
-    let film = next(title, 0.21 * rest);
-    let maps: Vec<Rect> = (0..runs.len()).map(|i| next(if i == 0 { title } else { gap }, map)).collect();
-    let loads = next(axis + title, 0.22 * rest);
+    let mut column = Column::of(area, &style);
+    let right = column.x.max;
+    let wave = column.next(title, 0.36 * rest);
+    let contact = column.next(title, 0.21 * rest);
+    let film = column.next(title, 0.21 * rest);
+    let maps: Vec<Rect> = (0..runs.len()).map(|i| column.next(if i == 0 { title } else { gap }, map)).collect();
+    let loads = column.next(axis + title, 0.22 * rest);
 
     let along = Along::of(runs.iter().map(|run| run.recording.length));
     let ends = runs.iter().map(|run| {
@@ -180,12 +180,10 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
 
     let axes = draw_surfaces(&painter, &style, wave, runs, x, &along, cursor);
     let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
-    let charts = [0, 1].map(|field| {
-        let place = ([contact, film][field], gutter);
-        draw_pressure(ui, &style, place, runs, (x, &along, cursor), names[field], field)
-    });
+    let charts = [0, 1]
+        .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
 
-    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
+    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
     let titles =
         ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
     title_with_bar(&painter, &style, maps[0], "Pressure map", titles, range);
@@ -193,11 +191,11 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         let metre = along.metre(run.recording.length);
         // In metres of this run: its own teeth are where its own x says.
         let x = x.map(|x| x / metre);
-        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
         let axes = field::draw(ui, &style, &painter, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
-        key_beside(&painter, *rect, run.of.colour);
+        key_beside(&painter, *rect, run.colour);
         axes.cursor(&painter, &style, cursor.map(|x| x / metre));
-        map_name(ui, *rect, &run.of.run.label, range);
+        map_name(ui, *rect, run.label, range);
     }
     if let Some(last) = maps.last() {
         let name = if along.alike { "x, mm" } else { "x/λ" };
@@ -206,15 +204,15 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let middle = 0.5 * (area.left() + right);
-    let halves = [(area.left() + gutter, middle - 0.4 * style.row), (middle + 0.4 * style.row + gutter, right)];
+    let halves = [(column.x.min, middle - 0.4 * style.row), (middle + 0.4 * style.row + style.gutter, right)];
     type Of = fn(&RunCurves) -> &Curve;
     let curves: [(&str, Of); 2] = [
         ("Film load on one wave, N", |curves| &curves.film),
         ("Contact load on one wave, N", |curves| &curves.contact),
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
-        let place = (Rect::from_x_y_ranges(left..=right, loads.y_range()), gutter);
-        let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(&run.of.pin.curves))).collect();
+        let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
+        let kept: Vec<_> = runs.iter().map(|run| (run.colour, of(&run.pin.curves))).collect();
         over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
 
@@ -227,12 +225,10 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         (response, x)
     });
     let on_a_term = style.explain(ui);
+    let heads = ["gap, nm", "contact, kPa", "film, kPa gauge"];
     for (response, x) in painted.into_iter().chain(charts.map(|chart| along.pointed(chart))) {
-        let response = response.on_hover_cursor(CursorIcon::Crosshair);
-        if let Some(x) = x.filter(|_| !on_a_term) {
-            cx.point_at(along.to_metres(x));
-            response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
-        }
+        let at = (response, x.filter(|_| !on_a_term));
+        along.read(at, ("λ", &heads), runs, cx, |ui, run, x| values(ui, run, x / along.metre(run.recording.length)));
     }
 }
 
@@ -260,7 +256,7 @@ fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
 fn over_cycle(
     ui: &mut Ui,
     style: &PlotStyle,
-    place: (Rect, f32),
+    place: Rect,
     title: &str,
     curves: &[(Color32, &Curve)],
     (unit, period): (f64, f64),
@@ -281,25 +277,24 @@ fn draw_surfaces(
     painter: &Painter,
     style: &PlotStyle,
     rect: Rect,
-    runs: &[MotorNow<'_>],
+    runs: &[Pinned<'_, Motor>],
     x: [f64; 2],
     along: &Along,
     cursor: Option<f64>,
 ) -> Axes {
     let heights = runs.iter().map(|run| {
-        let scales = &run.of.pin.curves.scales;
-        [scales.stator[0], (scales.rotor[1] - run.motor.spacing()).max(scales.stator[1])]
+        let scales = &run.pin.curves.scales.ranges;
+        [scales.stator[0], (scales.rotor[1] - run.of.spacing()).max(scales.stator[1])]
     });
     let [low, high] = common(heights);
     let margin = 0.08 * (high - low).max(1e-9);
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
-    let scale = f64::from(rect.height()) / (axes.y[1] - axes.y[0]);
-    let across = f64::from(rect.width()) / (axes.x[1] - axes.x[0]) / if along.alike { 1.0 } else { along.first };
+    let vertical = times(axes.exaggeration() * along.to_metres(1.0));
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
+    scale_bar(painter, style, &axes);
     let titles = [
-        format!("Rotor undersides (thick) over tooth tops (thin), vertical {}", times(scale / across)),
-        format!("Rotor (thick), teeth (thin), {}", times(scale / across)),
+        format!("Rotor undersides (thick) over tooth tops (thin), vertical {vertical}"),
+        format!("Rotor (thick), teeth (thin), {vertical}"),
         "Rotor and teeth".to_owned(),
     ];
     style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
@@ -312,11 +307,11 @@ fn draw_surfaces(
         };
         for tooth in 0..run.recording.teeth {
             let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
+            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.colour));
         }
         let underside = run.lines.underside(run.recording);
         let underside = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
-        painter.line(underside, Stroke::new(2.2, run.of.colour));
+        painter.line(underside, Stroke::new(2.2, run.colour));
     }
     axes.cursor(painter, style, cursor);
     axes
@@ -325,20 +320,20 @@ fn draw_surfaces(
 fn draw_pressure(
     ui: &mut Ui,
     style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
-    runs: &[MotorNow<'_>],
+    rect: Rect,
+    runs: &[Pinned<'_, Motor>],
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
     field: usize,
 ) -> PlotResponse<()> {
-    let kilo = |run: &MotorNow<'_>| 1e-3 / run.motor.contact_width;
-    let ranges = runs.iter().map(|run| run.of.pin.curves.lines[field].map(|load| load * kilo(run)));
+    let kilo = |run: &Pinned<'_, Motor>| 1e-3 / run.of.contact_width;
+    let ranges = runs.iter().map(|run| run.pin.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = common(ranges.chain([[0.0, 0.0]]));
     let margin = 0.06 * (high - low).max(1e-3);
     let written = along.written();
     style.title(ui.painter(), rect, word, &[name], &[]);
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
-    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
         for run in runs {
             let metre = along.metre(run.recording.length) * written;
@@ -352,8 +347,8 @@ fn draw_pressure(
                 let loads = run.recording.x.iter().zip(values);
                 let points: Vec<_> = loads.map(|(xi, load)| [(middle + xi) * metre, load * kilo(run)]).collect();
                 let columns: Vec<_> = points.iter().map(|[x, load]| [*x, *load, 0.0]).collect();
-                plot.add(between(&columns, run.of.colour.gamma_multiply(0.16)));
-                plot.line(line(&points, run.of.colour, 1.6, LineStyle::Solid));
+                plot.add(between(&columns, run.colour.gamma_multiply(0.16)));
+                plot.line(line(&points, run.colour, 1.6, LineStyle::Solid));
             }
         }
         if let Some(x) = cursor {
@@ -362,39 +357,22 @@ fn draw_pressure(
     })
 }
 
-/// Values of every motor at x.
-fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
-    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} λ", number(x)) };
-    ui.label(place);
-    egui::Grid::new("values of motors").spacing([12.0, 2.0]).show(ui, |ui| {
-        for head in ["", "gap, nm", "contact, kPa", "film, kPa gauge"] {
-            ui.weak(head);
-        }
-        ui.end_row();
-        for run in runs {
-            let (tooth, xi) =
-                sample::tooth_at(x / along.metre(run.recording.length), run.recording.pitch, run.recording.teeth);
-            ui.colored_label(run.of.colour, &run.of.run.label);
-            match sample::locate(&run.recording.x, xi) {
-                None => drop(ui.weak("groove")),
-                Some(node) => {
-                    let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
-                    let gap = at(&run.lines.film_thickness) - run.motor.spacing();
-                    ui.label(number(gap.max(0.0) * 1e9));
-                    for field in [&run.lines.contact, &run.lines.film] {
-                        ui.label(number(at(field) / run.motor.contact_width / 1e3));
-                    }
-                }
-            }
-            ui.end_row();
-        }
-    });
+/// Values of a motor at x \[m\].
+fn values(ui: &mut Ui, run: &Pinned<'_, Motor>, x: f64) {
+    let (tooth, xi) = sample::tooth_at(x, run.recording.pitch, run.recording.teeth);
+    let Some(node) = sample::locate(&run.recording.x, xi) else { return drop(ui.weak("groove")) };
+    let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
+    let gap = at(&run.lines.film_thickness) - run.of.spacing();
+    ui.label(number(gap.max(0.0) * 1e9));
+    for field in [&run.lines.contact, &run.lines.film] {
+        ui.label(number(at(field) / run.of.contact_width / 1e3));
+    }
 }
 
-fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext<'_>) {
+fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
-    let with_map: Vec<&PlateNow<'_>> = runs.iter().filter(|run| run.plate.width.is_some()).collect();
+    let (title, axis) = (style.title, style.axis);
+    let with_map: Vec<&Pinned<'_, Plate>> = runs.iter().filter(|run| run.of.width.is_some()).collect();
     let columns = with_map.len().clamp(1, 3);
     let rows = with_map.len().div_ceil(columns) as f32;
     let map = PLATE_MAP * style.row;
@@ -402,17 +380,16 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let area = take(ui, height.max(fixed + 3.2 * LEAST_PLOT * style.row));
     let painter = ui.painter_at(area);
     let body = area.height() - fixed;
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let right = area.right() - 0.5 * style.row;
-    let across = |top: f32, height: f32| Rect::from_min_max(pos2(area.left() + gutter, top), pos2(right, top + height));
+    let mut column = Column::of(area, &style);
+    let (start, right) = (column.x.min, column.x.max);
 
     // Pressure along the plates.
-    let chart = across(area.top() + title, 0.52 * body);
-    let along = Along::of(runs.iter().map(|run| run.plate.length));
-    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
+    let chart = column.next(title, 0.52 * body);
+    let along = Along::of(runs.iter().map(|run| run.of.length));
+    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.of.length * along.metre(run.of.length))));
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
-    let range = common(runs.iter().map(|run| run.of.pin.curves.scales.pressure));
-    let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
+    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
+    let ambient = common(runs.iter().map(|run| [run.of.gas.ambient_pressure; 2]));
     let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
@@ -421,92 +398,67 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
     let name = "Plates along their length: point to read values";
     let below = Some(if along.alike { "x, mm" } else { "x/length" });
-    let charted = Inset { name, rect: chart, gutter, bounds, below }.show(ui, &style, |plot| {
+    let charted = Inset { name, rect: chart, bounds, below }.show(ui, &style, |plot| {
         for run in runs {
-            plot.hline(level(1e-3 * run.plate.gas.ambient_pressure, style.palette.quiet, 1.0));
-            let to_axis = 1e-3 * along.metre(run.plate.length) * written;
+            plot.hline(level(1e-3 * run.of.gas.ambient_pressure, style.palette.quiet, 1.0));
+            let to_axis = 1e-3 * along.metre(run.of.length) * written;
             let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
-            plot.line(line(&points, run.of.colour, 1.8, LineStyle::Solid));
+            plot.line(line(&points, run.colour, 1.8, LineStyle::Solid));
         }
         if let Some(x) = cursor {
             plot.vline(upright(x * written, style.palette.accent, 1.0));
         }
     });
-    let mut top = chart.bottom() + axis;
+    column.bottom += axis;
 
     // Maps, of plates that have a width.
+    let mut row = chart;
     for (slot, run) in with_map.iter().enumerate() {
-        if slot == 0 {
-            top += title;
-            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
-            title_with_bar(&painter, &style, across(top, map), "Pressure map", titles, range);
-        } else if slot.is_multiple_of(columns) {
-            top += map + 6.0;
+        if slot.is_multiple_of(columns) {
+            row = column.next(if slot == 0 { title } else { 6.0 }, map);
         }
-        let column = (slot % columns) as f32;
-        let step = (right - area.left() - gutter) / columns as f32;
-        let left = area.left() + gutter + column * step;
-        let rect =
-            Rect::from_min_max(pos2(left + if column > 0.0 { 16.0 } else { 0.0 }, top), pos2(left + step, top + map));
-        let x = [-0.5, 0.5].map(|x| x * run.plate.length);
-        let stamp = Stamp { run: (run.of.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
+        if slot == 0 {
+            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
+            title_with_bar(&painter, &style, row, "Pressure map", titles, range);
+        }
+        let (beside, step) = ((slot % columns) as f32, (right - start) / columns as f32);
+        let left = start + beside * step;
+        let rect = row.with_min_x(left + if beside > 0.0 { 16.0 } else { 0.0 }).with_max_x(left + step);
+        let x = [-0.5, 0.5].map(|x| x * run.of.length);
+        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
         field::draw(ui, &style, &painter, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
-        key_beside(&painter, rect, run.of.colour);
-        map_name(ui, rect, &run.of.run.label, range);
-    }
-    if !with_map.is_empty() {
-        top += map;
+        key_beside(&painter, rect, run.colour);
+        map_name(ui, rect, run.label, range);
     }
 
     // Over the cycle, and against the gap.
-    let (plots, bottom) = (top + title, area.bottom() - axis);
+    let (plots, bottom) = (column.bottom + title, area.bottom() - axis);
     let middle = 0.5 * (area.left() + right);
-    let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 2.2 * style.row, bottom));
-    let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + gutter, plots), pos2(right, bottom));
+    let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
+    let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.pin.curves.film)).collect();
+    let kept: Vec<_> = runs.iter().map(|run| (run.colour, &run.pin.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
-    over_cycle(ui, &style, (left, gutter), title, &kept, (1e3, period), cx);
-    draw_loops(ui, &style, (right, gutter), runs, cx.state.view.phase);
+    over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
+    draw_loops(ui, &style, right, runs, cx.state.view.phase);
 
     let on_a_term = style.explain(ui);
     let (response, x) = along.pointed(charted);
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = x.filter(|_| !on_a_term) {
-        cx.point_at(along.to_metres(x));
-        response.on_hover_ui_at_pointer(|ui| plate_values(ui, runs, x, &along));
-    }
-}
-
-/// Values of every plate at x.
-fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
-    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} lengths", number(x)) };
-    ui.label(place);
-    egui::Grid::new("values of plates").spacing([12.0, 2.0]).show(ui, |ui| {
-        for head in ["", "p, kPa absolute"] {
-            ui.weak(head);
-        }
-        ui.end_row();
-        for run in runs {
-            ui.colored_label(run.of.colour, &run.of.run.label);
-            let x = x / along.metre(run.plate.length);
-            let pressure = sample::middle_pressure(run.recording, 0, x, run.place);
-            ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
-            ui.end_row();
-        }
+    let at = (response, x.filter(|_| !on_a_term));
+    along.read(at, ("lengths", &["p, kPa absolute"]), runs, cx, |ui, run, x| {
+        let pressure = sample::middle_pressure(run.recording, 0, x / along.metre(run.of.length), run.place);
+        ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
     });
 }
 
 /// Mean gauge pressure against the gap over its mean.
-fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: (Rect, f32), runs: &[PlateNow<'_>], phase: f64) {
-    let loads = common(runs.iter().map(|run| run.of.pin.curves.film.range()).chain([[0.0, 0.0]]));
-    let gaps = common(runs.iter().map(|run| run.of.pin.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
+fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[Pinned<'_, Plate>], phase: f64) {
+    let loads = common(runs.iter().map(|run| run.pin.curves.film.range()).chain([[0.0, 0.0]]));
+    let gaps = common(runs.iter().map(|run| run.pin.curves.scales.ranges.thickness.map(|gap| gap / run.of.mean_gap)));
     let kept = runs.iter().filter_map(|run| {
-        let (curves, _) = run.of.pin.curves.scales.tooth(0)?;
-        let at = move |phase: f64| {
-            [curves.thickness.at(phase) / run.plate.mean_gap, 1e-3 * run.of.pin.curves.film.at(phase)]
-        };
-        Some((run.of.colour, Box::new(at) as _))
+        let (curves, _) = run.pin.curves.scales.tooth(0)?;
+        let at = move |phase: f64| [curves.thickness.at(phase) / run.of.mean_gap, 1e-3 * run.pin.curves.film.at(phase)];
+        Some((run.colour, Box::new(at) as _))
     });
     let kept: Vec<Loop<'_>> = kept.collect();
     show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), (&kept, &[]), phase);

@@ -1,96 +1,59 @@
 //! The plate: gap, pressure profile and map, load over the cycle, pressure–gap loop.
 
 use super::field::{self, Stamp};
+use super::frame::Frame;
 use super::map::y_labels;
 use super::pointer::{named, read_out, readout_height};
-use super::scales::{FirstRun, scales_of};
 use super::series::{Series, Trace};
 use super::velocity::Place;
-use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{load_unit, number, times};
-use crate::gui::derived::scales::{Curve, Ranges, Scales};
+use crate::gui::derived::scales::Curve;
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
-use crate::job::SolvedScene;
-use crate::problem::{Plate, Scenario};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar, title_with_bar};
+use crate::problem::Plate;
 use crate::recording::Recording;
-use crate::recording::sample::{self, Lines};
+use crate::recording::sample;
 use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
 /// Samples of a pressure-gap loop.
 const LOOP_SAMPLES: u32 = 180;
 
-/// A plate at one instant: what its views draw.
-struct PlateFrame<'a> {
-    recording: &'a Recording,
-    plate: &'a Plate,
-    scales: &'a Scales,
-    /// The instant, in frames.
-    place: f64,
-    phase: f64,
-    lines: Lines,
-    cursor: Option<f64>,
-    first: Option<&'a FirstRun<'a>>,
-}
+type PlateFrame<'a> = Frame<'a, Plate>;
 
 impl PlateFrame<'_> {
-    fn x_range(&self) -> [f64; 2] {
-        [-0.5 * self.recording.length, 0.5 * self.recording.length]
-    }
-
     fn thickness(&self) -> f64 {
         self.lines.film_thickness[0]
     }
 }
 
-/// Draws `run` at the view's phase.
-pub(super) fn show(
-    ui: &mut egui::Ui,
-    run: &SolvedScene,
-    within: Option<&Ranges>,
-    first: Option<&FirstRun<'_>>,
-    cx: &DrawContext<'_>,
-) {
-    let recording = &run.solution.recording;
-    let Scenario::Plate(plate) = &run.problem.scenario else { return };
-    let Some(area) = area(ui, recording) else { return };
-    let scales = scales_of(ui, run, within);
-    let place = cx.state.view.place(recording);
-    let phase = place / recording.frames.max(1) as f64;
-    let lines = Lines::at(recording, place);
-    let cursor = cx.state.view.cursor_x;
-    let shown = PlateFrame { recording, plate, scales: &scales, place, phase, lines, cursor, first };
+/// Draws it into `area`.
+pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
-    let gutter = style.width(&painter, "−0.000") + 6.0;
 
-    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let (title, axis) = (style.title, style.axis);
     let reserved = readout_height(&LONGEST, &painter, &style, area.width());
-    let with_map = plate.width.is_some();
+    let with_map = shown.of.width.is_some();
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
     let parts = if with_map { [0.23, 0.25, 0.20] } else { [0.28, 0.38, 0.0] };
-    let right = area.right() - 0.5 * style.row;
-    let mut top = area.top();
-    let mut next = |part: f32| {
-        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + title), pos2(right, top + title + part * body));
-        top = rect.bottom();
-        rect
-    };
+    let mut column = Column::of(area, &style);
+    let right = column.x.max;
+    let mut next = |part: f32| column.next(title, part * body);
     let (wall, profile) = (next(parts[0]), next(parts[1]));
-    let axes = draw_gap(&painter, &style, wall, &shown);
-    let charted = draw_profile(ui, &style, (profile, gutter), &shown);
+    let axes = draw_gap(&painter, &style, wall, shown);
+    let charted = draw_profile(ui, &style, profile, shown);
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
-        let range = scales.pressure;
-        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: shown.x_range(), range };
-        let axes = field::draw(ui, &style, &painter, last, recording, "plate", stamp);
+        let range = shown.ranges.pressure;
+        let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
+        let axes = field::draw(ui, &style, &painter, last, shown.recording, "plate", stamp);
         title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &style, &axes);
-        axes.cursor(&painter, &style, shown.cursor);
+        axes.cursor(&painter, &style, shown.view.cursor_x);
     }
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
 
@@ -101,17 +64,17 @@ pub(super) fn show(
     let plots: Vec<Rect> = (0..count)
         .map(|i| {
             let left = area.left() + i as f32 * wide;
-            let corner = pos2(left + gutter, last.bottom() + axis + title + 2.0);
+            let corner = pos2(left + style.gutter, last.bottom() + axis + title + 2.0);
             Rect::from_min_max(corner, pos2(left + wide - between, bottom))
         })
         .collect();
-    draw_load(ui, &style, (plots[0], gutter), &shown, cx);
-    draw_loop(ui, &style, (plots[1], gutter), &shown);
+    draw_load(ui, &style, plots[0], shown, cx);
+    draw_loop(ui, &style, plots[1], shown);
     if let Some(rect) = plots.get(2) {
-        draw_velocity(ui, &style, (*rect, gutter), &shown, (run.number, run.fidelity));
+        draw_velocity(ui, &style, *rect, shown);
     }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
-    read_out(&readout(&shown), &painter, &style, place);
+    read_out(&readout(shown), &painter, &style, place);
 
     let wall_response = named(ui, wall, "Plate along its length: point to read values");
     let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
@@ -134,16 +97,14 @@ pub(super) fn show(
 
 /// The wall, the plate above it, the film between them.
 fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
-    let highest = shown.scales.thickness[1].max(1e-9);
+    let highest = shown.ranges.thickness[1].max(1e-9);
     let (below, above) = (0.16, 0.26);
     let part = 1.0 - below - above;
     let bottom = -highest * below / part;
     let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
-    let scale = f64::from(rect.height()) * part / highest;
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
-    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
-    let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
+    scale_bar(painter, style, &axes);
+    let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(axes.exaggeration()));
     let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
     style.title(painter, rect, "Gap", &[&title, &short], &legend);
@@ -153,7 +114,7 @@ fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame
     let film = Rect::from_x_y_ranges(rect.x_range(), plate..=wall);
     painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
     wall_and_plate(painter, style, rect, [wall, plate], 0.8 * above as f32 * rect.height());
-    axes.cursor(painter, style, shown.cursor);
+    axes.cursor(painter, style, shown.view.cursor_x);
     axes
 }
 
@@ -174,30 +135,25 @@ pub(super) fn wall_and_plate(
 }
 
 /// Pressure along x at y = 0, over x \[mm\].
-fn draw_profile(
-    ui: &mut egui::Ui,
-    style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
-    shown: &PlateFrame<'_>,
-) -> PlotResponse<()> {
-    let ambient = shown.plate.gas.ambient_pressure;
-    let [low, high] = shown.scales.pressure;
+fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<()> {
+    let ambient = shown.of.gas.ambient_pressure;
+    let [low, high] = shown.ranges.pressure;
     let (low, high) = (low.min(ambient), high.max(ambient));
     let margin = 0.06 * (high - low);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin].map(|pressure| pressure * 1e-3)];
-    let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
+    let title = if shown.of.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
     let (film, quiet) = (style.palette.film, style.palette.quiet);
     // Both are grey; what the plate began with is the one to be told apart.
-    let behind = style.at_first(shown.first).unwrap_or(("ambient", quiet));
+    let behind = style.at_first(shown.first.as_ref()).unwrap_or(("ambient", quiet));
     style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), behind]);
     let name = "Pressure along the plate: point to read values";
-    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, quiet, 1.0));
-        if let Some(first) = shown.first {
+        if let Some(first) = &shown.first {
             plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
         }
         plot.line(line(&profile(shown.recording, shown.place), film, 1.8, LineStyle::Solid));
-        if let Some(x) = shown.cursor {
+        if let Some(x) = shown.view.cursor_x {
             plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
         }
     })
@@ -210,13 +166,13 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
     mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect()
 }
 
-fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
-    let [low, high] = shown.scales.tooth_load;
-    let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
+fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
+    let [low, high] = shown.ranges.tooth_load;
+    let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
-    let first = shown.first.and_then(|first| first.scales.tooth(0));
+    let first = shown.first.as_ref().and_then(|first| first.scales.tooth(0));
     let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, true));
     let legend = style.at_first(first.as_ref());
     let present = trace(curve, lag, style.palette.film, false);
@@ -229,48 +185,36 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
         range: [low, high],
         unit,
         period: shown.recording.period,
-        phase: shown.phase,
+        phase: shown.phase(),
     };
     series.show(ui, style, place, cx);
 }
 
 /// Velocity across the film under the pointer, or else half-way between the middle and the end of the plate.
-fn draw_velocity(
-    ui: &mut egui::Ui,
-    style: &PlotStyle,
-    place: (Rect, f32),
-    shown: &PlateFrame<'_>,
-    run: (u64, Fidelity),
-) {
+fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>) {
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
-    let recording = shown.recording;
     let [left, right] = shown.x_range();
-    let xi = shown.cursor.unwrap_or(0.5 * right).clamp(left, right);
-    let frames = recording.frames.max(1) as f64;
+    let xi = shown.view.cursor_x.unwrap_or(0.5 * right).clamp(left, right);
+    let frames = shown.recording.frames.max(1) as f64;
     let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
-    let (gas, thickest) = (&shown.plate.gas, shown.scales.thickness[1]);
-    let of = Place { run, recording, gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness, thickest };
-    of.draw(ui, style, place, shown.place, xi);
+    let of = Place { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
+    of.draw(ui, style, place, xi);
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.
-fn draw_loop(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>) {
-    let area = shown.plate.area();
-    let Some((curves, _)) = shown.scales.tooth(0) else { return };
-    let at = |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
-    let ranges = [shown.scales.thickness.map(|gap| gap * 1e6), shown.scales.tooth_load.map(|load| load / area * 1e-3)];
-    let mut loops: Vec<Loop<'_>> = Vec::new();
-    let mut legend = None;
-    if let Some((Scenario::Plate(plate), (curves, _))) =
-        shown.first.and_then(|first| Some((first.scenario, first.scales.tooth(0)?)))
-    {
-        let area = plate.area();
+fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a PlateFrame<'a>) {
+    let area = shown.of.area();
+    let ranges = [shown.ranges.thickness.map(|gap| gap * 1e6), shown.ranges.tooth_load.map(|load| load / area * 1e-3)];
+    let of = |shown: &'a PlateFrame<'a>, colour: Color32| -> Option<Loop<'a>> {
+        let ((curves, _), area) = (shown.scales.tooth(0)?, shown.of.area());
         let at = move |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
-        loops.push((style.palette.quiet, Box::new(at)));
-        legend = style.at_first(shown.first);
-    }
-    loops.push((style.palette.film, Box::new(at)));
-    show_loops(ui, style, place, ("gap, µm", ranges), (&loops, legend.as_slice()), shown.phase);
+        Some((colour, Box::new(at)))
+    };
+    let first = shown.first.as_deref().and_then(|first| of(first, style.palette.quiet));
+    let legend = style.at_first(first.as_ref());
+    let Some(present) = of(shown, style.palette.film) else { return };
+    let loops: Vec<Loop<'_>> = first.into_iter().chain([present]).collect();
+    show_loops(ui, style, place, ("gap, µm", ranges), (&loops, legend.as_slice()), shown.phase());
 }
 
 /// A curve over the phase, and its colour.
@@ -281,7 +225,7 @@ pub(super) type Loop<'a> = (Color32, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
 pub(super) fn show_loops(
     ui: &mut egui::Ui,
     style: &PlotStyle,
-    (rect, gutter): (Rect, f32),
+    rect: Rect,
     (along, ranges): (&str, [[f64; 2]; 2]),
     (loops, legend): (&[Loop<'_>], &[(&str, Color32)]),
     phase: f64,
@@ -290,7 +234,7 @@ pub(super) fn show_loops(
     let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
     style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
-    Inset { name, rect, gutter, bounds, below: Some(along) }.show(ui, style, |plot| {
+    Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
         for (colour, at) in loops {
             let points: Vec<_> = (0..=LOOP_SAMPLES).map(|i| at(f64::from(i) / f64::from(LOOP_SAMPLES))).collect();
@@ -304,18 +248,18 @@ const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 
 
 fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     let [left, right] = shown.x_range();
-    let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
+    let Some(x) = shown.view.cursor_x.filter(|x| (left..=right).contains(x)) else {
         return vec!["Point at a view to read its values".to_owned()];
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
-        let place = if shown.plate.width.is_some() { "p at y = 0" } else { "p" };
+        let place = if shown.of.width.is_some() { "p at y = 0" } else { "p" };
         values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
     }
     if let Some((curves, lag)) = shown.scales.tooth(0) {
-        let load = curves.film.at(shown.phase + lag);
-        let [low, high] = shown.scales.tooth_load;
-        let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
+        let load = curves.film.at(shown.phase() + lag);
+        let [low, high] = shown.ranges.tooth_load;
+        let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
         values.push(format!("load {} {name}", number(load / unit)));
     }
     values

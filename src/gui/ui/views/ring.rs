@@ -1,7 +1,7 @@
 //! The whole ring beside the unrolled wave, on its scale of heights and with the colours of the pressure maps: all waves run round, and it is
 //! turned with the mouse or, once it has the keyboard, with the arrow keys. Where things are is in `derived::ring`.
 
-use super::motor_frame::MotorFrame;
+use super::frame::Frame;
 use super::wave::TOOTH;
 use crate::gui::command::Command;
 use crate::gui::derived::format::times;
@@ -10,6 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::describe;
 use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
 use crate::gui::ui::theme;
+use crate::problem::Motor;
 use eframe::egui::epaint::{Mesh, Shape};
 use eframe::egui::{
     self, CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
@@ -29,17 +30,17 @@ pub(super) fn draw(
     ui: &Ui,
     style: &PlotStyle,
     rect: Rect,
-    (shown, axes): (&MotorFrame<'_>, &Axes),
+    (shown, underside, axes): (&Frame<'_, Motor>, &[[f64; 2]], &Axes),
     cx: &DrawContext<'_>,
 ) {
     let orbit = cx.state.view.orbit;
     let ring = Ring {
-        motor: shown.motor,
+        motor: shown.of,
         recording: shown.recording,
         place: shown.place,
-        cycles: shown.cycles,
+        cycles: shown.view.cycles,
         lines: &shown.lines,
-        underside: &shown.underside,
+        underside,
         heights: axes.y,
         tooth_height: f64::from(TOOTH) * (axes.y[1] - axes.y[0]),
         exaggeration: axes.exaggeration(),
@@ -51,7 +52,7 @@ pub(super) fn draw(
     style.title(painter, rect, "Ring", &[&title, "Ring"], &[]);
     let scale = 0.48 * f64::from(rect.width().min(rect.height())) / ring.reach();
     let faces = ring.faces(orbit);
-    painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.scales.pressure)));
+    painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.ranges.pressure)));
 
     let response = ui.interact(rect, ui.scope_id().with("ring"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, NAME));

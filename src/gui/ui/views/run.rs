@@ -1,32 +1,53 @@
 //! One run in the middle of the window.
 
-use super::scales::{FirstRun, in_common};
+use super::frame::Frame;
 use super::{motor, plate};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::area;
 use crate::job::SolvedScene;
-use crate::problem::Scenario;
+use crate::problem::{Motor, Plate, Scenario};
 use eframe::egui::Ui;
 
-/// Draws `run` at the view's phase; the axes have the ranges `within`, if it is one cycle of several.
-pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
-    draw(ui, run, within, None, cx);
-}
-
-/// Draws `run` at the view's phase, and behind it the run that it is compared with, on one scale.
-pub fn show_compared(ui: &mut Ui, run: &SolvedScene, first: Option<&SolvedScene>, cx: &DrawContext<'_>) {
-    let plate = |run: &SolvedScene| matches!(run.problem.scenario, Scenario::Plate(_));
-    let first = first.filter(|first| plate(first) == plate(run) && first.number != run.number);
-    let within = first.map(|first| in_common(ui, run, first));
-    let first = first.map(|first| FirstRun::new(ui, first, &cx.state.view));
-    draw(ui, run, within.as_ref(), first.as_ref(), cx);
-}
-
-fn draw(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, first: Option<&FirstRun<'_>>, cx: &DrawContext<'_>) {
-    match run.problem.scenario {
-        Scenario::Motor(_) => motor::show(ui, run, within, first, cx),
-        Scenario::Plate(_) => plate::show(ui, run, within, first, cx),
+/// Draws `run` at the view's phase, and behind it `first`, a run that it is compared with, on one scale; the axes have the ranges `within`, if it
+/// is one cycle of several.
+pub fn show(
+    ui: &mut Ui,
+    run: &SolvedScene,
+    within: Option<&Ranges>,
+    first: Option<&SolvedScene>,
+    cx: &DrawContext<'_>,
+) {
+    let Some(area) = area(ui, &run.solution.recording) else { return };
+    let first = first.filter(|first| first.number != run.number);
+    if let Some(shown) = frame(ui, run, within, first, motor_of, cx) {
+        motor::show(ui, area, &shown, cx);
+    } else if let Some(shown) = frame(ui, run, within, first, plate_of, cx) {
+        plate::show(ui, area, &shown, cx);
     }
+}
+
+/// What the views draw of `run`, if it is of what `pick` picks.
+fn frame<'a, T>(
+    ui: &Ui,
+    run: &'a SolvedScene,
+    within: Option<&Ranges>,
+    first: Option<&'a SolvedScene>,
+    pick: fn(&Scenario) -> Option<&T>,
+    cx: &DrawContext<'a>,
+) -> Option<Frame<'a, T>> {
+    let view = &cx.state.view;
+    let first = first.and_then(|first| Frame::of(ui, "scales of the first run", first, pick, view));
+    let shown = Frame::of(ui, "scales", run, pick, view)?.compared_with(first);
+    Some(Frame { ranges: within.copied().unwrap_or(shown.ranges), ..shown })
+}
+
+fn motor_of(scenario: &Scenario) -> Option<&Motor> {
+    if let Scenario::Motor(motor) = scenario { Some(motor) } else { None }
+}
+
+fn plate_of(scenario: &Scenario) -> Option<&Plate> {
+    if let Scenario::Plate(plate) = scenario { Some(plate) } else { None }
 }
 
 #[cfg(test)]
@@ -36,6 +57,7 @@ mod tests {
     use crate::fidelity::Fidelity;
     use crate::gui::command::Command;
     use crate::gui::state::document::Document;
+    use crate::gui::state::startup::as_solved;
     use crate::gui::state::view::View;
     use crate::gui::state::window::State;
     use crate::gui::ui::theme;
@@ -55,18 +77,7 @@ mod tests {
         let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
-        let (validity, history) = (Vec::new(), Vec::new());
-        SolvedScene {
-            number: 1,
-            scene,
-            problem,
-            fidelity: Fidelity::Draft,
-            solution,
-            validity,
-            wall_s: 0.0,
-            warm: false,
-            history,
-        }
+        as_solved(1, scene, problem, Fidelity::Draft, solution.outcome, solution.recording)
     }
 
     /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
@@ -76,7 +87,7 @@ mod tests {
             |ui, (state, commands): &mut (State, Vec<Command>)| {
                 theme::install_fonts(ui.ctx());
                 let cx = DrawContext::new(state, Instant::now());
-                show(ui, run, None, &cx);
+                show(ui, run, None, None, &cx);
                 for command in cx.into_commands() {
                     match command {
                         Command::Hover(x) => state.view.cursor_x = x,

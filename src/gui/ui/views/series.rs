@@ -44,7 +44,7 @@ pub(super) struct Series<'a> {
 impl Series<'_> {
     /// Draws the chart into `rect`, its title above, the time below and numbers in the gutter left of it. A click, or the line
     /// when it is dragged, chooses the phase.
-    pub(super) fn show(&self, ui: &mut Ui, style: &PlotStyle, (rect, gutter): (Rect, f32), cx: &DrawContext<'_>) {
+    pub(super) fn show(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, cx: &DrawContext<'_>) {
         // Of nothing at all the unit is the scale.
         let [low, high] = if self.range == [0.0; 2] { [-0.5, 0.5] } else { self.range.map(|end| end / self.unit) };
         let margin = 0.08 * (high - low);
@@ -56,7 +56,7 @@ impl Series<'_> {
         style.title(ui.painter(), rect, self.word, self.titles, self.legend);
         let name = format!("{}: click to jump there", self.name);
         let bounds = [[0.0, scale], [low - margin, high + margin]];
-        let inset = Inset { name: &name, rect, gutter, bounds, below: Some(below) };
+        let inset = Inset { name: &name, rect, bounds, below: Some(below) };
         let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;
         let shown = inset.show(ui, style, |plot| {
             plot.vline(upright(self.phase * scale, style.palette.accent, 1.0));

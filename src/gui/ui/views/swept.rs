@@ -106,7 +106,8 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
     if area.width() < 160.0 || area.height() < 120.0 {
         return;
     }
-    let style = PlotStyle::new(ui);
+    let mut style = PlotStyle::new(ui);
+    style.gutter = 3.0 * style.row;
     let (response, pointed) = match plotted.swept.sweep.axes() {
         [x] => line(ui, &style, area, plotted, x),
         [x, y] => {
@@ -267,9 +268,8 @@ fn line<'a>(
     let side = 0.02 * (x[1] - x[0]);
     let colour = style.palette.film;
     let most = columns(style, area.width());
-    let gutter = 3.0 * style.row;
-    let rect = plot(area, style, gutter, 1.0);
-    let inset = Inset { name: NAME, rect, gutter, bounds: [[x[0] - side, x[1] + side], y], below: Some("") };
+    let rect = plot(area, style, style.gutter, 1.0);
+    let inset = Inset { name: NAME, rect, bounds: [[x[0] - side, x[1] + side], y], below: Some("") };
     let present = plotted.present.map(|values| place(axis, values[0]));
     let many = rect.width() / (axis.values.len() as f32) < DOT_SPACING && rows.len() > 2;
     let marked = |chart| -> Plot<'_> {

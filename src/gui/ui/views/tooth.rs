@@ -1,20 +1,21 @@
 //! The followed tooth: its map, and its gap and loads over the cycle.
 
 use super::field::{self, Stamp};
+use super::frame::Frame;
 use super::map::y_labels;
-use super::motor_frame::MotorFrame;
 use super::series::{Series, Trace};
 use crate::gui::derived::scales::common;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
+use crate::problem::Motor;
 use eframe::egui::{Rect, Ui, pos2};
 
 /// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
 pub(super) fn draw(
     ui: &mut Ui,
     style: &PlotStyle,
-    (row, gutter): (Rect, f32),
-    shown: &MotorFrame<'_>,
+    row: Rect,
+    shown: &Frame<'_, Motor>,
     cx: &DrawContext<'_>,
 ) -> [Rect; 2] {
     let recording = shown.recording;
@@ -22,14 +23,14 @@ pub(super) fn draw(
     let gap = 0.6 * style.row;
     let cell = (row.width() - 2.0 * gap) / 3.0;
     let places: [Rect; 3] = std::array::from_fn(|i| {
-        let left = row.left() + i as f32 * (cell + gap) + gutter;
+        let left = row.left() + i as f32 * (cell + gap) + style.gutter;
         Rect::from_min_max(
             pos2(left, row.top() + style.row + 4.0),
-            pos2(left + cell - gutter, row.bottom() - style.row - 2.0),
+            pos2(left + cell - style.gutter, row.bottom() - style.row - 2.0),
         )
     });
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
-    let (x, range) = ([-reach, reach], shown.scales.pressure);
+    let (x, range) = ([-reach, reach], shown.ranges.pressure);
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x, range };
     let axes = field::draw(ui, style, painter, places[0], recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
@@ -37,7 +38,7 @@ pub(super) fn draw(
     y_labels(painter, style, &axes);
     axes.x_labels(painter, style, 1e-3, "x, mm");
     let middle = shown.tooth as f64 * recording.pitch;
-    axes.cursor(painter, style, shown.cursor.map(|x| x - middle));
+    axes.cursor(painter, style, shown.view.cursor_x.map(|x| x - middle));
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
@@ -46,8 +47,8 @@ pub(super) fn draw(
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
     let behind = style.at_first(first);
     let trace = |curve, lag, offset, colour, behind| Trace { curve, lag, offset, colour, behind };
-    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.motor.spacing(), quiet, true));
-    let present = trace(&curves.thickness, lag, -shown.motor.spacing(), style.text, false);
+    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.of.spacing(), quiet, true));
+    let present = trace(&curves.thickness, lag, -shown.of.spacing(), style.text, false);
     let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
     let [low, high] = common(ranges);
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
@@ -62,14 +63,14 @@ pub(super) fn draw(
         period: recording.period,
         phase: shown.phase(),
     };
-    series.show(ui, style, (gap_chart, gutter), cx);
+    series.show(ui, style, gap_chart, cx);
     let before = first
         .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, true)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
     let present = present.map(|(curve, colour)| trace(curve, lag, 0.0, colour, false));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
     let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
-    let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
+    let unit = if shown.ranges.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
         name: "Loads over the cycle",
         titles: &[
@@ -79,10 +80,10 @@ pub(super) fn draw(
         word: "Loads",
         legend: &legend,
         traces: &loads,
-        range: shown.scales.tooth_load,
+        range: shown.ranges.tooth_load,
         unit: unit.1,
         ..series
     };
-    series.show(ui, style, (loads_chart, gutter), cx);
+    series.show(ui, style, loads_chart, cx);
     [gap_chart, loads_chart]
 }

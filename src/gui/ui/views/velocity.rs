@@ -1,6 +1,6 @@
 //! Velocity of the gas across the film, from wall to wall, at one place: `film::velocity` drawn.
 
-use crate::fidelity::Fidelity;
+use super::frame::Frame;
 use crate::film::velocity::Velocity;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
@@ -8,7 +8,6 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Inset, between, dots, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Gas;
-use crate::recording::Recording;
 use crate::recording::sample;
 use eframe::egui::{Rect, Ui};
 use egui_plot::LineStyle;
@@ -23,10 +22,8 @@ const STILL: f64 = 1e-6;
 const MARGIN: f64 = 0.12;
 
 /// A place of a film, at any instant.
-pub(super) struct Place<'a> {
-    /// Number of the run, and its fidelity.
-    pub(super) run: (u64, Fidelity),
-    pub(super) recording: &'a Recording,
+pub(super) struct Place<'a, T> {
+    pub(super) shown: &'a Frame<'a, T>,
     pub(super) gas: &'a Gas,
     pub(super) tooth: usize,
     /// x from the middle of the tooth \[m\].
@@ -35,34 +32,32 @@ pub(super) struct Place<'a> {
     pub(super) walls: &'a dyn Fn(f64) -> [f64; 2],
     /// Film thickness there at an instant, in frames \[m\].
     pub(super) thickness: &'a dyn Fn(f64) -> Option<f64>,
-    /// Greatest film thickness over the cycle \[m\].
-    pub(super) thickest: f64,
 }
 
-impl Place<'_> {
+impl<T> Place<'_, T> {
     fn at(&self, instant: f64) -> Option<Velocity> {
-        let pressure = sample::middle_pressure(self.recording, self.tooth, self.xi, instant)?;
-        let gradient = sample::middle_gradient(self.recording, self.tooth, self.xi, instant)?;
+        let pressure = sample::middle_pressure(self.shown.recording, self.tooth, self.xi, instant)?;
+        let gradient = sample::middle_gradient(self.shown.recording, self.tooth, self.xi, instant)?;
         Some(Velocity::new(self.gas, (self.thickness)(instant)?, pressure, gradient, (self.walls)(instant)))
     }
 
     /// Least and greatest velocity over the cycle, rest included.
     fn range(&self) -> [f64; 2] {
-        let frames = self.recording.frames.max(1) as f64;
+        let frames = self.shown.recording.frames.max(1) as f64;
         let instants = (0..INSTANTS).filter_map(|i| self.at(frames * i as f64 / INSTANTS as f64));
         let of = |velocity: Velocity| curve(&velocity).into_iter().map(|[u, _]| u).chain(velocity.walls);
         let [low, high] = span(instants.flat_map(of).chain([0.0]));
         if high - low < STILL { [-STILL, STILL] } else { [low, high] }
     }
 
-    /// Draws the profile at an instant, in frames, into `rect`; `x`: what is written for the place \[m\].
-    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, (rect, gutter): (Rect, f32), instant: f64, x: f64) {
-        let key = (self.run, self.tooth, self.xi.to_bits());
+    /// Draws the profile at the instant shown into `rect`; `x`: what is written for the place \[m\].
+    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, x: f64) {
+        let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
         let (unit, size) = if high.max(-low) < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
         let margin = 0.08 * (high - low);
         let across = [low - margin, high + margin].map(|u| u / size);
-        let up = [-MARGIN, 1.0 + MARGIN].map(|part| part * self.thickest * 1e6);
+        let up = [-MARGIN, 1.0 + MARGIN].map(|part| part * self.shown.ranges.thickness[1] * 1e6);
         let place = number(x * 1e3);
         let [long, middle] = ["Velocity across the film, z in µm, at x =", "Velocity, z in µm, x ="]
             .map(|text| format!("{text} {place} mm"));
@@ -70,8 +65,8 @@ impl Place<'_> {
         style.title(ui.painter(), rect, "Velocity across the film", &[&long, &middle, "Velocity, z in µm"], &[]);
         let below = format!("u, {unit}");
         let name = "Velocity across the film over the height above the tooth in µm";
-        let inset = Inset { name, rect, gutter, bounds: [across, up], below: Some(&below) };
-        let found = self.at(instant);
+        let inset = Inset { name, rect, bounds: [across, up], below: Some(&below) };
+        let found = self.at(self.shown.place);
         inset.show(ui, style, |plot| {
             let wall = |from: f64, to: f64| across.map(|u| [u, from, to]);
             plot.add(between(&wall(up[0], 0.0), style.solid(palette.stator)));

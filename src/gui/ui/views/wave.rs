@@ -2,9 +2,10 @@
 //! touch. Heights are exaggerated; the factor and a scale bar are given. While the rotor turns, what drives it is drawn as well, on the scale of
 //! the heights: the way of the followed tooth's top round its ellipse, with its speed along the ring, and marks that the rotor takes along.
 
-use super::motor_frame::{FirstMotor, MotorFrame};
+use super::frame::Frame;
 use crate::gui::derived::format::times;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar};
+use crate::problem::Motor;
 use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2, vec2};
 use std::f64::consts::TAU;
 
@@ -18,19 +19,25 @@ const POINTS: u32 = 48;
 /// Part of the height above the highest point of the rotor's underside.
 const ABOVE: f32 = 0.16;
 
-/// Draws the wave into `rect`. Returns the axes, whose y is height \[m\].
-pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) -> Axes {
-    let minimum = shown.motor.spacing();
-    let low = shown.scales.stator[0];
-    let high = (shown.scales.rotor[1] - minimum).max(low);
+/// Draws the wave into `rect`, with the rotor's `underside` as in [`Lines::underside`](crate::recording::sample::Lines). Returns the axes, whose
+/// y is height \[m\].
+pub(super) fn draw(
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    shown: &Frame<'_, Motor>,
+    underside: &[[f64; 2]],
+) -> Axes {
+    let minimum = shown.of.spacing();
+    let low = shown.ranges.stator[0];
+    let high = (shown.ranges.rotor[1] - minimum).max(low);
     let span = if high > low { high - low } else { 1e-7 };
     let part = 1.0 - f64::from(BELOW) - f64::from(ABOVE);
     let bottom = low - span * f64::from(BELOW) / part;
     let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + span / part]);
-    let scale = f64::from(rect.height()) * part / span;
 
     axes.canvas(painter, style);
-    scale_bar(painter, style, rect, scale);
+    scale_bar(painter, style, &axes);
     let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
     let mut legend =
         vec![("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
@@ -43,21 +50,21 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
     painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
     stator(painter, style, &axes, shown);
-    rotor(painter, style, &axes, scale, shown);
+    rotor(painter, style, &axes, shown, underside);
     touching(painter, style, &axes, shown);
     if let Some(first) = &shown.first {
         outline(painter, style, &axes, first);
     }
-    axes.cursor(painter, style, shown.cursor);
+    axes.cursor(painter, style, shown.view.cursor_x);
     axes
 }
 
-fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let colour = style.palette.stator;
     let recording = shown.recording;
     let phase = shown.phase();
     let depth = TOOTH * axes.rect.height();
-    let body = |x: f64| axes.py(shown.motor.stator_displacement(x, 0.0, phase)) + depth;
+    let body = |x: f64| axes.py(shown.of.stator_displacement(x, 0.0, phase)) + depth;
     // The body below the grooves.
     let samples = 96;
     let at = |i: usize| axes.x[0] + (axes.x[1] - axes.x[0]) * i as f64 / samples as f64;
@@ -89,7 +96,7 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<
     }
 }
 
-fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &MotorFrame<'_>) {
+fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>, underside: &[[f64; 2]]) {
     let recording = shown.recording;
     let lines = &shown.lines;
     // The film, where there is any.
@@ -97,25 +104,25 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &
     for tooth in 0..recording.teeth {
         let middle = tooth as f64 * recording.pitch;
         let columns = recording.x.iter().zip(lines.of(tooth)).map(|(xi, k)| {
-            let top = lines.stator[k] + lines.film_thickness[k] - shown.motor.spacing();
+            let top = lines.stator[k] + lines.film_thickness[k] - shown.of.spacing();
             (axes.px(middle + xi), axes.py(top), axes.py(lines.stator[k]))
         });
         band(painter, columns, film);
     }
-    let underside: Vec<Pos2> = shown.underside.iter().map(|[x, height]| axes.at(*x, *height)).collect();
+    let underside: Vec<Pos2> = underside.iter().map(|[x, height]| axes.at(*x, *height)).collect();
     let colour = style.palette.rotor;
     band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
-    if shown.motor.rotor_speed != 0.0 {
-        marks(painter, style, &underside, scale, shown);
+    if shown.of.rotor_speed != 0.0 {
+        marks(painter, style, &underside, axes, shown);
     }
     painter.line(underside, Stroke::new(1.5, colour));
 }
 
-/// Marks on the rotor above its underside, which goes from left to right; they move as it does; `scale`: pixels per metre.
-fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], scale: f64, shown: &MotorFrame<'_>) {
+/// Marks on the rotor above its underside, which goes from left to right; they move as it does.
+fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], axes: &Axes, shown: &Frame<'_, Motor>) {
     let (Some(first), Some(last)) = (underside.first(), underside.last()) else { return };
-    let apart = MARKS * style.row;
-    let turned = shown.motor.rotor_speed / shown.motor.frequency * (shown.cycles + shown.phase()) * scale;
+    let (apart, scale) = (MARKS * style.row, axes.points_per_metre());
+    let turned = shown.of.rotor_speed / shown.of.frequency * (shown.view.cycles + shown.phase()) * scale;
     let mut x = first.x + turned.rem_euclid(f64::from(apart)) as f32;
     let stroke = Stroke::new(2.0, style.palette.canvas);
     while x < last.x {
@@ -129,12 +136,12 @@ fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], scale: f64, s
 
 /// While the rotor turns, the ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring. That of an outer
 /// tooth is wider than there is room in the view: it is drawn after all that is beside it.
-pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
-    let motor = shown.motor;
+pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
+    let motor = shown.of;
     if motor.rotor_speed == 0.0 {
         return;
     }
-    let scale = f64::from(axes.rect.height()) / (axes.y[1] - axes.y[0]);
+    let scale = axes.points_per_metre();
     let middle = shown.tooth as f64 * shown.recording.pitch;
     let centre = axes.at(middle, 0.0);
     let [high, wide] = [motor.normal_amplitude, motor.tangential_amplitude].map(|amplitude| (scale * amplitude) as f32);
@@ -151,12 +158,12 @@ pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: 
 }
 
 /// The tops of the teeth and the rotor's underside above them, of the motor that this one is compared with.
-fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &FirstMotor<'_>) {
+fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
     let stroke = Stroke::new(1.5, style.palette.quiet);
     let (recording, lines) = (first.recording, &first.lines);
     for tooth in 0..recording.teeth {
         let middle = tooth as f64 * recording.pitch;
-        let underside = |k: usize| lines.stator[k] + lines.film_thickness[k] - first.motor.spacing();
+        let underside = |k: usize| lines.stator[k] + lines.film_thickness[k] - first.of.spacing();
         let top = |k: usize| lines.stator[k];
         for height in [&top as &dyn Fn(usize) -> f64, &underside] {
             let points = recording.x.iter().zip(lines.of(tooth)).map(|(x, k)| axes.at(middle + x, height(k)));
@@ -166,7 +173,7 @@ fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &FirstMotor
 }
 
 /// A thick line wherever the contact carries load.
-fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let recording = shown.recording;
     let nodes = recording.x.len();
     let stroke = Stroke::new(4.0, style.palette.contact);
@@ -175,7 +182,7 @@ fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFram
         let middle = tooth as f64 * recording.pitch;
         let mut run: Vec<Pos2> = Vec::new();
         for i in 0..=nodes {
-            if i < nodes && shown.lines.contact[line + i] > shown.motor.touching_from() {
+            if i < nodes && shown.lines.contact[line + i] > shown.of.touching_from() {
                 run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
                 continue;
             }

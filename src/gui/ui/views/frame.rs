@@ -1,0 +1,76 @@
+//! A run at one instant: what its views draw.
+
+use crate::fidelity::Fidelity;
+use crate::gui::derived::scales::{Ranges, Scales};
+use crate::gui::state::view::View;
+use crate::gui::ui::cache::once;
+use crate::job::SolvedScene;
+use crate::problem::Scenario;
+use crate::recording::Recording;
+use crate::recording::sample::Lines;
+use eframe::egui::Ui;
+use std::sync::Arc;
+
+/// A motor or a plate at one instant.
+pub(super) struct Frame<'a, T> {
+    /// Number of the run, and its fidelity.
+    pub(super) run: (u64, Fidelity),
+    pub(super) recording: &'a Recording,
+    /// The motor, or the plate.
+    pub(super) of: &'a T,
+    /// Curves over the whole cycle.
+    pub(super) scales: Arc<Scales>,
+    /// Ranges of the axes.
+    pub(super) ranges: Ranges,
+    /// The instant, in frames.
+    pub(super) place: f64,
+    /// The lines at that instant.
+    pub(super) lines: Lines,
+    pub(super) view: &'a View,
+    /// Tooth that is followed.
+    pub(super) tooth: usize,
+    /// The run that it is compared with, at the same phase of its own cycle: drawn in grey behind it.
+    pub(super) first: Option<Box<Self>>,
+}
+
+impl<'a, T> Frame<'a, T> {
+    /// `run`, if it is of what `pick` picks, at the phase of `view`; `name`: as what its curves are kept from frame to frame.
+    pub(super) fn of(
+        ui: &Ui,
+        name: &str,
+        run: &'a SolvedScene,
+        pick: fn(&Scenario) -> Option<&T>,
+        view: &'a View,
+    ) -> Option<Self> {
+        let (recording, number) = (&run.solution.recording, (run.number, run.fidelity));
+        let of = pick(&run.problem.scenario)?;
+        let scales = once(ui, name, number, || Scales::new(recording));
+        let (ranges, place) = (scales.ranges, view.place(recording));
+        let (lines, tooth) = (Lines::at(recording, place), view.tooth.min(recording.teeth.saturating_sub(1)));
+        Some(Self { run: number, recording, of, scales, ranges, place, lines, view, tooth, first: None })
+    }
+
+    /// The same with `first` behind it, if there is one: its axes hold both.
+    pub(super) fn compared_with(self, first: Option<Self>) -> Self {
+        let ranges = first.as_ref().map_or(self.ranges, |first| self.ranges.and(first.ranges));
+        Self { ranges, first: first.map(Box::new), ..self }
+    }
+
+    /// x at the left and at the right end \[m\].
+    pub(super) fn x_range(&self) -> [f64; 2] {
+        let half = 0.5 * self.recording.pitch;
+        [-half, self.recording.length - half]
+    }
+
+    /// The ends of the followed tooth \[m\].
+    pub(super) fn followed(&self) -> [f64; 2] {
+        let middle = self.tooth as f64 * self.recording.pitch;
+        let reach = self.recording.x.last().copied().unwrap_or(0.0);
+        [middle - reach, middle + reach]
+    }
+
+    /// Phase of the instant.
+    pub(super) fn phase(&self) -> f64 {
+        self.place / self.recording.frames.max(1) as f64
+    }
+}
