@@ -3,12 +3,12 @@
 //! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
 //!
 //! ```text
-//! cargo run --release --example error_coverage [mild|wide|plates] [COUNT] [RESULT]
+//! cargo run --release --example error_coverage [mild|wide|plates|closing] [COUNT] [RESULT]
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
-//! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap. Every draw is the same
-//! on every run. Scenes whose error is not covered, or that do not converge, are printed with the keys to repeat them.
+//! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap, `closing` those that come
+//! near to touching, at squeeze numbers from 10⁻² to 10². Every draw is the same on every run. Scenes whose error is not covered, or that do not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -63,7 +63,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         None | Some("mild") => |random: &mut Random| draw(random, 1.0),
         Some("wide") => |random: &mut Random| draw(random, WIDER),
         Some("plates") => draw_plate,
-        Some(other) => return Err(format!("{other}: expected mild, wide or plates").into()),
+        Some("closing") => draw_closing,
+        Some(other) => return Err(format!("{other}: expected mild, wide, plates or closing").into()),
     };
     let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
     let named = |key: &String| Quantity::all().find(|one| one.name() == key).ok_or_else(|| format!("{key}: no result"));
@@ -142,14 +143,35 @@ fn draw_plate(random: &mut Random) -> Drawn {
     let drawn: Vec<(&str, f64)> = values(random, &DRAWN_PLATES, 1.0).collect();
     let mut changes: Vec<(&'static str, String)> = drawn.iter().map(|(key, value)| (*key, value.to_string())).collect();
     changes.push(("plate.amplitude_um", (0.99 * excursion * drawn[0].1).to_string()));
+    changes.extend(outline(random, shape));
+    ("plate-crossover", changes)
+}
+
+/// One of them, 5 µm above the wall, that leaves a fifth to a hundredth of its gap.
+fn draw_closing(random: &mut Random) -> Drawn {
+    let shape = random.below(3);
+    let (excursion, squeeze_number) = (0.8 + 0.19 * random.unit(), 10f64.powf(4.0 * random.unit() - 2.0));
+    let mut changes = outline(random, shape);
+    let (pressure, viscosity, gap, length) = (101_325.0, 18.1e-6, 5e-6, 1e-3_f64);
+    let omega = squeeze_number * pressure * gap * gap / (12.0 * viscosity * length * length);
+    changes.extend([
+        ("plate.mean_gap_um", "5".to_owned()),
+        ("plate.amplitude_um", (5.0 * excursion).to_string()),
+        ("plate.frequency_khz", (omega / std::f64::consts::TAU * 1e-3).to_string()),
+        ("film.viscosity_upa_s", "18.1".to_owned()),
+    ]);
+    ("plate-crossover", changes)
+}
+
+/// A length, or a length and a width, or a radius.
+fn outline(random: &mut Random, shape: u32) -> Vec<(&'static str, String)> {
     let length = 10f64.powf(0.6 * (2.0 * random.unit() - 1.0));
     let width = length * (0.2 + 0.8 * random.unit());
     match shape {
-        0 => changes.push(("plate.length_mm", length.to_string())),
-        1 => changes.extend([("plate.length_mm", length.to_string()), ("plate.width_mm", width.to_string())]),
-        _ => changes.extend([("plate.shape", "disc".to_owned()), ("plate.radius_mm", (0.5 * length).to_string())]),
+        0 => vec![("plate.length_mm", length.to_string())],
+        1 => vec![("plate.length_mm", length.to_string()), ("plate.width_mm", width.to_string())],
+        _ => vec![("plate.shape", "disc".to_owned()), ("plate.radius_mm", (0.5 * length).to_string())],
     }
-    ("plate-crossover", changes)
 }
 
 /// A value for each key.

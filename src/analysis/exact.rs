@@ -23,8 +23,9 @@ use std::f64::consts::TAU;
 
 /// Samples of a cycle for exact means: spectrally accurate.
 const SAMPLES: usize = 1024;
-/// Least share of the mean error of the load over the cycle that a part of it has (calibrated: docs/validation.md).
-const HARMONIC_SHARE: f64 = 0.35;
+/// Least shares of the load's mean error over the cycle that spring and damping have (calibrated: docs/validation.md).
+const SPRING_SHARE: f64 = 1.0;
+const DAMPING_SHARE: f64 = 0.35;
 /// Damping over spring below which the gas was taken for trapped: rounding.
 const IN_PHASE: f64 = 1e-9;
 
@@ -115,13 +116,13 @@ pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>
     let excursion = plate.amplitude / plate.mean_gap;
     let scale = plate.gas.ambient_pressure * plate.area() * excursion;
     let errors = &recording.film_load_error;
-    let of_load = HARMONIC_SHARE * errors.iter().sum::<f64>() / errors.len().max(1) as f64 / scale;
-    let of = |part: fn(&Harmonic<f64>) -> f64| {
+    let of_load = errors.iter().sum::<f64>() / errors.len().max(1) as f64 / scale;
+    let of = |part: fn(&Harmonic<f64>) -> f64, share: f64| {
         let found = recording.estimate(|lines| part(&first_harmonic(&lines.film_loads())) / scale);
-        Estimate { error: found.error.max(of_load), ..found }
+        Estimate { error: found.error.max(share * of_load), ..found }
     };
     (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
-        let (mut spring, mut damping) = (of(|h| h.spring), of(|h| h.damping));
+        let (mut spring, mut damping) = (of(|h| h.spring, SPRING_SHARE), of(|h| h.damping, DAMPING_SHARE));
         if damping.value.abs() < IN_PHASE * spring.value.abs() {
             // What leaks, which is left out, damps, and softens the spring by as much: at no amplitude more than at a small one.
             let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;

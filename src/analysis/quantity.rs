@@ -176,6 +176,11 @@ impl Quantity {
         }
     }
 
+    /// Whether it is a part of something whole.
+    pub fn is_share(self) -> bool {
+        matches!(self, Alpha | MaxEfficiency)
+    }
+
     /// Whether it counts something: whole numbers.
     pub fn is_count(self) -> bool {
         matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)

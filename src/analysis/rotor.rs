@@ -19,7 +19,7 @@ const BENDING: u32 = 4;
 /// What the present model is called.
 const PRESENT: &str = "present rotor";
 /// The models beside it: what each is called, and the value of `rotor.model`.
-const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")];
+const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of preset ring-rotor", "ring")];
 
 /// One model of the rotor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -53,8 +53,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             lesson_parts::show(ui, step, work, cx);
             // What has just appeared, below the fold of a small window, comes into view.
             let appeared = Id::unique(("lesson, appeared", running.lesson, running.step));
-            let state = (work.stage(step) as u8, work.wrong, work.hints, work.misread);
-            let before = ui.ctx().data(|data| data.get_temp::<(u8, usize, usize, usize)>(appeared));
+            let state = (work.stage(step) as u8, work.wrong, work.hints, work.misread, work.too_far);
+            let before = ui.ctx().data(|data| data.get_temp::<(u8, usize, usize, usize, bool)>(appeared));
             if before.is_some_and(|before| before != state) {
                 ui.scroll_to_cursor(Some(Align::BOTTOM));
             }

@@ -9,7 +9,7 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::{Scene, presets, show_text};
+use crate::scene::{Kind, Scene, presets, show_text};
 use eframe::egui::{self, Button, Response};
 use std::sync::LazyLock;
 
@@ -27,8 +27,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
         menu(ui, "View", &mut |ui| {
             let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
-            for &(tab, name) in Tab::ALL {
-                item(ui, name, true, Command::Show(tab), cx);
+            let plate = document.scene().kind() == Kind::Plate;
+            for &(tab, _) in Tab::ALL {
+                item(ui, tab.label(plate), tab != Tab::Rotor || !plate, Command::Show(tab), cx);
             }
             ui.separator();
             item(ui, other, true, Command::ToggleTheme, cx);

@@ -33,7 +33,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);
         if let Some(words) = beside_headline(&run.validity) {
-            cx.note(ui, capitalised(&words));
+            cx.say(ui, capitalised(&words), cx.colours.contact);
         }
         let shown = Shown { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
         match (&run.problem.scenario, &run.solution.outcome) {

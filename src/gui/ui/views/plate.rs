@@ -231,7 +231,7 @@ pub(super) fn show_loops(
     phase: f64,
 ) {
     let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
-    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
+    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa gauge"];
     style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
     Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {

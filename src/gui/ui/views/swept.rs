@@ -367,8 +367,8 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let cell = |row: &Row| (nearest(&xs, place(x, row.values[0])), nearest(&ys, place(y, row.values[1])));
     let shown = || plotted.swept.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value);
     let extent = span(shown());
-    // Values of many sizes get colours by their logarithm: else all but the greatest look the same.
-    let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0];
+    // Values of many sizes get colours by their logarithm, else all but the greatest look the same; a share lies between 0 and 1.
+    let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0] && !plotted.quantity.is_share();
     let tone = |value: f64| if log { value.log10() } else { value };
     let range = extent.map(tone);
     let limits = [[x_edges[0], x_edges[x_edges.len() - 1]], [y_edges[0], y_edges[y_edges.len() - 1]]];
