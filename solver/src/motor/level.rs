@@ -316,7 +316,7 @@ impl Level {
         let (size, dt) = (self.steps * self.nx, self.dt);
         for tooth in 0..self.stored {
             let range = tooth * size..(tooth + 1) * size;
-            let cost = self.films[tooth].march(
+            *stats += self.films[tooth].march(
                 &self.film_thickness[range.clone()],
                 self.speed.as_ref().map(|u| &u[range.clone()]),
                 |_| dt,
@@ -324,9 +324,6 @@ impl Level {
                 &mut self.line[range],
                 cancel,
             )?;
-            stats.film_steps += cost.steps;
-            stats.film_solves += cost.solves;
-            stats.limited_steps += cost.limited;
         }
         stats.cycles += 1;
         Ok(())

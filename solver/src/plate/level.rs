@@ -176,13 +176,10 @@ impl Level {
     fn advance(&mut self, dt: f64, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
         let nx = self.cycle.grid().x.len();
         let here = m * nx..(m + 1) * nx;
-        let taken = self
+        *stats += self
             .cycle
             .advance(m, &self.gap[here.clone()], None, dt, &mut self.state, &mut self.line[here])
             .map_err(|source| Interrupted::Failed { step, source })?;
-        stats.film_steps += 1;
-        stats.film_solves += u64::from(taken.solves);
-        stats.limited_steps += u64::from(taken.limited);
         Ok(())
     }
 
@@ -203,10 +200,7 @@ impl Level {
         let (mut present, mut image) = (vec![0.0; 2 * unknowns], vec![0.0; 2 * unknowns]);
         pack(&self.state, &mut present);
         for round in 1..=plan.round_limit {
-            let cost = self.cycle.march(&self.gap, None, |m| self.dt[m], &mut self.state, &mut self.line, cancel)?;
-            stats.film_steps += cost.steps;
-            stats.film_solves += cost.solves;
-            stats.limited_steps += cost.limited;
+            *stats += self.cycle.march(&self.gap, None, |m| self.dt[m], &mut self.state, &mut self.line, cancel)?;
             stats.cycles += 1;
             self.cycle.shift(&mut self.state);
             pack(&self.state, &mut image);

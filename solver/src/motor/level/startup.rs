@@ -171,12 +171,9 @@ impl Level {
                 let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
                 self.states[tooth].clone_from(&before[tooth]);
                 let speed = self.speed.as_ref().map(|u| &u[here.clone()]);
-                let taken = self.films[tooth]
+                *stats += self.films[tooth]
                     .advance(m, gap, speed, self.dt, &mut self.states[tooth], &mut self.line[here])
                     .map_err(|source| Stop::Failed(MotorError::Film { step: m, source }))?;
-                stats.film_steps += 1;
-                stats.film_solves += u64::from(taken.solves);
-                stats.limited_steps += u64::from(taken.limited);
             }
             for (i, image) in inside.iter().zip(&mut image) {
                 *image = self.line[line(i / nx, m) + i % nx].ln();
