@@ -36,7 +36,7 @@ const LEAST_CHANGE: f64 = 1e-9;
 pub(super) struct Level {
     teeth: usize,
     stored: usize,
-    pub(super) steps: usize,
+    steps: usize,
     nx: usize,
     /// Vibration period over steps \[s\].
     dt: f64,
@@ -502,11 +502,6 @@ impl Level {
         sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64
     }
 
-    /// α at instant 0: the present, between two cycles of a transient.
-    pub(super) fn alpha_now(&self) -> f64 {
-        self.mean_film_load_of(self.steps) / self.load
-    }
-
     pub(super) fn alpha(&self) -> f64 {
         self.mean_film_load() / self.load
     }
@@ -546,8 +541,16 @@ impl State for Level {
         Mean { all: self.alpha(), shared: self.mean_film_load_of(2) / self.load }
     }
 
+    fn now(&self) -> f64 {
+        self.mean_film_load_of(self.steps) / self.load
+    }
+
     fn unit(&self) -> f64 {
         unit(self.alpha())
+    }
+
+    fn steps(&self) -> usize {
+        self.steps
     }
 
     /// Of half the width.
