@@ -52,6 +52,18 @@ impl FilmState {
     pub fn change_since(&self, earlier: &Self) -> f64 {
         self.trapped.iter().zip(&earlier.trapped).map(|(now, then)| (now / then).ln().abs()).fold(0.0, f64::max)
     }
+
+    /// ln Z and then ln W at all nodes.
+    pub fn logarithms(&self) -> impl Iterator<Item = f64> {
+        self.trapped.iter().chain(&self.carried).map(|height| height.ln())
+    }
+
+    /// Takes the state that has these [`Self::logarithms`].
+    pub fn set_logarithms(&mut self, logarithms: &[f64]) {
+        for (height, logarithm) in self.trapped.iter_mut().chain(&mut self.carried).zip(logarithms) {
+            *height = logarithm.exp();
+        }
+    }
 }
 
 /// What steps of one film took.

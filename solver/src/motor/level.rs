@@ -341,7 +341,7 @@ impl Level {
             out.extend(heights.iter().map(|h| h.ln()));
         }
         for state in &self.states {
-            out.extend(state.trapped.iter().chain(&state.carried).map(|v| v.ln()));
+            out.extend(state.logarithms());
         }
     }
 
@@ -359,11 +359,7 @@ impl Level {
         }
         let unknowns = self.states[0].trapped.len();
         for (state, values) in self.states.iter_mut().zip(states.chunks_exact(2 * unknowns)) {
-            let (trapped, carried) = values.split_at(unknowns);
-            for k in 0..unknowns {
-                state.trapped[k] = trapped[k].exp();
-                state.carried[k] = carried[k].exp();
-            }
+            state.set_logarithms(values);
         }
     }
 

@@ -191,14 +191,14 @@ impl Level {
         }
         let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
         let mut least = (f64::INFINITY, 0);
-        let unknowns = self.state.trapped.len();
-        let (mut present, mut image) = (vec![0.0; 2 * unknowns], vec![0.0; 2 * unknowns]);
-        pack(&self.state, &mut present);
+        let mut present: Vec<f64> = self.state.logarithms().collect();
+        let mut image = Vec::with_capacity(present.len());
         for round in 1..=plan.round_limit {
             *stats += self.cycle.march(&self.gap, None, |m| self.dt[m], &mut self.state, &mut self.line, cancel)?;
             stats.cycles += 1;
             self.cycle.shift(&mut self.state);
-            pack(&self.state, &mut image);
+            image.clear();
+            image.extend(self.state.logarithms());
             let residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             self.residual = residual;
             report.round(round, residual, self.mean_load());
@@ -210,10 +210,7 @@ impl Level {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
-            for k in 0..unknowns {
-                self.state.trapped[k] = present[k].exp();
-                self.state.carried[k] = present[unknowns + k].exp();
-            }
+            self.state.set_logarithms(&present);
         }
         Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance })
     }
@@ -390,13 +387,5 @@ impl State for Level {
     fn count(&self, stats: &mut Stats) {
         stats.film_nodes = self.cycle.grid().nodes();
         stats.steps_per_cycle = self.steps();
-    }
-}
-
-fn pack(state: &FilmState, out: &mut [f64]) {
-    let unknowns = state.trapped.len();
-    for k in 0..unknowns {
-        out[k] = state.trapped[k].ln();
-        out[unknowns + k] = state.carried[k].ln();
     }
 }
