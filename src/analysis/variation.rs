@@ -37,7 +37,6 @@ const BELOW: [i32; 2] = [-1, -2];
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Variation {
     scene: Scene,
-    #[serde(deserialize_with = "Parameter::from_keys")]
     parameters: Vec<&'static Parameter>,
 }
 
@@ -94,7 +93,6 @@ impl Slope {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// The key.
-    #[serde(deserialize_with = "Parameter::from_key")]
     pub parameter: &'static Parameter,
     /// Its value in the middle, in its unit.
     pub at: f64,
