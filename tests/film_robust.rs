@@ -103,7 +103,7 @@ fn mass_leaves_only_through_the_edges() {
         h.iter_mut().for_each(|h| *h *= scale);
         let before = total(&film, &state.carried);
         let dt = 2e-6;
-        limited += u32::from(film.step(&h, None, dt, &mut state, None).unwrap().limited);
+        limited += film.step(&h, None, dt, &mut state, None).unwrap().limited;
         let change = total(&film, &state.carried) - before;
         let outflow = edge_outflow(&film, &h, &gas) * dt;
         let scale = before.max(total(&film, &state.carried));

@@ -82,8 +82,6 @@ pub struct Hold {
     fine: HeldFilm,
     gap: f64,
     time: f64,
-    /// The last step \[s\]; `None` at rest.
-    last_step: Option<f64>,
     free: Free,
     /// By how much steps are shorter than usual.
     finer: f64,
@@ -121,7 +119,6 @@ impl Hold {
             fine: HeldFilm::new(plate, plan, fine),
             gap: plate.mean_gap,
             time: 0.0,
-            last_step: None,
             free: Free::default(),
             finer: 1.0,
             plate: plate.clone(),
@@ -157,7 +154,6 @@ impl Hold {
         self.free = Free::default();
         if !(duration.is_finite() && duration > 0.0) {
             self.gap = to;
-            self.last_step = None;
             for level in [&mut self.coarse, &mut self.fine] {
                 level.state.carried.clone_from(&level.state.trapped);
                 level.last_step = None;
@@ -184,7 +180,7 @@ impl Hold {
         let greatest_ratio = self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap));
         let leak = leak_time(&self.plate, self.gap) / greatest_ratio;
         let most = most.min(LONGEST_STEP * leak) / self.finer;
-        self.last_step.map_or(most, |last| most.min(GROWTH * last))
+        self.coarse.last_step.map_or(most, |last| most.min(GROWTH * last))
     }
 
     /// One step of both films through these gaps, halfway and at its end.
@@ -194,7 +190,6 @@ impl Hold {
         self.fine.step(end, 0.5 * step)?;
         self.gap = end;
         self.time += step;
-        self.last_step = Some(step);
         Ok(())
     }
 
@@ -266,7 +261,7 @@ impl Hold {
 
     /// Puts it to rest at `gap` \[m\], wherever that is, with gas at ambient pressure.
     pub fn rest_at(&mut self, gap: f64) {
-        (self.gap, self.time, self.last_step, self.free) = (gap, 0.0, None, Free::default());
+        (self.gap, self.time, self.free) = (gap, 0.0, Free::default());
         for level in [&mut self.coarse, &mut self.fine] {
             level.rest(gap);
         }
@@ -343,6 +338,7 @@ struct HeldFilm {
     state: FilmState,
     /// The gap at each node along x.
     h: Vec<f64>,
+    /// The last step \[s\]; `None` at rest.
     last_step: Option<f64>,
 }
 

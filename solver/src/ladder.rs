@@ -5,10 +5,10 @@
 //! and starts from its state: first those of the plan, which an extrapolation needs, then as many as it takes.
 
 use crate::control::Cancel;
-use crate::estimate::Mean;
+use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::plan::{Grid, Plan};
-use crate::recording::Recording;
-use crate::solution::{Stats, Status};
+use crate::recording::{LineLoads, Recording};
+use crate::solution::{Outcome, Stats, Status};
 
 /// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
 /// docs/validation.md).
@@ -19,8 +19,14 @@ pub trait State {
     /// The headline.
     fn headline(&self) -> Mean;
 
+    /// The headline at instant 0: the present, between two cycles of a transient.
+    fn now(&self) -> f64;
+
     /// What the accuracy asked for is relative to.
     fn unit(&self) -> f64;
+
+    /// Time steps in a cycle.
+    fn steps(&self) -> usize;
 
     /// Unknown nodes across.
     fn across(&self) -> usize;
@@ -231,6 +237,58 @@ pub fn climb_once<S: Scene>(
         }
     }
     Ok(found)
+}
+
+/// One cycle of a transient, on all grids of a plan.
+#[derive(Debug)]
+pub struct TransientCycle {
+    /// Means and extremes over it, with the error that its grids show.
+    pub outcome: Outcome,
+    /// Fields of the finest grid; the first frame is the beginning of the cycle.
+    pub recording: Recording,
+    /// Largest change of ln Z from its beginning to its end.
+    pub change: f64,
+    /// Error of its headline that finer grids would not make smaller, absolute.
+    pub elsewhere: f64,
+    /// The largest residual of its steps if film and contact did not agree in all of them, and what was allowed, in ln ζ.
+    pub unsettled: Option<(f64, f64)>,
+}
+
+/// What one cycle of a transient comes to on grids coarse to fine.
+pub struct Marched {
+    /// Fields of the finest grid.
+    pub recording: Recording,
+    /// Largest change of ln Z on the finest grid.
+    pub change: f64,
+    /// Mean of the headline over the cycle.
+    pub mean: Estimate,
+    /// The headline at the end of the cycle.
+    pub end: f64,
+}
+
+/// Marches each of `levels`, coarse to fine, by one `cycle`, which hands over the state as its frames are known and returns the largest
+/// change of ln Z; `lines` are the fields of a coarser grid, with which `recorded` makes those of the finest one.
+pub fn march_cycle<L: State, E>(
+    levels: &mut [L],
+    stats: &mut Stats,
+    mut cycle: impl FnMut(&mut L, &mut Stats, &mut dyn FnMut(&L)) -> Result<f64, E>,
+    lines: impl Fn(&L) -> LineLoads,
+    recorded: impl Fn(&L, &[LineLoads]) -> Recording,
+) -> Result<Marched, E> {
+    let (mut means, mut ends, mut coarser) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut recording, mut change) = (Recording::default(), f64::INFINITY);
+    let finest = levels.len() - 1;
+    for (number, level) in levels.iter_mut().enumerate() {
+        let start = level.now();
+        change = cycle(level, stats, &mut |level| {
+            if number < finest { coarser.push(lines(level)) } else { recording = recorded(level, &coarser) }
+        })?;
+        means.push(level.headline().from_to(start, level.now(), level.steps()));
+        ends.push(level.now());
+        level.count(stats);
+    }
+    stats.cycles += 1;
+    Ok(Marched { recording, change, mean: extrapolate_means(&means), end: extrapolate(&ends).value })
 }
 
 /// Solves the coarsest grid with more and more nodes across, from `first` on, until one less hardly matters; how many that are.

@@ -1,11 +1,13 @@
 //! What a solve returns: plain data, in SI units, that the command line, the window and the exports read.
 
 use crate::estimate::Estimate;
+use crate::film::stepper::Cost;
 use crate::plan::Decision;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::ops::AddAssign;
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -217,6 +219,14 @@ pub struct Stats {
     pub contact_nodes: usize,
     /// Time steps in a cycle.
     pub steps_per_cycle: usize,
+}
+
+impl AddAssign<Cost> for Stats {
+    fn add_assign(&mut self, film: Cost) {
+        self.film_steps += film.steps;
+        self.film_solves += film.solves;
+        self.limited_steps += film.limited;
+    }
 }
 
 /// What was modelled, in words for the user.

@@ -12,7 +12,7 @@
 use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
-use crate::ladder::WIDTH_SHARE;
+use crate::ladder::{TransientCycle, WIDTH_SHARE};
 use crate::memory::{self, Need};
 use crate::motor;
 use crate::plan::{Grid, Plan};
@@ -241,18 +241,20 @@ impl<'a> Way<'a> {
     /// Marches from rest by `plan`: to the end, or so many cycles `again`. Whether it was cut short.
     fn march(&mut self, plan: &Plan, again: Option<usize>, cancel: &Cancel) -> Result<bool, SolveError> {
         let _taken = memory::take(need(self.problem, plan, self.settings.kept), cancel)?;
-        let mut transient = SceneTransient::at_rest(self.problem, plan, self.unit, self.stats, cancel)?;
+        let mut stats = self.stats;
+        let mut transient = SceneTransient::at_rest(self.problem, plan, self.unit, &mut stats, cancel)?;
         if again.is_none() {
             self.errors.clear();
         }
         let tolerance = self.settings.tolerance;
         let (mut last, mut before) = (f64::INFINITY, 0.0);
         for number in 1..=again.unwrap_or(self.settings.cycles) {
-            let turned = transient.cycle(cancel)?;
-            self.stats = transient.stats();
-            self.unsettled =
-                [self.unsettled, transient.unsettled()].into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((outcome, recording, change)) = turned else { return Ok(true) };
+            let turned = transient.cycle(&mut stats, cancel)?;
+            self.stats = stats;
+            let Some(TransientCycle { outcome, recording, change, elsewhere, unsettled }) = turned else {
+                return Ok(true);
+            };
+            self.unsettled = [self.unsettled, unsettled].into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0));
             let Estimate { value, error } = headline(&outcome);
             self.unit = self.unit.max(value.abs());
             // A small vibration hardly changes ln Z, and has a mean load that is smaller still.
@@ -267,7 +269,7 @@ impl<'a> Way<'a> {
                 f64::INFINITY
             };
             (last, before) = (change, value);
-            let error = (error, transient.elsewhere());
+            let error = (error, elsewhere);
             if number > self.errors.len() {
                 self.errors.push(error);
             } else {
@@ -335,12 +337,12 @@ enum SceneTransient<'a> {
 }
 
 impl<'a> SceneTransient<'a> {
-    /// With as many nodes across as the first cycle needs, which is the hardest; `stats` is what it has cost so far.
+    /// With as many nodes across as the first cycle needs, which is the hardest; what that takes is added to `stats`.
     fn at_rest(
         problem: &'a Problem,
         plan: &Plan,
         unit: f64,
-        stats: Stats,
+        stats: &mut Stats,
         cancel: &Cancel,
     ) -> Result<Self, SolveError> {
         if !plan.spectral || plan.grids.len() < 2 {
@@ -350,8 +352,9 @@ impl<'a> SceneTransient<'a> {
         let with = |across: usize, grid: &Grid| Grid { across, ..*grid };
         let first = |across: usize| -> Result<f64, SolveError> {
             let grids = vec![with(across, &coarsest)];
-            let mut transient = Self::on(problem, &Plan { grids, maps: false, ..plan.clone() }, 0.0, Stats::default())?;
-            Ok(transient.cycle(cancel)?.map_or(0.0, |(outcome, ..)| headline(&outcome).value))
+            let (plan, mut stats) = (Plan { grids, maps: false, ..plan.clone() }, Stats::default());
+            let cycle = Self::on(problem, &plan, 0.0, &mut stats)?.cycle(&mut stats, cancel)?;
+            Ok(cycle.map_or(0.0, |cycle| headline(&cycle.outcome).value))
         };
         let mut across = coarsest.across.max(2);
         let mut narrower = first(across - 1)?;
@@ -369,44 +372,19 @@ impl<'a> SceneTransient<'a> {
     }
 
     /// On the grids of `plan`; `width_error` is that of the nodes across, of the headline.
-    fn on(problem: &'a Problem, plan: &Plan, width_error: f64, stats: Stats) -> Result<Self, SolveError> {
+    fn on(problem: &'a Problem, plan: &Plan, width_error: f64, stats: &mut Stats) -> Result<Self, SolveError> {
         Ok(match &problem.scenario {
-            Scenario::Motor(motor) => {
-                Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error, stats)?))
-            }
+            Scenario::Motor(motor) => Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error)?)),
             Scenario::Plate(plate) => {
                 Self::Plate(Box::new(plate::Transient::at_rest(plate, plan, width_error, stats)?))
             }
         })
     }
 
-    fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, SolveError> {
+    fn cycle(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<Option<TransientCycle>, SolveError> {
         Ok(match self {
-            Self::Motor(transient) => transient.cycle(cancel)?,
-            Self::Plate(transient) => transient.cycle(cancel)?,
+            Self::Motor(transient) => transient.cycle(stats, cancel)?,
+            Self::Plate(transient) => transient.cycle(stats, cancel)?,
         })
-    }
-
-    /// Error of the last cycle's headline that finer grids would not make smaller, absolute.
-    fn elsewhere(&self) -> f64 {
-        match self {
-            Self::Motor(transient) => transient.elsewhere,
-            Self::Plate(transient) => transient.width_error,
-        }
-    }
-
-    /// The largest residual of steps that did not settle, and what was allowed; a plate has nothing to agree with.
-    fn unsettled(&self) -> Option<(f64, f64)> {
-        match self {
-            Self::Motor(transient) => transient.unsettled(),
-            Self::Plate(_) => None,
-        }
-    }
-
-    fn stats(&self) -> Stats {
-        match self {
-            Self::Motor(transient) => transient.stats,
-            Self::Plate(transient) => transient.stats,
-        }
     }
 }

@@ -40,7 +40,6 @@ pub struct Variation {
     /// The scene.
     pub scene: Scene,
     /// The keys.
-    #[serde(deserialize_with = "Parameter::from_keys")]
     pub parameters: Vec<&'static Parameter>,
 }
 
@@ -87,7 +86,6 @@ impl Slope {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// The key.
-    #[serde(deserialize_with = "Parameter::from_key")]
     pub parameter: &'static Parameter,
     /// Its value in the middle, in its unit.
     pub at: f64,

@@ -39,12 +39,7 @@ impl Check {
 
     /// The numbers of tabs that it uses.
     pub fn live(&self) -> impl Iterator<Item = Live> {
-        let mut found = Vec::new();
-        for comparison in &self.comparisons {
-            comparison.left.live(&mut found);
-            comparison.right.live(&mut found);
-        }
-        found.into_iter()
+        self.comparisons.iter().flat_map(|comparison| [&comparison.left, &comparison.right]).flat_map(Expression::live)
     }
 
     /// The first comparison that does not hold for the run `now`, in words; `None` if all hold. The step began with the run `start`.
@@ -88,9 +83,7 @@ impl Reading {
 
     /// The numbers of tabs that it uses.
     pub fn live(&self) -> Vec<Live> {
-        let mut found = Vec::new();
-        self.expression.live(&mut found);
-        found
+        self.expression.live()
     }
 
     /// A value of it as text: a result with all its digits, a parameter as a person would type it.

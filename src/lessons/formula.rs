@@ -85,77 +85,28 @@ pub const SUM: &str = "∑";
 /// Most levels of nested groups.
 const DEEPEST: usize = 24;
 
-const LETTERS: &[(&str, char)] = &[
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
-    ("varepsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
-    ("pi", 'π'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("phi", 'φ'),
-    ("varphi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("ell", 'ℓ'),
-];
+/// Commands and the letters they stand for, in turn.
+const LETTERS: &str = "alpha α beta β gamma γ delta δ epsilon ε varepsilon ε zeta ζ eta η theta θ kappa κ lambda λ mu μ nu ν \
+                       xi ξ pi π rho ρ sigma σ tau τ phi φ varphi φ chi χ psi ψ omega ω ell ℓ";
 
 /// Commands that stand for upright text: capitals, and signs that are not letters.
-const SYMBOLS: &[(&str, &str)] = &[
-    ("Gamma", "Γ"),
-    ("Delta", "Δ"),
-    ("Theta", "Θ"),
-    ("Lambda", "Λ"),
-    ("Phi", "Φ"),
-    ("Psi", "Ψ"),
-    ("Sigma", "Σ"),
-    ("Omega", "Ω"),
-    ("partial", "∂"),
-    ("nabla", "∇"),
-    ("infty", "∞"),
-    ("int", "∫"),
-    ("sum", SUM),
-    ("langle", "⟨"),
-    ("rangle", "⟩"),
-    ("dots", "…"),
-    ("ldots", "…"),
-    ("circ", "°"),
-    ("%", "%"),
-    ("$", "$"),
-    ("{", "{"),
-    ("}", "}"),
-];
+const SYMBOLS: &str = "Gamma Γ Delta Δ Theta Θ Lambda Λ Phi Φ Psi Ψ Sigma Σ Omega Ω partial ∂ nabla ∇ infty ∞ int ∫ sum ∑ \
+                       langle ⟨ rangle ⟩ dots … ldots … circ ° % % $ $ { { } }";
 
-const SIGNS: &[(&str, char)] = &[
-    ("approx", '≈'),
-    ("le", '≤'),
-    ("leq", '≤'),
-    ("ge", '≥'),
-    ("geq", '≥'),
-    ("ne", '≠'),
-    ("neq", '≠'),
-    ("ll", '≪'),
-    ("gg", '≫'),
-    ("pm", '±'),
-    ("cdot", '·'),
-    ("times", '×'),
-    ("propto", '∝'),
-    ("sim", '∼'),
-    ("to", '→'),
-    ("equiv", '≡'),
-];
+/// Commands that stand for signs with space on both sides.
+const SIGNS: &str =
+    "approx ≈ le ≤ leq ≤ ge ≥ geq ≥ ne ≠ neq ≠ ll ≪ gg ≫ pm ± cdot · times × propto ∝ sim ∼ to → equiv ≡";
+
+/// The sign that a command stands for, from one of these tables.
+fn meaning(table: &str, command: &str) -> Option<char> {
+    let mut words = table.split(' ');
+    while let (Some(known), Some(sign)) = (words.next(), words.next()) {
+        if known == command {
+            return sign.chars().next();
+        }
+    }
+    None
+}
 
 const FUNCTIONS: &[&str] = &["sin", "cos", "tan", "tanh", "sinh", "cosh", "ln", "log", "exp", "max", "min"];
 
@@ -348,7 +299,7 @@ impl Reader {
                 Node::Upright(number)
             }
             letter if letter.is_ascii_alphabetic() => Node::Letter(letter),
-            letter if LETTERS.iter().any(|(_, known)| *known == letter) => Node::Letter(letter),
+            letter if LETTERS.contains(letter) => Node::Letter(letter),
             '-' | '−' => Node::Sign('−'),
             sign @ ('=' | '+' | '<' | '>' | ':') => Node::Sign(sign),
             '*' => Node::Sign('·'),
@@ -361,15 +312,14 @@ impl Reader {
     }
 
     fn command(&mut self, name: &str, depth: usize) -> Result<Node, FormulaError> {
-        let found = |table: &[(&str, char)]| table.iter().find(|(known, _)| *known == name).map(|(_, sign)| *sign);
-        if let Some(letter) = found(LETTERS) {
+        if let Some(letter) = meaning(LETTERS, name) {
             return Ok(Node::Letter(letter));
         }
-        if let Some(sign) = found(SIGNS) {
+        if let Some(sign) = meaning(SIGNS, name) {
             return Ok(Node::Sign(sign));
         }
-        if let Some((_, text)) = SYMBOLS.iter().find(|(known, _)| *known == name) {
-            return Ok(Node::Upright((*text).to_owned()));
+        if let Some(symbol) = meaning(SYMBOLS, name) {
+            return Ok(Node::Upright(symbol.to_string()));
         }
         if FUNCTIONS.contains(&name) {
             return Ok(Node::Upright(format!("{name}\u{2009}")));

@@ -83,23 +83,11 @@ impl Serialize for Parameter {
     }
 }
 
-impl Parameter {
-    /// Deserializes a parameter from its key.
-    ///
-    /// # Errors
-    /// There is no such key.
-    pub fn from_key<'de, D: Deserializer<'de>>(from: D) -> Result<&'static Self, D::Error> {
+/// A parameter is deserialized from its key; one that does not exist is an error.
+impl<'de> Deserialize<'de> for &'static Parameter {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let key = String::deserialize(from)?;
-        Self::find(&key).ok_or_else(|| D::Error::custom(key))
-    }
-
-    /// Deserializes parameters from their keys.
-    ///
-    /// # Errors
-    /// One of the keys does not exist.
-    pub fn from_keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<&'static Self>, D::Error> {
-        let keys = <Vec<String>>::deserialize(from)?;
-        keys.into_iter().map(|key| Self::find(&key).ok_or_else(|| D::Error::custom(key))).collect()
+        Parameter::find(&key).ok_or_else(|| D::Error::custom(key))
     }
 }
 

@@ -13,7 +13,7 @@
 //! Anderson acceleration by the caller.
 
 use super::grid::FilmGrid;
-use super::stepper::{Film, FilmError, FilmState, StepCost};
+use super::stepper::{Cost, Film, FilmError, FilmState};
 use crate::control::Cancel;
 use crate::numerics::rows::{Coupling, RowSolver};
 
@@ -31,17 +31,6 @@ pub enum Interrupted {
         /// Why.
         source: FilmError,
     },
-}
-
-/// What a cycle took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CycleCost {
-    /// Time steps.
-    pub steps: u64,
-    /// Linear solves.
-    pub solves: u64,
-    /// Steps that were locally first-order.
-    pub limited: u64,
 }
 
 /// Film of one tooth over a cycle of `steps` equal time steps.
@@ -133,9 +122,9 @@ impl FilmCycle {
         state: &mut FilmState,
         line: &mut [f64],
         cancel: &Cancel,
-    ) -> Result<CycleCost, Interrupted> {
+    ) -> Result<Cost, Interrupted> {
         let nx = self.grid().x.len();
-        let mut cost = CycleCost::default();
+        let mut cost = Cost::default();
         self.before.copy_from_slice(&state.carried);
         self.leak.clear();
         self.outflow.fill(0.0);
@@ -147,12 +136,9 @@ impl FilmCycle {
             let here = m * nx..(m + 1) * nx;
             let gap = &h[here.clone()];
             let slide = speed.map(|u| &u[here.clone()]);
-            let taken = self
+            cost += self
                 .advance(m, gap, slide, dt(m), state, &mut line[here])
                 .map_err(|source| Interrupted::Failed { step, source })?;
-            cost.steps += 1;
-            cost.solves += u64::from(taken.solves);
-            cost.limited += u64::from(taken.limited);
             self.accumulate_leak(gap);
             if self.stiff {
                 self.film.add_outflow(&mut self.outflow);
@@ -175,7 +161,7 @@ impl FilmCycle {
         dt: f64,
         state: &mut FilmState,
         line: &mut [f64],
-    ) -> Result<StepCost, FilmError> {
+    ) -> Result<Cost, FilmError> {
         let unknowns = self.before.len();
         // The last cycle's pressure is the guess: as cycles converge, one linear solve a step is left.
         let guess = self.marched.then(|| &self.pressure[m * unknowns..(m + 1) * unknowns]);

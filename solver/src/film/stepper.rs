@@ -31,6 +31,7 @@ use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
 use crate::surface::flow::{Factors, Roughness};
+use std::ops::AddAssign;
 
 /// The film's state between steps, at unknown nodes `[ix][iy]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,15 +52,37 @@ impl FilmState {
     pub fn change_since(&self, earlier: &Self) -> f64 {
         self.trapped.iter().zip(&earlier.trapped).map(|(now, then)| (now / then).ln().abs()).fold(0.0, f64::max)
     }
+
+    /// ln Z and then ln W at all nodes.
+    pub fn logarithms(&self) -> impl Iterator<Item = f64> {
+        self.trapped.iter().chain(&self.carried).map(|height| height.ln())
+    }
+
+    /// Takes the state that has these [`Self::logarithms`].
+    pub fn set_logarithms(&mut self, logarithms: &[f64]) {
+        for (height, logarithm) in self.trapped.iter_mut().chain(&mut self.carried).zip(logarithms) {
+            *height = logarithm.exp();
+        }
+    }
 }
 
-/// What one step took.
+/// What steps of one film took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StepCost {
+pub struct Cost {
+    /// Time steps.
+    pub steps: u64,
     /// Linear solves.
-    pub solves: u32,
-    /// Whether positivity needed a locally first-order step.
-    pub limited: bool,
+    pub solves: u64,
+    /// Steps in which positivity needed a locally first-order step.
+    pub limited: u64,
+}
+
+impl AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.solves += other.solves;
+        self.limited += other.limited;
+    }
 }
 
 /// Why a step failed: Newton's iteration did not settle.
@@ -307,7 +330,7 @@ impl Film {
         dt: f64,
         state: &mut FilmState,
         guess: Option<&[f64]>,
-    ) -> Result<StepCost, FilmError> {
+    ) -> Result<Cost, FilmError> {
         if let Some(roughness) = &self.roughness {
             self.flow.iter_mut().zip(h).for_each(|(flow, h)| *flow = roughness.at(*h));
         }
@@ -327,8 +350,8 @@ impl Film {
         dt: f64,
         state: &mut FilmState,
         guess: Option<&[f64]>,
-    ) -> Result<StepCost, FilmError> {
-        let mut cost = StepCost::default();
+    ) -> Result<Cost, FilmError> {
+        let mut cost = Cost { steps: 1, ..Cost::default() };
         if guess.is_none() || speed.is_some() {
             self.load_pressure(h, &state.trapped);
         }
@@ -343,12 +366,12 @@ impl Film {
         loop {
             match self.newton(law, h, speed, dt, state, careful, &mut cost) {
                 Ok(()) if !self.limit(h, state) => break,
-                Ok(()) => cost.limited = true,
+                Ok(()) => cost.limited = 1,
                 // Strong sliding into a narrow gap: the fitting was made for another pressure, and Newton overshoots.
                 // Fully upwind faces make an M-function of any pressure, damped steps find its root.
                 Err(_) if !careful => {
                     careful = true;
-                    cost.limited = true;
+                    cost.limited = 1;
                     if let Some(speed) = speed {
                         self.fit_upwind(h, speed, dt);
                     }
@@ -536,7 +559,7 @@ impl Film {
         dt: f64,
         state: &FilmState,
         careful: bool,
-        cost: &mut StepCost,
+        cost: &mut Cost,
     ) -> Result<(), FilmError> {
         for k in 0..self.rhs.len() {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];

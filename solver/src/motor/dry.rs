@@ -5,7 +5,7 @@
 //! another grid changes; of instants there are twice as many, since they cost little.
 
 use super::MotorError;
-use super::ending::Stop;
+use super::ending::unless_cancelled;
 use super::level::Level;
 use crate::control::Cancel;
 use crate::plan::{Grid, Plan};
@@ -22,11 +22,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {
         let mut level = Level::new(motor, &plan, &Grid { steps: 2 * grid.steps, ..*grid });
-        match level.dry_cycle(cancel) {
-            Ok(()) => {}
-            Err(Stop::Cancelled) => return Ok(None),
-            Err(Stop::Failed(error)) => return Err(error),
-        }
+        let Some(()) = unless_cancelled(level.dry_cycle(cancel))? else { return Ok(None) };
         let lines = level.line_loads(motor);
         cycles.push(LineLoads {
             film: vec![0.0; lines.film.len()],

@@ -44,6 +44,15 @@ impl From<Interrupted> for Stop {
     }
 }
 
+/// What was found; `None` if it was cancelled.
+pub(super) fn unless_cancelled<T>(found: Result<T, Stop>) -> Result<Option<T>, MotorError> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(Stop::Cancelled) => Ok(None),
+        Err(Stop::Failed(error)) => Err(error),
+    }
+}
+
 /// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
 pub fn unit(alpha: f64) -> f64 {
     alpha.abs().max(0.01)

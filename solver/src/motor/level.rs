@@ -36,7 +36,7 @@ const LEAST_CHANGE: f64 = 1e-9;
 pub(super) struct Level {
     teeth: usize,
     stored: usize,
-    pub(super) steps: usize,
+    steps: usize,
     nx: usize,
     /// Vibration period over steps \[s\].
     dt: f64,
@@ -316,7 +316,7 @@ impl Level {
         let (size, dt) = (self.steps * self.nx, self.dt);
         for tooth in 0..self.stored {
             let range = tooth * size..(tooth + 1) * size;
-            let cost = self.films[tooth].march(
+            *stats += self.films[tooth].march(
                 &self.film_thickness[range.clone()],
                 self.speed.as_ref().map(|u| &u[range.clone()]),
                 |_| dt,
@@ -324,9 +324,6 @@ impl Level {
                 &mut self.line[range],
                 cancel,
             )?;
-            stats.film_steps += cost.steps;
-            stats.film_solves += cost.solves;
-            stats.limited_steps += cost.limited;
         }
         stats.cycles += 1;
         Ok(())
@@ -344,7 +341,7 @@ impl Level {
             out.extend(heights.iter().map(|h| h.ln()));
         }
         for state in &self.states {
-            out.extend(state.trapped.iter().chain(&state.carried).map(|v| v.ln()));
+            out.extend(state.logarithms());
         }
     }
 
@@ -362,11 +359,7 @@ impl Level {
         }
         let unknowns = self.states[0].trapped.len();
         for (state, values) in self.states.iter_mut().zip(states.chunks_exact(2 * unknowns)) {
-            let (trapped, carried) = values.split_at(unknowns);
-            for k in 0..unknowns {
-                state.trapped[k] = trapped[k].exp();
-                state.carried[k] = carried[k].exp();
-            }
+            state.set_logarithms(values);
         }
     }
 
@@ -505,11 +498,6 @@ impl Level {
         sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64
     }
 
-    /// α at instant 0: the present, between two cycles of a transient.
-    pub(super) fn alpha_now(&self) -> f64 {
-        self.mean_film_load_of(self.steps) / self.load
-    }
-
     pub(super) fn alpha(&self) -> f64 {
         self.mean_film_load() / self.load
     }
@@ -549,8 +537,16 @@ impl State for Level {
         Mean { all: self.alpha(), shared: self.mean_film_load_of(2) / self.load }
     }
 
+    fn now(&self) -> f64 {
+        self.mean_film_load_of(self.steps) / self.load
+    }
+
     fn unit(&self) -> f64 {
         unit(self.alpha())
+    }
+
+    fn steps(&self) -> usize {
+        self.steps
     }
 
     /// Of half the width.

@@ -17,14 +17,14 @@ pub use dry::without_film;
 pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, extrapolate, extrapolate_means};
-use crate::ladder::{self, Found, Nested, Scene, State, climb, climb_once};
+use crate::estimate::{Estimate, extrapolate_means};
+use crate::ladder::{self, Found, Marched, Nested, Scene, TransientCycle, climb, climb_once, march_cycle};
 use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Outcome, Stats, Status};
-use ending::Stop;
+use ending::{Stop, unless_cancelled};
 use level::Level;
 
 /// Rounds that a start from another motor's state is given.
@@ -219,11 +219,8 @@ impl Scene for Search<'_> {
                 None => level.rest().map_err(Stop::Failed),
             };
             let cancel = self.cancel.within_budget();
-            return match started.and_then(|()| level.settle(plan, self.stats, &mut report, &cancel)) {
-                Ok(status) => Ok((status, level)),
-                Err(Stop::Cancelled) => Ok((Status::Cancelled, level)),
-                Err(Stop::Failed(error)) => Err(error),
-            };
+            let settled = started.and_then(|()| level.settle(plan, self.stats, &mut report, &cancel));
+            return Ok((unless_cancelled(settled)?.unwrap_or(Status::Cancelled), level));
         }
         match start {
             Some(other) => level.start_from(other),
@@ -275,85 +272,51 @@ pub struct Transient<'a> {
     plan: Plan,
     levels: Vec<Level>,
     width_error: f64,
-    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
-    pub elsewhere: f64,
-    /// What it has cost so far, all grids.
-    pub stats: Stats,
-    /// Largest residual of any step so far, in ln ζ.
-    worst: f64,
 }
 
 impl<'a> Transient<'a> {
-    /// At rest, every tooth by itself. `width_error`: that of α, by the nodes across; `stats`: what it has cost so far.
+    /// At rest, every tooth by itself. `width_error`: that of α, by the nodes across.
     ///
     /// # Errors
     /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
-    pub fn at_rest(motor: &'a Motor, plan: &Plan, width_error: f64, stats: Stats) -> Result<Self, MotorError> {
+    pub fn at_rest(motor: &'a Motor, plan: &Plan, width_error: f64) -> Result<Self, MotorError> {
         let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
         let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, &plan, grid)).collect();
         levels.iter_mut().try_for_each(Level::rest)?;
-        Ok(Self { motor, plan, levels, width_error, elsewhere: 0.0, stats, worst: 0.0 })
+        Ok(Self { motor, plan, levels, width_error })
     }
 
-    /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
-    /// of ln Z over it. `None` if cancelled.
+    /// The next cycle, from the present instant on; `stats`: what all has cost so far, to which this is added. `None` if cancelled.
     ///
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(Outcome, Recording, f64)>, MotorError> {
-        let tolerance = self.tolerance();
-        let finest = self.levels.len() - 1;
-        let (mut alphas, mut ends) = (Vec::new(), Vec::new());
-        let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
-        for (number, level) in self.levels.iter_mut().enumerate() {
-            let start = level.alpha_now();
-            let maps = self.plan.maps && number == finest;
-            let told = |level: &Level| {
-                if number < finest {
-                    coarser.push(level.line_loads(self.motor));
-                    Recording::default()
-                } else {
-                    level.recording(self.motor, &self.plan, &coarser, maps)
-                }
-            };
-            last = match level.transient_cycle(tolerance, &mut self.stats, cancel, told) {
-                Ok(cycle) => cycle,
-                Err(Stop::Cancelled) => return Ok(None),
-                Err(Stop::Failed(error)) => return Err(error),
-            };
-            let end = level.alpha_now();
-            alphas.push(level.headline().from_to(start, end, level.steps));
-            ends.push(end);
-            level.count(&mut self.stats);
-        }
-        self.stats.cycles += 1;
+    pub fn cycle(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<Option<TransientCycle>, MotorError> {
+        let (motor, plan) = (self.motor, &self.plan);
+        // What film and contact have to agree to in every step, in ln ζ.
+        let tolerance = 0.025 * plan.tolerance;
+        let marched = march_cycle(
+            &mut self.levels,
+            stats,
+            |level, stats, told| level.transient_cycle(tolerance, stats, cancel, told),
+            |level| level.line_loads(motor),
+            |level, coarser| level.recording(motor, plan, coarser),
+        );
+        let Some(Marched { recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
         let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
-        self.worst = self.worst.max(astray);
-        let (recording, change) = last;
-        let mut result = summarise(self.motor, &recording);
+        let mut result = summarise(motor, &recording);
         // Its frames begin with the start of the cycle, and have not its end.
-        let grown = extrapolate(&ends).value - recording.film_load[0] / self.motor.load;
-        let estimate = extrapolate_means(&alphas);
+        let grown = end - recording.film_load[0] / motor.load;
         // What floats carries its load whatever the gas is, and whatever was left out.
-        let elsewhere =
-            if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() + self.width_error };
+        let left_out = if result.levitated { 0.0 } else { plan.left_out * mean.value.abs() + self.width_error };
         // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
-        let gas = if result.levitated { 1.0 } else { self.levels[finest].gas_force() / self.motor.load };
-        self.elsewhere = elsewhere + astray.min(1.0) * gas.max(1.0);
+        let finest = self.levels.last().filter(|_| !result.levitated);
+        let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load);
+        let elsewhere = left_out + astray.min(1.0) * gas.max(1.0);
         let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
-        let error = estimate.error.min(1.0) + (alpha - estimate.value).abs() + self.elsewhere;
-        result.set_alpha(self.motor, Estimate { value: alpha, error });
-        Ok(Some((Outcome::Motor(result), recording, change)))
-    }
-
-    /// What film and contact have to agree to in every step, in ln ζ.
-    fn tolerance(&self) -> f64 {
-        0.025 * self.plan.tolerance
-    }
-
-    /// The largest residual of steps that were taken although film and contact did not agree, and what was allowed, in ln ζ.
-    pub fn unsettled(&self) -> Option<(f64, f64)> {
-        (self.worst > self.tolerance()).then_some((self.worst, self.tolerance()))
+        let error = mean.error.min(1.0) + (alpha - mean.value).abs() + elsewhere;
+        result.set_alpha(motor, Estimate { value: alpha, error });
+        let unsettled = (astray > tolerance).then_some((astray, tolerance));
+        Ok(Some(TransientCycle { outcome: Outcome::Motor(result), recording, change, elsewhere, unsettled }))
     }
 }
 
@@ -380,7 +343,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
-    let mut recording = level.recording(motor, plan, &coarser, plan.maps);
+    let mut recording = level.recording(motor, plan, &coarser);
     let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);

@@ -103,10 +103,6 @@ impl Level {
         }
     }
 
-    pub(super) fn steps(&self) -> usize {
-        self.dt.len()
-    }
-
     /// Rest at the mean gap, gas at ambient pressure; then, opening first, up to the beginning of the first cycle.
     pub(super) fn rest(&mut self, mean_gap: f64, stats: &mut Stats) -> Result<(), Interrupted> {
         self.state = FilmState::at_rest(vec![mean_gap; self.state.trapped.len()]);
@@ -151,14 +147,13 @@ impl Level {
         }
     }
 
-    /// One cycle on, with nothing accelerated: what `told` makes of it, the first frame being the present, and the largest change of
-    /// ln Z.
+    /// One cycle on, with nothing accelerated: `told` is handed it, the first frame being the present. Returns the largest change of ln Z.
     pub(super) fn transient_cycle(
         &mut self,
         stats: &mut Stats,
         cancel: &Cancel,
-        told: impl FnOnce(&Self) -> Recording,
-    ) -> Result<(Recording, f64), Interrupted> {
+        told: &mut dyn FnMut(&Self),
+    ) -> Result<f64, Interrupted> {
         let before = self.state.clone();
         for step in 1..self.steps() {
             if cancel.is_cancelled() {
@@ -166,23 +161,20 @@ impl Level {
             }
             self.advance(self.dt[step], step, step, stats)?;
         }
-        let recording = told(self);
+        told(self);
         self.advance(self.dt[0], self.steps(), 0, stats)?;
         self.cycle.remember(true);
-        Ok((recording, self.state.change_since(&before)))
+        Ok(self.state.change_since(&before))
     }
 
     /// One step in the time `dt` \[s\], to step `m` of the cycle.
     fn advance(&mut self, dt: f64, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
         let nx = self.cycle.grid().x.len();
         let here = m * nx..(m + 1) * nx;
-        let taken = self
+        *stats += self
             .cycle
             .advance(m, &self.gap[here.clone()], None, dt, &mut self.state, &mut self.line[here])
             .map_err(|source| Interrupted::Failed { step, source })?;
-        stats.film_steps += 1;
-        stats.film_solves += u64::from(taken.solves);
-        stats.limited_steps += u64::from(taken.limited);
         Ok(())
     }
 
@@ -199,17 +191,14 @@ impl Level {
         }
         let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
         let mut least = (f64::INFINITY, 0);
-        let unknowns = self.state.trapped.len();
-        let (mut present, mut image) = (vec![0.0; 2 * unknowns], vec![0.0; 2 * unknowns]);
-        pack(&self.state, &mut present);
+        let mut present: Vec<f64> = self.state.logarithms().collect();
+        let mut image = Vec::with_capacity(present.len());
         for round in 1..=plan.round_limit {
-            let cost = self.cycle.march(&self.gap, None, |m| self.dt[m], &mut self.state, &mut self.line, cancel)?;
-            stats.film_steps += cost.steps;
-            stats.film_solves += cost.solves;
-            stats.limited_steps += cost.limited;
+            *stats += self.cycle.march(&self.gap, None, |m| self.dt[m], &mut self.state, &mut self.line, cancel)?;
             stats.cycles += 1;
             self.cycle.shift(&mut self.state);
-            pack(&self.state, &mut image);
+            image.clear();
+            image.extend(self.state.logarithms());
             let residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             self.residual = residual;
             report.round(round, residual, self.mean_load());
@@ -221,10 +210,7 @@ impl Level {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
-            for k in 0..unknowns {
-                self.state.trapped[k] = present[k].exp();
-                self.state.carried[k] = present[unknowns + k].exp();
-            }
+            self.state.set_logarithms(&present);
         }
         Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance })
     }
@@ -271,11 +257,6 @@ impl Level {
         (share * self.unit() / force).max(LEAST_CHANGE)
     }
 
-    /// Film load \[N\] at instant 0: the present, between two cycles of a transient.
-    pub(super) fn load_now(&self) -> f64 {
-        self.load(&self.line[..self.cycle.grid().x.len()], self.gap[0])
-    }
-
     /// The film of one cycle, lengths are those of the whole plate; and the absolute pressure at every node, if `maps`,
     /// `[frame][ix][iy]`.
     pub(super) fn fields(&self, plate: &Plate, maps: bool) -> (LineLoads, Vec<f64>) {
@@ -319,10 +300,11 @@ impl Level {
         (lines, pressure)
     }
 
-    /// The cycle as it is drawn and exported: this, the finest grid, extrapolated with the `coarser` ones, coarse to fine.
-    pub(super) fn recording(&self, plate: &Plate, coarser: &[LineLoads], maps: bool) -> Recording {
+    /// The cycle as it is drawn and exported: this, the finest grid, extrapolated with the `coarser` ones, coarse to fine; of a plate that
+    /// `plan` solves turned, turned back.
+    pub(super) fn recording(&self, plate: &Plate, plan: &Plan, coarser: &[LineLoads]) -> Recording {
         let grid = self.cycle.grid();
-        let (lines, pressure) = self.fields(plate, maps);
+        let (lines, pressure) = self.fields(plate, plan.maps || plan.turned);
         let base = Recording {
             period: self.period,
             stator: vec![0.0; lines.film.len()],
@@ -333,12 +315,16 @@ impl Level {
             ..Recording::default()
         };
         let balance = Balance { load: None, min_spacing: 0.0, exclusive: true };
-        base.of_lines(lines, coarser, &balance, pressure, grid.y.unknown())
+        let mut recording = base.of_lines(lines, coarser, &balance, pressure, grid.y.unknown());
+        if plan.turned {
+            self.turn(&mut recording, plan.maps);
+        }
+        recording
     }
 
     /// Turns the recording of a plate that was solved turned: x and y change places, and lines run along the other side. The fields
     /// that it is judged by stay as they are, since only their sums count.
-    pub(super) fn turn(&self, recording: &mut Recording, maps: bool) {
+    fn turn(&self, recording: &mut Recording, maps: bool) {
         let y = &self.cycle.grid().y;
         let (nx, ny, frames) = (recording.map_x.len(), recording.map_y.len(), recording.frames);
         let mut pressure = vec![0.0; recording.pressure.len()];
@@ -379,6 +365,14 @@ impl State for Level {
         Mean { all: all / frames as f64, shared: shared / frames.div_ceil(2) as f64 }
     }
 
+    fn now(&self) -> f64 {
+        self.load(&self.line[..self.cycle.grid().x.len()], self.gap[0])
+    }
+
+    fn steps(&self) -> usize {
+        self.dt.len()
+    }
+
     /// See [`unit`].
     fn unit(&self) -> f64 {
         let loads = self.loads();
@@ -393,13 +387,5 @@ impl State for Level {
     fn count(&self, stats: &mut Stats) {
         stats.film_nodes = self.cycle.grid().nodes();
         stats.steps_per_cycle = self.steps();
-    }
-}
-
-fn pack(state: &FilmState, out: &mut [f64]) {
-    let unknowns = state.trapped.len();
-    for k in 0..unknowns {
-        out[k] = state.trapped[k].ln();
-        out[unknowns + k] = state.carried[k].ln();
     }
 }

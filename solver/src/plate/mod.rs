@@ -65,7 +65,7 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
-    let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
+    let mut recording = level.recording(plate, plan, &coarser);
     let estimate = stated(plate, plan, found);
     let elsewhere = (estimate.error - of_grids(found).error).max(0.0);
     let of_gas = elsewhere / gas_force(plate, estimate.value);
@@ -81,9 +81,6 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     result.film_load.error = error;
     if periodic.status == Status::Converged && error > level.unit().max(force.abs()) {
         periodic.status = Status::NotResolved { error: error / force.abs() };
-    }
-    if plan.turned {
-        level.turn(&mut recording, plan.maps);
     }
     Periodic { result, recording, ..periodic }
 }

@@ -70,7 +70,6 @@ impl Bound {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unknown {
     /// The key.
-    #[serde(deserialize_with = "Parameter::from_key")]
     pub parameter: &'static Parameter,
     /// Lower bound, in the unit of the key.
     pub from: f64,

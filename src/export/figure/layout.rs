@@ -5,8 +5,7 @@ use super::description::{Figure, Legend, Panel};
 use super::layers::{Layer, Shading};
 use super::legend;
 use super::placed::{
-    BAR, Bar, FOOT, GAP, HEAD, LABEL, LEADING, MAJOR, MM, NOTE, Placed, TICK, TITLE, axis_label, fills, first_map,
-    map_range, widest,
+    BAR, Bar, FOOT, GAP, HEAD, LABEL, LEADING, MAJOR, MM, NOTE, Placed, Ruler, TICK, TITLE, fills, first_map, map_range,
 };
 use super::plane;
 use super::scale::{Scaled, Tick, Ticks};
@@ -51,11 +50,7 @@ impl Layout {
         place_columns(figure, &mut panels, columns, width);
 
         let mut y = MARGIN;
-        let mut title = Vec::new();
-        for line in text::wrapped(&figure.title, TITLE, width - 2.0 * MARGIN) {
-            y += TITLE * LEADING;
-            title.push(([MARGIN, y - 0.25 * TITLE], line));
-        }
+        let title = set(text::wrapped(&figure.title, TITLE, width - 2.0 * MARGIN), TITLE, &mut y);
         if !title.is_empty() {
             y += 5.0;
         }
@@ -67,24 +62,29 @@ impl Layout {
             for i in row {
                 let height = panels[i].rect.height;
                 panels[i].lower(&figure.panels[i], y, top);
-                bottom = bottom.max(top + height + panels[i].below(&figure.panels[i]));
+                bottom = bottom.max(top + height + panels[i].below());
             }
             y = bottom + ROW_GAP;
         }
         if count > 0 {
             y -= ROW_GAP;
         }
-        let mut foot = Vec::new();
-        let lines = text::wrapped(&figure.provenance.line(), FOOT, width - 2.0 * MARGIN);
-        if !lines.is_empty() {
+        let foot = text::wrapped(&figure.provenance.line(), FOOT, width - 2.0 * MARGIN);
+        if !foot.is_empty() {
             y += 4.0;
         }
-        for line in lines {
-            y += FOOT * LEADING;
-            foot.push(([MARGIN, y - 0.25 * FOOT], line));
-        }
+        let foot = set(foot, FOOT, &mut y);
         Self { width, height: y + MARGIN, title, panels, foot }
     }
+}
+
+/// Lines of type at the left margin, each with its place; `y` goes down to where they end.
+fn set(lines: Vec<String>, size: f64, y: &mut f64) -> Vec<([f64; 2], String)> {
+    let place = |line| {
+        *y += size * LEADING;
+        ([MARGIN, *y - 0.25 * size], line)
+    };
+    lines.into_iter().map(place).collect()
 }
 
 /// Ranges of a panel's axes: x, y and right.
@@ -159,9 +159,14 @@ fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
     Ticks { ticks, power: 0 }
 }
 
-/// Ticks of an upright axis: as many as its height has room for.
-fn upright_ticks(axis: &Axis, range: &Scaled, height: f64) -> Ticks {
-    ticks(axis, range, ((height / (2.0 * TICK)) as usize).clamp(2, 7))
+/// An upright axis: as many ticks as its height has room for.
+fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
+    Ruler::new(axis, range, ticks(axis, &range, ((height / (2.0 * TICK)) as usize).clamp(2, 7)))
+}
+
+/// What an upright axis takes beside the plotting area.
+fn room(axis: &Ruler) -> f64 {
+    axis.reach() + if axis.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
 }
 
 /// Ticks of a level axis whose labels do not touch.
@@ -193,30 +198,17 @@ impl Placed {
     /// What is known before the width is: ranges, and what stands beside the axes.
     fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
         let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
-        let y_ticks = upright_ticks(&panel.y, &y, height);
-        let right_ticks = match (&panel.right, &right) {
-            (Some(axis), Some(range)) => upright_ticks(axis, range, height),
-            _ => Ticks::default(),
-        };
-        let reach = |ticks: &Ticks| MAJOR + GAP + widest(ticks);
         let bar = first_map(panel).map(|map| {
-            let range = map_range(map);
-            let upright = height >= LOW;
-            let most = if upright { ((height / (2.0 * TICK)) as usize).clamp(2, 7) } else { 4 };
-            let ticks = Ticks::new(&range, most, false);
-            let label = axis_label(&map.label, &map.unit, ticks.power);
-            Bar { rect: Rect::default(), upright, range, ticks, label }
+            let (axis, range, is_upright) = (Axis::new(&map.label, &map.unit), map_range(map), height >= LOW);
+            let low = || Ruler::new(&axis, range, Ticks::new(&range, 4, false));
+            let ruler = if is_upright { upright(&axis, range, height) } else { low() };
+            Bar { rect: Rect::default(), upright: is_upright, ruler }
         });
         Self {
             rect: Rect { height, ..Rect::default() },
-            y_reach: reach(&y_ticks),
-            right_reach: if right.is_some() { reach(&right_ticks) } else { 0.0 },
-            x,
-            y,
-            right,
-            x_ticks: Ticks::default(),
-            y_ticks,
-            right_ticks,
+            x: Ruler::new(&panel.x, x, Ticks::default()),
+            y: upright(&panel.y, y, height),
+            right: panel.right.as_ref().zip(right).map(|(axis, range)| upright(axis, range, height)),
             x_labels,
             bar,
             legend: Vec::new(),
@@ -225,22 +217,10 @@ impl Placed {
         }
     }
 
-    /// What stands left of the plotting area.
-    fn left(&self, panel: &Panel) -> f64 {
-        let label = axis_label(&panel.y.label, &panel.y.unit, self.y_ticks.power);
-        self.y_reach + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
-    }
-
-    /// What stands right of it.
-    fn right_side(&self, panel: &Panel) -> f64 {
-        let axis = panel.right.as_ref().map_or(0.0, |axis| {
-            let label = axis_label(&axis.label, &axis.unit, self.right_ticks.power);
-            self.right_reach + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
-        });
-        let bar = self.bar.as_ref().filter(|bar| bar.upright).map_or(0.0, |bar| {
-            let label = if bar.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 };
-            BAR_GAP + BAR + MAJOR + GAP + widest(&bar.ticks) + label
-        });
+    /// What stands right of the plotting area.
+    fn right_side(&self) -> f64 {
+        let axis = self.right.as_ref().map_or(0.0, room);
+        let bar = self.bar.as_ref().filter(|bar| bar.upright).map_or(0.0, |bar| BAR_GAP + BAR + room(&bar.ruler));
         // Half of the last label of the x axis.
         (axis + bar).max(7.0)
     }
@@ -257,16 +237,15 @@ impl Placed {
 
     /// Width of a colour bar above the axes, its label included.
     fn bar_above(&self) -> f64 {
-        self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.label, NOTE))
+        self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.ruler.label, NOTE))
     }
 
     /// What stands below it.
-    fn below(&self, panel: &Panel) -> f64 {
+    fn below(&self) -> f64 {
         if !self.x_labels {
             return MAJOR;
         }
-        let label = axis_label(&panel.x.label, &panel.x.unit, self.x_ticks.power);
-        MAJOR + GAP + TICK + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.15 }
+        MAJOR + GAP + TICK + if self.x.label.is_empty() { 0.0 } else { GAP + LABEL * 1.15 }
     }
 
     /// Sets the plotting area's top and places what is above it; titles of a row are at one height, at its top.
@@ -299,8 +278,8 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
     let sides: Vec<[f64; 2]> = (0..columns)
         .map(|column| {
             let of_column = || (column..panels.len()).step_by(columns);
-            let left = of_column().map(|i| panels[i].left(&figure.panels[i])).fold(0.0, f64::max);
-            let right = of_column().map(|i| panels[i].right_side(&figure.panels[i])).fold(0.0, f64::max);
+            let left = of_column().map(|i| room(&panels[i].y)).fold(0.0, f64::max);
+            let right = of_column().map(|i| panels[i].right_side()).fold(0.0, f64::max);
             [left, right]
         })
         .collect();
@@ -312,7 +291,8 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
             let placed = &mut panels[i];
             placed.rect.x = x + left;
             placed.rect.width = plot;
-            placed.x_ticks = level_ticks(&figure.panels[i].x, &placed.x, plot);
+            let (axis, range) = (&figure.panels[i].x, placed.x.range);
+            placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot));
             if figure.panels[i].legend != Legend::None {
                 legend::choose(placed, &figure.panels[i]);
             }

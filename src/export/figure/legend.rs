@@ -84,7 +84,7 @@ pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
 pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     let at = |y: &Scaled, p: [f64; 2]| {
-        [area.x + placed.x.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
+        [area.x + placed.x.range.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
     };
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
         for part in clipped_line(line, area) {
@@ -97,20 +97,20 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
             }
         }
     };
-    let mut single = Vec::new();
+    let (mut single, y) = (Vec::new(), &placed.y.range);
     for layer in &panel.layers {
         match layer {
-            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(&placed.upright(line.right), *p))),
+            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(placed.upright(line.right), *p))),
             Layer::Band(band) => {
                 for [x, low, high] in &band.points {
-                    path(&mut [at(&placed.y, [*x, *low]), at(&placed.y, [*x, *high])].into_iter());
+                    path(&mut [*low, *high].map(|end| at(y, [*x, end])).into_iter());
                 }
             }
             Layer::Points(cloud) => {
                 for (i, [x, value]) in cloud.points.iter().enumerate() {
                     let error = cloud.errors.get(i).copied().unwrap_or(0.0);
-                    single.push(at(&placed.y, [*x, *value]));
-                    path(&mut [value - error, value + error].map(|end| at(&placed.y, [*x, end])).into_iter());
+                    single.push(at(y, [*x, *value]));
+                    path(&mut [value - error, value + error].map(|end| at(y, [*x, end])).into_iter());
                 }
             }
             Layer::Mark(mark) if marks => {

@@ -8,8 +8,7 @@ use super::isoline::{self, Isoline};
 use super::layers::{Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
 use super::legend::{covered, drawn};
 use super::placed::{
-    BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, SPACE, Sign, TICK, axis_label, fills, first_map, map_range,
-    mark_ends, widest,
+    Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range, mark_ends,
 };
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
@@ -29,8 +28,8 @@ const HALF_HEIGHT: f64 = 0.35;
 pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Picture> {
     let Placed { rect, x, y, .. } = placed;
     let of = |layer: &Layer| match layer {
-        Layer::Map(map) => plane::map(map, rect, x, y, &map_range(map)),
-        Layer::Categories(kinds) => plane::categories(kinds, rect, x, y),
+        Layer::Map(map) => plane::map(map, rect, &x.range, &y.range, &map_range(map)),
+        Layer::Categories(kinds) => plane::categories(kinds, rect, &x.range, &y.range),
         _ => None,
     };
     let mut pictures: Vec<Picture> = panel.layers.iter().filter_map(of).collect();
@@ -80,12 +79,11 @@ impl On<'_> {
     /// What a reader of the file needs to get back from places to values.
     fn attributes(&self) -> String {
         let Rect { x, y, width, height } = self.placed.rect;
-        let axis = |range: &Scaled| {
+        let axis = |Ruler { range, .. }: &Ruler| {
             let scale = if range.scale == Scale::Log { "log" } else { "linear" };
             format!("{:e} {:e} {scale}", range.from, range.to)
         };
-        let right =
-            self.placed.right.as_ref().map_or(String::new(), |range| format!(r#" data-right="{}""#, axis(range)));
+        let right = self.placed.right.as_ref().map_or(String::new(), |it| format!(r#" data-right="{}""#, axis(it)));
         format!(
             r#"class="panel" data-title="{}" data-area="{x:.4} {y:.4} {width:.4} {height:.4}" data-x="{}" data-y="{}"{right}"#,
             escaped(&text::plain(&self.panel.title)),
@@ -95,7 +93,7 @@ impl On<'_> {
     }
 
     fn px(&self, x: f64) -> f64 {
-        self.placed.rect.x + self.placed.x.fraction(x) * self.placed.rect.width
+        self.placed.rect.x + self.placed.x.range.fraction(x) * self.placed.rect.width
     }
 
     fn py(&self, y: f64, right: bool) -> f64 {
@@ -298,36 +296,26 @@ impl On<'_> {
         }
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
-        for tick in &self.placed.x_ticks.ticks {
-            let at = rect.x + x.fraction(tick.at) * rect.width;
+        for tick in &x.ticks.ticks {
+            let at = rect.x + x.range.fraction(tick.at) * rect.width;
             strokes.push([at, rect.bottom(), at, rect.bottom() + length(tick.label.is_some())]);
             if let Some(label) = tick.label.as_ref().filter(|_| self.placed.x_labels) {
                 let baseline = rect.bottom() + MAJOR + GAP + 0.74 * TICK;
                 svg.text([at, baseline], label, &Type::new(TICK, "middle"));
             }
         }
-        upright(svg, &mut strokes, rect.x, -1.0, rect, y, &self.placed.y_ticks);
-        if let Some(range) = right {
-            upright(svg, &mut strokes, rect.right(), 1.0, rect, range, &self.placed.right_ticks);
+        strokes.extend(upright_ticks(svg, y, rect, -1.0));
+        if let Some(right) = right {
+            strokes.extend(upright_ticks(svg, right, rect, 1.0));
         }
         svg.segments(&strokes, &pen);
-        self.axis_labels(svg);
-    }
-
-    fn axis_labels(&self, svg: &mut Svg) {
-        let Placed { rect, x_ticks, y_ticks, right_ticks, y_reach, right_reach, .. } = self.placed;
-        let (middle, centre) = (rect.x + 0.5 * rect.width, rect.y + 0.5 * rect.height);
-        let label = Type::new(LABEL, "middle");
-        let turned = Type { angle: -90.0, ..label };
         if self.placed.x_labels {
             let baseline = rect.bottom() + MAJOR + GAP + TICK + GAP + 0.76 * LABEL;
-            svg.text([middle, baseline], &axis_label(&self.panel.x.label, &self.panel.x.unit, x_ticks.power), &label);
+            svg.text([rect.x + 0.5 * rect.width, baseline], &x.label, &Type::new(LABEL, "middle"));
         }
-        let y = axis_label(&self.panel.y.label, &self.panel.y.unit, y_ticks.power);
-        svg.text([rect.x - y_reach - GAP - 0.2 * LABEL, centre], &y, &turned);
-        if let Some(axis) = &self.panel.right {
-            let text = axis_label(&axis.label, &axis.unit, right_ticks.power);
-            svg.text([rect.right() + right_reach + GAP + 0.8 * LABEL, centre], &text, &turned);
+        upright_label(svg, y, rect, -1.0);
+        if let Some(right) = right {
+            upright_label(svg, right, rect, 1.0);
         }
     }
 
@@ -389,39 +377,46 @@ fn sparse(points: &[[f64; 2]], curve: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Ticks and labels of an upright axis at `x`; `side` is −1 to the left, 1 to the right.
-fn upright(svg: &mut Svg, strokes: &mut Vec<[f64; 4]>, x: f64, side: f64, rect: &Rect, range: &Scaled, ticks: &Ticks) {
-    let anchor = if side < 0.0 { "end" } else { "start" };
-    for tick in &ticks.ticks {
-        let y = rect.bottom() - range.fraction(tick.at) * rect.height;
+/// Labels the ticks of an upright axis left (−1) or right (1) of `rect`, and gives their strokes.
+fn upright_ticks(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) -> Vec<[f64; 4]> {
+    let (x, anchor) = if side < 0.0 { (rect.x, "end") } else { (rect.right(), "start") };
+    let mut strokes = Vec::new();
+    for tick in &axis.ticks.ticks {
+        let y = rect.bottom() - axis.range.fraction(tick.at) * rect.height;
         let length = if tick.label.is_some() { MAJOR } else { MINOR };
         strokes.push([x, y, x + side * length, y]);
         if let Some(label) = &tick.label {
             svg.text([x + side * (MAJOR + GAP), y + HALF_HEIGHT * TICK], label, &Type::new(TICK, anchor));
         }
     }
+    strokes
 }
 
-fn colour_bar(svg: &mut Svg, bar: &Bar) {
-    let Bar { rect, upright: is_upright, range, ticks, label } = bar;
+/// The quantity beside an upright axis, turned.
+fn upright_label(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) {
+    let beyond = axis.reach() + GAP;
+    let x = if side < 0.0 { rect.x - beyond - 0.2 * LABEL } else { rect.right() + beyond + 0.8 * LABEL };
+    let turned = Type { angle: -90.0, ..Type::new(LABEL, "middle") };
+    svg.text([x, rect.y + 0.5 * rect.height], &axis.label, &turned);
+}
+
+fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
     let pen = Pen::solid(Colour::BLACK, THIN);
     svg.open(r#"class="bar""#);
     svg.rect(rect, Some(&pen), None);
     let mut strokes = Vec::new();
-    if *is_upright {
-        upright(svg, &mut strokes, rect.right(), 1.0, rect, range, ticks);
-        let x = rect.x + BAR + MAJOR + GAP + widest(ticks) + GAP + 0.8 * LABEL;
-        let style = Type { angle: -90.0, ..Type::new(LABEL, "middle") };
-        svg.text([x, rect.y + 0.5 * rect.height], label, &style);
+    if *upright {
+        strokes = upright_ticks(svg, ruler, rect, 1.0);
+        upright_label(svg, ruler, rect, 1.0);
     } else {
-        for tick in &ticks.ticks {
-            let x = rect.x + range.fraction(tick.at) * rect.width;
+        for tick in &ruler.ticks.ticks {
+            let x = rect.x + ruler.range.fraction(tick.at) * rect.width;
             strokes.push([x, rect.bottom(), x, rect.bottom() + if tick.label.is_some() { 2.0 } else { 1.2 }]);
             if let Some(label) = &tick.label {
                 svg.text([x, rect.bottom() + 2.5 + 0.76 * NOTE], label, &Type::new(NOTE, "middle"));
             }
         }
-        svg.text([rect.x - 5.0, rect.bottom()], label, &Type::new(NOTE, "end"));
+        svg.text([rect.x - 5.0, rect.bottom()], &ruler.label, &Type::new(NOTE, "end"));
     }
     svg.segments(&strokes, &pen);
     svg.close();

@@ -1,6 +1,6 @@
 //! A panel's place on the paper, with its legend and colour bar, and the sizes that all who place and draw share.
 
-use super::axis::Scale;
+use super::axis::{Axis, Scale};
 use super::colour::Colour;
 use super::description::Panel;
 use super::layers::{Direction, Layer, Map, Mark};
@@ -32,31 +32,44 @@ const SAMPLE: f64 = 17.0;
 /// Between a sample and its name.
 pub(super) const SPACE: f64 = 3.5;
 
+/// What is read along an axis or a colour bar.
+#[derive(Clone, Debug)]
+pub(super) struct Ruler {
+    pub(super) range: Scaled,
+    pub(super) ticks: Ticks,
+    /// The quantity and its unit.
+    pub(super) label: String,
+}
+
+impl Ruler {
+    pub(super) fn new(axis: &Axis, range: Scaled, ticks: Ticks) -> Self {
+        Self { range, label: axis_label(&axis.label, &axis.unit, ticks.power), ticks }
+    }
+
+    /// How far ticks and their labels reach out beside it when it is upright; the quantity is beyond them.
+    pub(super) fn reach(&self) -> f64 {
+        let labels = self.ticks.ticks.iter().filter_map(|tick| tick.label.as_deref());
+        MAJOR + GAP + labels.map(|label| text::width(label, TICK)).fold(0.0, f64::max)
+    }
+}
+
 /// A colour bar's place.
 #[derive(Clone, Debug)]
 pub(super) struct Bar {
     pub(super) rect: Rect,
     pub(super) upright: bool,
-    pub(super) range: Scaled,
-    pub(super) ticks: Ticks,
-    pub(super) label: String,
+    pub(super) ruler: Ruler,
 }
 
 /// A panel's place.
 #[derive(Clone, Debug)]
 pub(super) struct Placed {
     pub(super) rect: Rect,
-    pub(super) x: Scaled,
-    pub(super) y: Scaled,
-    pub(super) right: Option<Scaled>,
-    pub(super) x_ticks: Ticks,
-    pub(super) y_ticks: Ticks,
-    pub(super) right_ticks: Ticks,
+    pub(super) x: Ruler,
+    pub(super) y: Ruler,
+    pub(super) right: Option<Ruler>,
     /// Whether labels stand below the x axis.
     pub(super) x_labels: bool,
-    /// How far the labels of the y axes reach out, for the quantity beyond them.
-    pub(super) y_reach: f64,
-    pub(super) right_reach: f64,
     pub(super) bar: Option<Bar>,
     pub(super) legend: Vec<(Entry, [f64; 2])>,
     /// A legend inside has a background.
@@ -66,8 +79,8 @@ pub(super) struct Placed {
 
 impl Placed {
     /// The axis of what is read on the left, or on the right if there is one.
-    pub(super) fn upright(&self, right: bool) -> Scaled {
-        self.right.filter(|_| right).unwrap_or(self.y)
+    pub(super) fn upright(&self, right: bool) -> &Scaled {
+        &self.right.as_ref().filter(|_| right).unwrap_or(&self.y).range
     }
 }
 
@@ -106,23 +119,18 @@ impl Entry {
 pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
     match mark.direction {
         Direction::Vertical => {
-            let x = rect.x + placed.x.fraction(mark.at) * rect.width;
+            let x = rect.x + placed.x.range.fraction(mark.at) * rect.width;
             [[x, rect.bottom()], [x, rect.y]]
         }
         Direction::Horizontal => {
-            let y = rect.bottom() - placed.y.fraction(mark.at) * rect.height;
+            let y = rect.bottom() - placed.y.range.fraction(mark.at) * rect.height;
             [[rect.x, y], [rect.right(), y]]
         }
     }
 }
 
-/// Width of the widest label.
-pub(super) fn widest(ticks: &Ticks) -> f64 {
-    ticks.ticks.iter().filter_map(|tick| tick.label.as_deref()).map(|l| text::width(l, TICK)).fold(0.0, f64::max)
-}
-
 /// `gap (10^{−9} m)`
-pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
+fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
     let factor = if exponent == 0 { String::new() } else { power(exponent) };
     let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
     match (label.is_empty(), factor.is_empty() && unit.is_empty()) {

@@ -4,10 +4,10 @@
 use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, pressure_unit};
 use super::plate;
 use super::series::{
-    along, along_where_not_zero, mirrored, over_cycle, phase as phase_of, rest, span, tooth_map, with_margin,
+    along, along_where_not_zero, over_cycle, phase as phase_of, pressure_map, rest, span, tooth_map, with_margin,
 };
 use super::unit::prefixed;
-use crate::export::figure::{Axis, Figure, Legend, Line, Map, Marker, Panel, Points, Range, Style, Width, extent};
+use crate::export::figure::{Axis, Figure, Legend, Line, Marker, Panel, Points, Range, Style, Width, extent};
 use crate::problem::{Motor, Plate, rpm};
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
@@ -292,9 +292,8 @@ fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
     let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
     let mut panel = Panel::new(title, plate_axis(), y);
     for run in runs {
-        let x = mirrored(&run.recording.map_x, run.recording.half_length);
-        let line = plate::middle_line(run.recording, nearest_frame(run.recording, phase));
-        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x / run.scene.length, p * scale]));
+        let frame = nearest_frame(run.recording, phase);
+        let points = plate::along_the_middle(run.recording, frame, scale, |x| x / run.scene.length);
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
     panel
@@ -361,13 +360,8 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let mut figure = Figure::new("pressure along the plate and over the cycle");
     for run in runs {
-        let map = Map {
-            label: "absolute pressure".to_owned(),
-            unit: unit.clone(),
-            grid: plate::over_length_and_cycle(run.recording, scale, |x| x / run.scene.length),
-            range: Range::Fixed(low * scale, high * scale),
-            ..Map::default()
-        };
+        let grid = plate::over_length_and_cycle(run.recording, scale, |x| x / run.scene.length);
+        let map = pressure_map(grid, &unit, Range::Fixed(low * scale, high * scale));
         let panel = Panel::new(run.name, plate_axis(), Axis::new("t/T", "").fixed(0.0, 1.0));
         figure.panels.push(panel.layer(map).height(40.0));
     }

@@ -1,10 +1,13 @@
 //! Figures of a motor. Axes cover the whole cycle, so that figures of several instants can be laid side by side.
 
-use super::series::{along, along_where_not_zero, mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
+use super::series::{
+    along, along_where_not_zero, mirrored, over_cycle, phase, pressure_map, rest, span, tooth_map, whole_plane,
+    with_margin,
+};
 use super::unit::prefixed;
 use crate::digits::significant;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
+    Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Mark, Panel, Range, Style, Width,
 };
 use crate::problem::Motor;
 use crate::recording::Recording;
@@ -187,13 +190,8 @@ pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scal
             values.extend(y.iter().map(|(_, j)| plane[i * recording.map_y.len() + j] * scale));
         }
     }
-    let map = Map {
-        label: "absolute pressure".to_owned(),
-        unit: unit.to_owned(),
-        grid: Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values },
-        range: Range::Fixed(span[0] * scale, span[1] * scale),
-        ..Map::default()
-    };
+    let grid = Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values };
+    let map = pressure_map(grid, unit, Range::Fixed(span[0] * scale, span[1] * scale));
     Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
 }
 
@@ -222,16 +220,8 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
 
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
 pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
-    let plane = tooth_map(recording, recording.teeth / 2, frame);
-    let y = mirrored(&recording.map_y, recording.half_width);
-    let ny = recording.map_y.len();
-    let value = |i: usize, j: usize| plane[i * ny + j] * scale;
-    let grid = Grid {
-        x: recording.map_x.iter().map(|x| x * 1e3).collect(),
-        y: y.iter().map(|(y, _)| y * 1e3).collect(),
-        values: (0..recording.map_x.len()).flat_map(|i| y.iter().map(move |(_, j)| value(i, *j))).collect(),
-    };
-    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), range, ..Map::default() };
+    let grid = whole_plane(recording, &tooth_map(recording, recording.teeth / 2, frame), scale);
+    let colours = pressure_map(grid.clone(), &unit, range);
     let lines = Contours { grid, ..Contours::default() };
     let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
     Panel::new("", axes.0, axes.1).layer(colours).layer(lines).height(38.0)

@@ -1,9 +1,9 @@
 //! Figures of a plate.
 
-use super::series::{mirrored, over_cycle, phase, rest, span};
+use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
 use super::unit::prefixed;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Shape, Style, Width,
+    Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
 };
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -11,14 +11,12 @@ use crate::recording::Recording;
 /// Absolute pressure along the plate, at y = 0, at four instants a quarter of a cycle apart.
 pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let ambient = plate.gas.ambient_pressure;
-    let x = mirrored(&recording.map_x, recording.half_length);
     let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), ambient)[1], "Pa");
     let mut panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
         .layer(rest(ambient * scale, "ambient"));
     for quarter in 0..4 {
         let frame = quarter * recording.frames / 4;
-        let line = middle_line(recording, frame);
-        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x * 1e3, p * scale]));
+        let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
         let style = Style { marker: None, ..Style::nth(quarter) };
         panel = panel.layer(Line::new(["t = 0", "T/4", "T/2", "3T/4"][quarter], points, style));
     }
@@ -31,8 +29,20 @@ fn pressure_at_the_middle(plate: &Plate) -> &'static str {
     if plate.width.is_some() { "absolute pressure at y = 0" } else { "absolute pressure" }
 }
 
+/// Pressure along x at the y nearest to the middle, over both halves: a pascal is `scale`, and `place` is where a node \[m\] is drawn.
+pub(super) fn along_the_middle(
+    recording: &Recording,
+    frame: usize,
+    scale: f64,
+    place: impl Fn(f64) -> f64,
+) -> Vec<[f64; 2]> {
+    let line = middle_line(recording, frame);
+    let x = mirrored(&recording.map_x, recording.half_length);
+    x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [place(*x), p * scale])).collect()
+}
+
 /// Pressure along x at the y nearest to the middle.
-pub(super) fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
+fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
     let (nx, ny) = (recording.map_x.len(), recording.map_y.len());
     let distance = |j: &usize| recording.map_y[*j].abs();
     let Some(j) = (0..ny).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return Vec::new() };
@@ -106,7 +116,6 @@ fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) ->
 
 /// Gap, pressure profile and loop at a frame, for moving pictures.
 pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
-    let x = mirrored(&recording.map_x, recording.half_length);
     let half = 0.5 * plate.length * 1e3;
     let highest = plate.mean_gap + plate.amplitude;
     let (length, gaps) = prefixed(highest, "m");
@@ -126,8 +135,7 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     let [low, high] = span(recording.pressure.iter().copied(), ambient);
     let (unit, scale) = prefixed(high, "Pa");
     let margin = 0.06 * (high - low);
-    let line = middle_line(recording, frame);
-    let points: Vec<[f64; 2]> = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x * 1e3, p * scale])).collect();
+    let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
     let area = points.iter().map(|[x, p]| [*x, ambient * scale, *p]);
     let y = Axis::new(pressure_at_the_middle(plate), unit).fixed((low - margin) * scale, (high + margin) * scale);
     let pressure = Panel::new("(c) pressure", Axis::new("x", "mm").fixed(-half, half), y)
@@ -157,16 +165,11 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
         (format!("pressure along the {along}"), Axis::new("t/T", ""), grid)
     } else {
         let most = recording.max_pressure.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(m, _)| m);
-        let x = mirrored(&recording.map_x, recording.half_length);
-        let y = mirrored(&recording.map_y, recording.half_width);
-        let millimetres = |nodes: &[(f64, usize)]| nodes.iter().map(|(node, _)| node * 1e3).collect();
-        let offset = most * recording.map_x.len() * ny;
-        let at = |i: usize, j: usize| recording.pressure.get(offset + i * ny + j).map_or(f64::NAN, |p| p * scale);
-        let values = x.iter().flat_map(|(_, i)| y.iter().map(move |(_, j)| (*i, *j))).map(|(i, j)| at(i, j)).collect();
+        let plane = recording.pressure.get(most * recording.map_x.len() * ny..).unwrap_or(&[]);
         let title = format!("pressure at t/T = {:.3}", phase(recording, most));
-        (title, Axis::new("y", "mm"), Grid { x: millimetres(&x), y: millimetres(&y), values })
+        (title, Axis::new("y", "mm"), whole_plane(recording, plane, scale))
     };
-    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), ..Map::default() };
+    let colours = pressure_map(grid.clone(), &unit, Range::Auto);
     let lines = Contours { grid, ..Contours::default() };
     let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(colours).layer(lines).height(60.0);
     let mut figure = Figure::new(title).panel(panel);

@@ -1,6 +1,6 @@
 //! Series, maps and nodes of a recording as what figures draw.
 
-use crate::export::figure::{Colour, Mark, Style};
+use crate::export::figure::{Colour, Grid, Map, Mark, Range, Style};
 use crate::recording::Recording;
 
 /// Least and greatest of the finite values, these two included.
@@ -72,6 +72,22 @@ pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Ve
         (Some(now), Some(next)) => now.iter().zip(next).map(|(a, b)| a + weight * (b - a)).collect(),
         _ => vec![f64::NAN; size],
     }
+}
+
+/// A plane of pressures, stored `[ix][iy]`, over both halves \[mm\]; a pascal is `scale`.
+pub(super) fn whole_plane(recording: &Recording, plane: &[f64], scale: f64) -> Grid {
+    let x = mirrored(&recording.map_x, recording.half_length);
+    let y = mirrored(&recording.map_y, recording.half_width);
+    let ny = recording.map_y.len();
+    let at = |i: usize, j: usize| plane.get(i * ny + j).map_or(f64::NAN, |p| p * scale);
+    let values = x.iter().flat_map(|(_, i)| y.iter().map(move |(_, j)| (*i, *j))).map(|(i, j)| at(i, j)).collect();
+    let millimetres = |nodes: Vec<(f64, usize)>| nodes.into_iter().map(|(node, _)| node * 1e3).collect();
+    Grid { values, x: millimetres(x), y: millimetres(y) }
+}
+
+/// A map of absolute pressures in `unit`.
+pub(super) fn pressure_map(grid: Grid, unit: &str, range: Range) -> Map {
+    Map { label: "absolute pressure".to_owned(), unit: unit.to_owned(), grid, range, ..Map::default() }
 }
 
 /// Nodes over the whole width (or length) from those of one half, and for each the stored node it mirrors.

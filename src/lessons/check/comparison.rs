@@ -102,16 +102,13 @@ impl Comparison {
 }
 
 impl Expression {
-    /// Adds the numbers of tabs that it uses to `found`.
-    pub(super) fn live(&self, found: &mut Vec<Live>) {
+    /// The numbers of tabs that it uses.
+    pub(super) fn live(&self) -> Vec<Live> {
         match self {
-            Self::Number(_) | Self::Text(_) => {}
-            Self::Name { name, .. } => found.extend(if let Name::Live(live) = name { Some(*live) } else { None }),
-            Self::Negative(inside) | Self::Absolute(inside) => inside.live(found),
-            Self::Pair(_, left, right) => {
-                left.live(found);
-                right.live(found);
-            }
+            Self::Name { name: Name::Live(live), .. } => vec![*live],
+            Self::Number(_) | Self::Text(_) | Self::Name { .. } => Vec::new(),
+            Self::Negative(inside) | Self::Absolute(inside) => inside.live(),
+            Self::Pair(_, left, right) => [left.live(), right.live()].concat(),
         }
     }
 

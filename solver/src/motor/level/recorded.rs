@@ -40,13 +40,7 @@ impl Level {
 
     /// The cycle as it is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
     /// coarse to fine; without them as they are.
-    pub(in crate::motor) fn recording(
-        &self,
-        motor: &Motor,
-        plan: &Plan,
-        coarser: &[LineLoads],
-        maps: bool,
-    ) -> Recording {
+    pub(in crate::motor) fn recording(&self, motor: &Motor, plan: &Plan, coarser: &[LineLoads]) -> Recording {
         let grid = self.grid();
         let nx = self.nx;
         let mut stator = vec![0.0; self.line.len()];
@@ -61,7 +55,7 @@ impl Level {
             min_spacing: motor.least_thickness(),
             exclusive: motor.surface.asperities.is_none(),
         };
-        let films = if maps { &self.films[..] } else { &[] };
+        let films = if plan.maps { &self.films[..] } else { &[] };
         let pressure = films.iter().flat_map(|film| film.full_pressure(self.ambient_pressure)).collect();
         let base = Recording {
             touching: Touching { min_spacing: motor.spacing(), compliance: plan.rotor.beyond(plan.most_harmonics) },

@@ -13,7 +13,6 @@ use crate::film::stepper::FilmState;
 use crate::motor::ending::{MotorError, Stop};
 use crate::numerics::anderson::Anderson;
 use crate::plan::Plan;
-use crate::recording::Recording;
 use crate::solution::{Stats, Status};
 
 const DEPTH: usize = 6;
@@ -61,16 +60,16 @@ impl Level {
         Ok(())
     }
 
-    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ. Returns what `told`
-    /// makes of the cycle whose first frame is the present, and the largest change of ln Z over the cycle. The residual of the
-    /// level is then the largest of a step.
+    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ; `told` is handed the cycle
+    /// whose first frame is the present. Returns the largest change of ln Z over the cycle. The residual of the level is then the largest
+    /// of a step.
     pub(in crate::motor) fn transient_cycle(
         &mut self,
         tolerance: f64,
         stats: &mut Stats,
         cancel: &Cancel,
-        told: impl FnOnce(&Self) -> Recording,
-    ) -> Result<(Recording, f64), Stop> {
+        told: &mut dyn FnMut(&Self),
+    ) -> Result<f64, Stop> {
         let exact = step_tolerance(tolerance / self.stiffness);
         self.films.iter_mut().for_each(|film| film.set_tolerance(exact));
         self.contact.set_tolerance(CONTACT_SHARE * tolerance);
@@ -83,12 +82,11 @@ impl Level {
             self.transient_step(step, tolerance, stats)?;
             worst = worst.max(self.residual);
         }
-        let recording = told(self);
+        told(self);
         self.transient_step(0, tolerance, stats)?;
         self.residual = worst.max(self.residual);
         self.films.iter_mut().for_each(|film| film.remember(true));
-        let change = self.states.iter().zip(&before).map(|(now, then)| now.change_since(then)).fold(0.0, f64::max);
-        Ok((recording, change))
+        Ok(self.states.iter().zip(&before).map(|(now, then)| now.change_since(then)).fold(0.0, f64::max))
     }
 
     /// As [`Self::rest`], from the state on another grid.
@@ -110,8 +108,7 @@ impl Level {
         let accuracy = if plan.accuracy == 0.0 { plan.target_error } else { plan.accuracy };
         let (mut loads, mut unbalanced) = (Vec::new(), 0);
         for cycle in 1..=CYCLE_LIMIT {
-            let (_, change) =
-                self.transient_cycle(SETTLED_SHARE * plan.tolerance, stats, cancel, |_| Recording::default())?;
+            let change = self.transient_cycle(SETTLED_SHARE * plan.tolerance, stats, cancel, &mut |_| ())?;
             stats.cycles += 1;
             loads.push(self.mean_film_load());
             report.round(cycle, change, self.mean_film_load());
@@ -171,12 +168,9 @@ impl Level {
                 let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
                 self.states[tooth].clone_from(&before[tooth]);
                 let speed = self.speed.as_ref().map(|u| &u[here.clone()]);
-                let taken = self.films[tooth]
+                *stats += self.films[tooth]
                     .advance(m, gap, speed, self.dt, &mut self.states[tooth], &mut self.line[here])
                     .map_err(|source| Stop::Failed(MotorError::Film { step: m, source }))?;
-                stats.film_steps += 1;
-                stats.film_solves += u64::from(taken.solves);
-                stats.limited_steps += u64::from(taken.limited);
             }
             for (i, image) in inside.iter().zip(&mut image) {
                 *image = self.line[line(i / nx, m) + i % nx].ln();
