@@ -340,7 +340,7 @@ fn a_plate_turned_by_a_quarter_is_the_same_plate() {
 fn steps_that_follow_the_gap_agree_with_even_ones() {
     for sigma in [0.1, 30.0, 1e4] {
         let strip = plate(sigma, 0.9995, 0.0, None);
-        let even = Numerics { steps_per_cycle: Some(4096), ..Numerics::default() };
+        let even = Numerics { steps_per_cycle: Some(4096), film_nodes_along: Some(129), ..Numerics::default() };
         let (even, found) = (solve_with(&strip, Fidelity::Fine, &even), solve(&strip, Fidelity::Fine));
         let (a, b) = (found.result, even.result);
         println!("σ {sigma}: {} even {}", a.film_load, b.film_load);

@@ -168,7 +168,7 @@ mod tests {
         let result =
             MotorResult { levitated: true, min_film_thickness: Estimate::exact(749e-9), ..MotorResult::default() };
         let words = squeeze(&floating, &Outcome::Motor(result));
-        assert!(words.starts_with("where the film is thinnest, 749 nm,") && words.contains("within 66 µm"), "{words}");
+        assert!(words.starts_with("where the film is thinnest, 749 nm,") && words.contains("within 65 µm"), "{words}");
         // A narrow rectangle leaks along its length.
         assert!(said(&strip, "plate.width_mm", "0.1").contains("both spring and damper"));
     }

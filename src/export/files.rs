@@ -124,7 +124,8 @@ pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
     let lines = (recording.frames * recording.teeth * recording.x.len()) as u64;
     let map = recording.pressure.len() as u64;
     let (columns, arrays) = if matches!(problem.scenario, Scenario::Motor(_)) { (10, 5) } else { (6, 2) };
-    lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8)
+    let series = recording.frames as u64;
+    lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8) + series * 8 * (WRITTEN + 8)
 }
 
 /// What `squeezefilm solve --out` writes into a folder.

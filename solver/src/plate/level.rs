@@ -362,7 +362,9 @@ impl State for Level {
             all += load;
             shared += if frame % 2 == 0 { load } else { 0.0 };
         }
-        Mean { all: all / frames as f64, shared: shared / frames.div_ceil(2) as f64 }
+        let all = all / frames as f64;
+        // Every other one of an odd number of frames is no grid.
+        Mean { all, shared: if frames.is_multiple_of(2) { 2.0 * shared / frames as f64 } else { all } }
     }
 
     fn now(&self) -> f64 {

@@ -116,7 +116,7 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     /// Along x and, for a map, along y, which is kept while it is not asked for.
-    axes: [AxisForm; 2],
+    pub axes: [AxisForm; 2],
     /// Whether a second parameter is varied.
     pub second: bool,
     /// How every point is solved.
@@ -136,11 +136,6 @@ impl Form {
     /// The axes that are asked for.
     pub fn axes(&self) -> &[AxisForm] {
         &self.axes[..if self.second { 2 } else { 1 }]
-    }
-
-    /// An axis that is asked for, to be changed.
-    pub fn axis_mut(&mut self, axis: usize) -> &mut AxisForm {
-        &mut self.axes[axis]
     }
 
     /// How many values another parameter is varied by at first.

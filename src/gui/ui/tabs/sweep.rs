@@ -69,7 +69,7 @@ fn axis_row(ui: &mut Ui, form: &mut Form, i: usize, cx: &DrawContext<'_>) {
         count: Some(&format!("Values {along}")),
         log: (&format!("Equal ratios {along}"), "Equal ratios from value to value instead of equal steps"),
     };
-    row.show(ui, form.axis_mut(i), cx);
+    row.show(ui, &mut form.axes[i], cx);
     if i == 0 && !form.second {
         if ui.button("Add a second…").hint("A map over two parameters").clicked() {
             form.set_second(true);
