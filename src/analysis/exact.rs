@@ -24,7 +24,7 @@ use std::f64::consts::TAU;
 /// Samples of a cycle for exact means: spectrally accurate.
 const SAMPLES: usize = 1024;
 /// Least shares of the load's mean error over the cycle that spring and damping have (calibrated: docs/validation.md).
-const SPRING_SHARE: f64 = 1.5;
+const SPRING_SHARE: f64 = 1.4;
 const DAMPING_SHARE: f64 = 0.4;
 /// Damping over spring below which the gas was taken for trapped: rounding.
 const IN_PHASE: f64 = 1e-9;

@@ -106,6 +106,8 @@ const HASTY: u32 = 60;
 /// Change of a pressure that is round-off after so many iterations: gas that slip lets through everywhere is known no better.
 const ROUND_OFF: f64 = 1e-6;
 const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
+/// Least pressure that such a step begins with, over ambient.
+const EMPTY: f64 = 1e-12;
 /// W is kept above this fraction of Z.
 const CARRIED_FLOOR: f64 = 0.1;
 
@@ -563,6 +565,10 @@ impl Film {
     ) -> Result<(), FilmError> {
         for k in 0..self.rhs.len() {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];
+        }
+        if careful {
+            // From a film that was all but empty the way up would be longer than there are iterations.
+            self.pressure.iter_mut().for_each(|p| *p = p.max(EMPTY));
         }
         let mut damping = if careful { 1.0 } else { 0.0 };
         let limit = if careful { CAREFUL_LIMIT } else { NEWTON_LIMIT };

@@ -46,8 +46,8 @@ fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
         Axis::new("part of load / p_{a} A ε", "").fixed(0.0, 1.12 * top),
     )
     .layer(Mark::vertical(present, ""))
-    .layer(Line::new("spring, exact for ε → 0", spring, Style::solid(Colour::FILM)))
-    .layer(Line::new("damping, exact for ε → 0", damping, Style::solid(Colour::CONTACT).dash(Dash::Dashed)));
+    .layer(Line::new("spring, ε → 0", spring, Style::solid(Colour::FILM)))
+    .layer(Line::new("damping, ε → 0", damping, Style::solid(Colour::CONTACT).dash(Dash::Dashed)));
     let parts =
         [("spring, computed", Colour::FILM, Shape::Circle), ("damping, computed", Colour::CONTACT, Shape::Square)];
     for (part, (name, colour, shape)) in computed.into_iter().flatten().zip(parts) {
