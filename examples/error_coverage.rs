@@ -8,7 +8,8 @@
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
 //! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap, `closing` those that come
-//! near to touching, at squeeze numbers from 10⁻² to 10². Every draw is the same on every run. Scenes whose error is not covered, or that do not converge, are printed with the keys to repeat them.
+//! near to touching, at squeeze numbers from 10⁻² to 10². Every draw is the same on every run. Scenes whose error is not covered, or that do
+//! not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -143,7 +144,7 @@ fn draw_plate(random: &mut Random) -> Drawn {
     let drawn: Vec<(&str, f64)> = values(random, &DRAWN_PLATES, 1.0).collect();
     let mut changes: Vec<(&'static str, String)> = drawn.iter().map(|(key, value)| (*key, value.to_string())).collect();
     changes.push(("plate.amplitude_um", (0.99 * excursion * drawn[0].1).to_string()));
-    changes.extend(outline(random, shape));
+    changes.extend(outline(random, shape).1);
     ("plate-crossover", changes)
 }
 
@@ -151,9 +152,9 @@ fn draw_plate(random: &mut Random) -> Drawn {
 fn draw_closing(random: &mut Random) -> Drawn {
     let shape = random.below(3);
     let (excursion, squeeze_number) = (0.8 + 0.19 * random.unit(), 10f64.powf(4.0 * random.unit() - 2.0));
-    let mut changes = outline(random, shape);
-    let (pressure, viscosity, gap, length) = (101_325.0, 18.1e-6, 5e-6, 1e-3_f64);
-    let omega = squeeze_number * pressure * gap * gap / (12.0 * viscosity * length * length);
+    let (length, mut changes) = outline(random, shape);
+    let (pressure, viscosity, gap) = (101_325.0, 18.1e-6, 5e-6);
+    let omega = squeeze_number * pressure * gap * gap / (12.0 * viscosity * (length * 1e-3).powi(2));
     changes.extend([
         ("plate.mean_gap_um", "5".to_owned()),
         ("plate.amplitude_um", (5.0 * excursion).to_string()),
@@ -163,15 +164,16 @@ fn draw_closing(random: &mut Random) -> Drawn {
     ("plate-crossover", changes)
 }
 
-/// A length, or a length and a width, or a radius.
-fn outline(random: &mut Random, shape: u32) -> Vec<(&'static str, String)> {
+/// A length \[mm\], and the keys of a strip of that length, of a rectangle, or of a disc of that diameter.
+fn outline(random: &mut Random, shape: u32) -> (f64, Vec<(&'static str, String)>) {
     let length = 10f64.powf(0.6 * (2.0 * random.unit() - 1.0));
     let width = length * (0.2 + 0.8 * random.unit());
-    match shape {
+    let keys = match shape {
         0 => vec![("plate.length_mm", length.to_string())],
         1 => vec![("plate.length_mm", length.to_string()), ("plate.width_mm", width.to_string())],
         _ => vec![("plate.shape", "disc".to_owned()), ("plate.radius_mm", (0.5 * length).to_string())],
-    }
+    };
+    (length, keys)
 }
 
 /// A value for each key.

@@ -212,7 +212,7 @@ impl Level {
             anderson.advance(&mut present, &image);
             self.state.set_logarithms(&present);
         }
-        Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance })
+        Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance.min(self.allowed_change(plan)) })
     }
 
     /// The limit of gas that has no time to leave: Z is the same everywhere and at all times, what the edges leave of it
