@@ -3,12 +3,12 @@
 //! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
 //!
 //! ```text
-//! cargo run --release --example error_coverage [mild|wide|plates|closing] [COUNT] [RESULT]
+//! cargo run --release --example error_coverage [mild|wide|plates|closing|rough] [COUNT] [RESULT]
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
 //! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap, `closing` those that come
-//! near to touching, at squeeze numbers from 10⁻² to 10². Every draw is the same on every run. Scenes whose error is not covered, or that do
+//! near to touching, at squeeze numbers from 10⁻² to 10²; `rough` are mild motors whose faces meet on asperities. Every draw is the same on every run. Scenes whose error is not covered, or that do
 //! not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -65,7 +65,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         Some("wide") => |random: &mut Random| draw(random, WIDER),
         Some("plates") => draw_plate,
         Some("closing") => draw_closing,
-        Some(other) => return Err(format!("{other}: expected mild, wide, plates or closing").into()),
+        Some("rough") => draw_rough,
+        Some(other) => return Err(format!("{other}: expected mild, wide, plates, closing or rough").into()),
     };
     let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
     let named = |key: &String| Quantity::all().find(|one| one.name() == key).ok_or_else(|| format!("{key}: no result"));
@@ -135,6 +136,13 @@ fn draw(random: &mut Random, wider: f64) -> Drawn {
     ];
     changes.extend(values(random, &DRAWN, wider).map(|(key, value)| (key, value.to_string())));
     ("fundamental", changes)
+}
+
+/// A mild motor whose faces meet on asperities: heights vary as much as the spacing of the others.
+fn draw_rough(random: &mut Random) -> Drawn {
+    let (_, changes) = draw(random, 1.0);
+    let rough = |(key, value)| (if key == DRAWN[0].0 { "surface.rms_nm" } else { key }, value);
+    ("asperities", changes.into_iter().map(rough).collect())
 }
 
 /// A strip, a rectangle or a disc.

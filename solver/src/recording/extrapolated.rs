@@ -25,7 +25,7 @@ pub struct Balance {
 const LEAST_HELD: f64 = 1e-3;
 /// How much thinner than at any node a film may be, in units of its departure there from the chord of its neighbours: between nodes it is a
 /// quarter, of a parabola; at the edge of a tooth, where faces on asperities come closest, it changes faster than nodes follow.
-const BETWEEN: f64 = 0.25;
+pub(super) const BETWEEN: f64 = 0.25;
 const AT_EDGE: f64 = 0.6;
 /// Largest factor by which extrapolation changes an absolute pressure.
 const LARGEST_FACTOR: f64 = 2.0;

@@ -3,6 +3,7 @@
 mod extrapolated;
 pub mod sample;
 
+use extrapolated::BETWEEN;
 pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
@@ -155,7 +156,9 @@ impl Recording {
         let gas = ambient * self.teeth as f64;
         self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| of_gas * (gas + load));
         self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| of_pressure * p);
-        let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, 1.0, &|_| 0.0);
+        // On asperities faces come closest at the edge of a tooth, where the load is steepest.
+        let factor = if self.touching_from > 0.0 { PEAK } else { 1.0 };
+        let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|_| 0.0);
         let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
@@ -173,11 +176,17 @@ impl Recording {
     ) -> Estimate {
         let extreme = |values: &[f64]| values.iter().copied().reduce(greater).unwrap_or(0.0);
         let value = extreme(found);
+        // Of a parabola, what a frame beside its vertex misses is at most a quarter of the departure from the chord of its neighbours.
+        let frames = found.len();
+        let missed = found.iter().position(|at| *at == value).map_or(0.0, |frame| {
+            let chord = 0.5 * (found[(frame + 1) % frames] + found[(frame + frames - 1) % frames]);
+            BETWEEN * (chord - value).abs()
+        });
         let [before, finest] = &self.yardsticks[..] else { return Estimate { value, error: f64::INFINITY } };
         let beyond = found.iter().zip(errors).map(|(found, error)| error - (value - found).abs()).fold(0.0, f64::max);
         // Extremes between two frames: the change from twice the steps counts in full.
         let off = |grid| (value - extreme(&series(grid))).abs();
-        Estimate { value, error: beyond.min((bound - value).abs()).max(off(before)).max(off(finest)) }
+        Estimate { value, error: beyond.max(missed).min((bound - value).abs()).max(off(before)).max(off(finest)) }
     }
 
     /// Mean over the cycle of the number of teeth whose film is at most `touching` thick \[m\], or would be if it were thinner by its
