@@ -44,7 +44,7 @@ pub struct Spec {
     pub edge_fraction: f64,
     /// Rotor harmonics are kept until they fall below this fraction of the local compliance.
     pub harmonic_fraction: f64,
-    /// Harmonics kept at most.
+    /// Harmonics kept at most of a rotor without a local part.
     pub most_harmonics: usize,
     /// Largest change of the trapped gas, and imbalance of the load, that counts as a repeating cycle; relative.
     pub tolerance: f64,

@@ -57,7 +57,7 @@ impl Shape {
 /// How many harmonics N a rotor needs: the first from which on all differ by at most `fraction` from the local compliance that they
 /// would leave behind, at least 4 and at most `most`.
 ///
-/// Harmonics from N on are given the compliance C(k_N): off by at most `fraction`, or, at the limit `most`, by what the
+/// Harmonics from N on are given the local compliance: off by at most `fraction`, or, at the limit `most`, by what the
 /// error estimate of the finer grid shows.
 pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
     let last = rotor.beyond(most);
@@ -69,7 +69,7 @@ impl Modes {
     /// `harmonics` = N at nodes `x` \[m\].
     pub fn new(rotor: &Compliances, harmonics: usize, x: &[f64]) -> Self {
         let wavelength = rotor.wavelength();
-        let local = rotor.harmonic(harmonics);
+        let local = rotor.beyond(harmonics);
         let count = harmonics - 1;
         let smooth = |n: usize| rotor.harmonic(n) - local;
         let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();

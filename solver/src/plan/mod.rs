@@ -12,7 +12,7 @@ pub use reduction::wedge_bound;
 use crate::contact::cutoff;
 use crate::fidelity::Fidelity;
 use crate::problem::{Flow, Numerics, Teeth, Time, Wedge, Width};
-use crate::rotor::{Compliances, RESONANCES};
+use crate::rotor::{Compliances, MOST_HARMONICS, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};
 
@@ -161,7 +161,7 @@ pub struct Plan {
     pub left_out: f64,
     /// The rotor; a plate has none.
     pub rotor: Compliances,
-    /// Rotor harmonics kept at most.
+    /// Rotor harmonics kept at most, of a rotor without a local part.
     pub most_harmonics: usize,
     /// Rotor that decides how many harmonics are kept, if not `rotor`: a similar rotor then keeps the same number.
     pub counted: Option<Compliances>,
@@ -197,10 +197,18 @@ const SHARE: f64 = 0.2;
 const THINNEST_LAYER: f64 = 0.03;
 const ROUND_LIMIT: usize = 300;
 
+/// Harmonics kept at most of a rotor with a local part, down to this fraction of it: 60 over its third root. The beam's own number grows with the
+/// fourth root, so that where this is less, grids differ more, and their differences show what is cut.
+fn most_with_local_part(fraction: f64) -> usize {
+    ((60.0 / fraction.cbrt()) as usize).min(MOST_HARMONICS)
+}
+
 impl Plan {
     /// Rotor harmonics that are kept on a grid.
     pub fn harmonics(&self, grid: &Grid) -> usize {
-        cutoff(self.counted.as_ref().unwrap_or(&self.rotor), grid.harmonic_fraction, self.most_harmonics)
+        let (rotor, fraction) = (self.counted.as_ref().unwrap_or(&self.rotor), grid.harmonic_fraction);
+        let most = if rotor.has_local_part() { most_with_local_part(fraction) } else { self.most_harmonics };
+        cutoff(rotor, fraction, most)
     }
 
     /// This plan for a scene near its own, whose rotor is `rotor`: nothing else differs.

@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::reduction::{flow, time, wedge};
-use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, name};
+use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, most_with_local_part, name};
 use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
@@ -48,7 +48,9 @@ impl Plan {
         let numbers = Dimensionless::of_motor(motor);
         let layer = numbers.boundary_layer;
         let in_layer = (motor.wavelength() / (TAU * layer)) as usize;
-        let rotor = motor.compliances(in_layer.clamp(spec.most_harmonics, MOST_HARMONICS), cancel)?;
+        let finest = spec.harmonic_fraction / (1 << (2 * MORE_GRIDS)) as f64;
+        let harmonics = in_layer.max(spec.most_harmonics).max(most_with_local_part(finest));
+        let rotor = motor.compliances(harmonics.min(MOST_HARMONICS), cancel)?;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
         let base = spec.along.max(per_wave);

@@ -78,9 +78,14 @@ impl Compliances {
         self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
     }
 
+    /// Whether short waves have a compliance of their own, which the harmonics tend to.
+    pub fn has_local_part(&self) -> bool {
+        self.local > 0.0
+    }
+
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
-        if self.local > 0.0 { self.local } else { self.harmonic(n) }
+        if self.has_local_part() { self.local } else { self.harmonic(n) }
     }
 }
 
