@@ -72,7 +72,7 @@ pub struct FittedUnknown {
     pub unknown: Unknown,
     /// The value, in the unit of the key.
     pub value: f64,
-    /// Its standard error; `None` at a bound, and where the measurements do not tell.
+    /// Its standard error, of the measurements and of what is computed; `None` at a bound, and where the measurements do not tell.
     pub error: Option<f64>,
     /// The bound it is at.
     pub at: Option<Bound>,
@@ -368,10 +368,22 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
             correlation[*row][*column] = if size > 0.0 { of(i, j) / size } else { f64::NAN };
         }
     }
+    // The error of the grids has one sign, nearly: it moves an unknown by up to the sum over all measurements.
+    let grids = |k: usize| -> f64 {
+        let Some(i) = free.iter().position(|one| *one == k) else { return 0.0 };
+        let moved = |(row, measurement): (usize, &usize)| {
+            let by_each =
+                free.iter().enumerate().map(|(j, column)| certainty.covariance[(i, j)] * columns[*column][row]);
+            let numerical = computed[*measurement].as_ref().map_or(0.0, |found| found.error);
+            let known = Some(numerical / measured.measurements[*measurement].error).filter(|off| off.is_finite());
+            (by_each.sum::<f64>() * known.unwrap_or(0.0)).abs()
+        };
+        slope[k].abs() * used.iter().enumerate().map(moved).sum::<f64>()
+    };
     let unknowns: Vec<FittedUnknown> = (0..count)
         .map(|k| {
             let unknown = model.unknowns[k].clone();
-            let error = covariance[k][k].sqrt();
+            let error = covariance[k][k].sqrt().hypot(grids(k));
             FittedUnknown {
                 value: unknown.value(x[k]),
                 error: Some(error).filter(|error| error.is_finite()),

@@ -9,7 +9,8 @@
 //! [`fit()`] minimises χ² = Σ ((computed − measured)/error)² by trust-region reflective least squares (the step of Levenberg and
 //! Marquardt within bounds; Branch, Coleman and Li, SIAM J. Sci. Comput. 21, 1999) of the crate `basin`. Derivatives are differences
 //! of solves on one grid ([`super::variation`]). At the minimum, with J = ∂(computed/error)/∂x of the unknowns that are not at a bound, the covariance is
-//! (JᵀJ)⁻¹, times χ²/(measurements − unknowns) where the sizes of the errors are not known.
+//! (JᵀJ)⁻¹, times χ²/(measurements − unknowns) where the sizes of the errors are not known. The numerical error of what is computed, δ in errors of the
+//! measurements, adds up to Σ |(JᵀJ)⁻¹Jᵀ| δ to that of an unknown, root of the sum of squares.
 //!
 //! [`optimise`] looks for the greatest or least value of one number within limits on others by COBYLA (Powell 1994) of the same
 //! crate, which needs no derivatives.
