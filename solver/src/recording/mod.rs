@@ -14,6 +14,8 @@ use std::ops::{Deref, DerefMut};
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
 /// nodes, and comes closer with the first order only.
 const PEAK: f64 = 8.0;
+/// Likewise of a least film thickness: on asperities faces come closest at the edge of a tooth, where the load is steepest.
+const ROUGH: f64 = 16.0;
 /// Least error of a series at any instant, over the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
@@ -156,8 +158,7 @@ impl Recording {
         let gas = ambient * self.teeth as f64;
         self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| of_gas * (gas + load));
         self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| of_pressure * p);
-        // On asperities faces come closest at the edge of a tooth, where the load is steepest.
-        let factor = if self.touching_from > 0.0 { PEAK } else { 1.0 };
+        let factor = if self.touching_from > 0.0 { ROUGH } else { 1.0 };
         let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|_| 0.0);
         let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =

@@ -113,20 +113,24 @@ impl Axis {
         let allowed = (2..=MOST_VALUES).contains(&count);
         match &vary.values {
             Values::List(words) => {
-                let mut there = HashSet::new();
+                let (mut there, mut numbers) = (HashSet::new(), Vec::new());
                 for word in words {
-                    scene.clone().set(key, word)?;
-                    if !there.insert(word) {
+                    let mut scene = scene.clone();
+                    scene.set(key, word)?;
+                    // In the unit of the key, whatever it was given in.
+                    let number = scene.get(key).and_then(|value| value.as_number());
+                    numbers.extend(number);
+                    if !there.insert(number.map_or_else(|| word.clone(), |number| number.to_string())) {
                         return Err(AnalysisError::Input(format!("vary {key}: {word} is listed twice")));
                     }
                 }
                 if !allowed {
                     return Err(no_vary(&format!("{key}={}", words.join(","))));
                 }
-                let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
-                let (values, words) = match numbers {
-                    Ok(numbers) => (numbers, Vec::new()),
-                    Err(_) => ((0..count).map(|place| place as f64).collect(), words.clone()),
+                let (values, words) = if numbers.len() == count {
+                    (numbers, Vec::new())
+                } else {
+                    ((0..count).map(|place| place as f64).collect(), words.clone())
                 };
                 Ok(Self { parameter, values, words, scale: Scale::Linear })
             }
