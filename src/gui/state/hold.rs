@@ -45,6 +45,7 @@ impl HoldState {
     /// The `plate` of `scene` in hand, at rest, whose film `job` marches.
     pub fn new(job: HeldPlate, scene: Scene, plate: Plate) -> Self {
         let (now, _) = job.take();
+        let trail = VecDeque::from([Arc::clone(&now)]);
         Self {
             job,
             scene,
@@ -52,7 +53,7 @@ impl HoldState {
             target: plate.mean_gap,
             free: None,
             now,
-            trail: VecDeque::new(),
+            trail,
             recorded: None,
             playing: true,
             pressure_range: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
