@@ -62,6 +62,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
                 let text = format!("Fitted to “{}” before the scene changed; fit again", scene.name);
                 cx.say(ui, text, cx.colours.alarm);
             }
+            if state.asks_for_another() {
+                cx.say(ui, format!("Found for another question: {}", question(found)), cx.colours.alarm);
+            }
             match &**found {
                 Found::Fit(measured, fitted) => result(ui, measured, fitted, height, cx),
                 Found::Optimum(found) => optimum(ui, found, height, cx),
@@ -69,6 +72,19 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         ui.add_space(8.0);
     });
+}
+
+/// What was asked for.
+fn question(found: &Found) -> String {
+    match found {
+        Found::Fit(..) => "agreement with measurements".to_owned(),
+        Found::Optimum(found) => {
+            let kind = if found.goal.greatest { "greatest" } else { "least" };
+            let limits: Vec<String> = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect();
+            let limits = if limits.is_empty() { "no limits".to_owned() } else { limits.join(", ") };
+            format!("the {kind} value of {} with {limits}", found.goal.quantity.words())
+        }
+    }
 }
 
 /// What is looked for: agreement with measurements, or the optimum of a number, within limits on others.
