@@ -152,8 +152,19 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
 fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawContext<'_>) {
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    // A name that is longer than the field ends with "…" until it is typed over.
+    let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
+        let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
+        let mut job = egui::text::LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
+        if !focused {
+            job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+        }
+        ui.fonts_mut(|fonts| fonts.layout_job(job))
+    };
     let field = egui::TextEdit::singleline(&mut text)
         .id(id)
+        .layouter(&mut layouter)
         .frame(egui::Frame::NONE)
         .clip_text(true)
         .margin(egui::Margin::ZERO)

@@ -51,7 +51,14 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
         let range = shown.ranges.pressure;
         let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
         let axes = field::draw(ui, &style, &painter, last, shown.recording, "plate", stamp);
-        title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
+        title_with_bar(
+            &painter,
+            &style,
+            last,
+            "Pressure map",
+            &["Pressure map, kPa absolute", "Map, absolute", "Map"],
+            range,
+        );
         y_labels(&painter, &style, &axes);
         axes.cursor(&painter, &style, shown.view.cursor_x);
     }
@@ -231,7 +238,13 @@ pub(super) fn show_loops(
     phase: f64,
 ) {
     let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
-    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa gauge"];
+    let titles = [
+        "Mean pressure against the gap, kPa gauge",
+        "Mean pressure, kPa gauge",
+        "Mean p, kPa gauge",
+        "p, kPa gauge",
+        "p, kPa",
+    ];
     style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
     Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {
