@@ -426,7 +426,7 @@ pub(super) fn again(page: &mut Page, command: &[String]) {
 pub const LIMITS: &str = "limits exceeded";
 
 /// With more runs than this, differences stand below the values instead of beside them.
-const BESIDE: usize = 3;
+const BESIDE: usize = 2;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
