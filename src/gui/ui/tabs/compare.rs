@@ -2,7 +2,7 @@
 
 use crate::analysis::compare::{ComparedRun, ParameterRow};
 use crate::analysis::quantity::Quantity;
-use crate::digits::capitalised;
+use crate::digits::{capitalised, raised};
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
@@ -265,17 +265,17 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
             glossary::term(ui, strong(capitalised(&row.label())), row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
                 if beside {
-                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    ui.add(egui::Label::new(strong(raised(&value_text(row, cell)))).extend());
                     if i > 0 {
-                        let difference = RichText::new(difference_text(row, cell)).color(cx.colours.quiet);
+                        let difference = RichText::new(raised(&difference_text(row, cell))).color(cx.colours.quiet);
                         ui.add(egui::Label::new(difference).extend());
                     }
                     continue;
                 }
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 0.0;
-                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
-                    let difference = difference_text(row, cell);
+                    ui.add(egui::Label::new(strong(raised(&value_text(row, cell)))).extend());
+                    let difference = raised(&difference_text(row, cell));
                     if !difference.is_empty() {
                         ui.add(egui::Label::new(RichText::new(difference).color(cx.colours.quiet)).extend());
                     }
