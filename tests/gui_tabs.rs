@@ -584,7 +584,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Fit, form", &[]);
     window.click_on("Fit the scene");
     until(&mut window, "the fit", |app| app.state().fit.found.is_some());
-    let words = ["Standard error", "Measured", "Computed", "Residual", "Measured over computed"];
+    let words = ["Standard error", "Measured", "Computed", "Residual", "Measured against computed"];
     explains(faults, &window, "Fit", &words);
     hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
     drop(window);
