@@ -88,7 +88,14 @@ impl Chart<'_> {
         add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
     ) -> PlotResponse<R> {
         let Self { name, height, bounds, below, words: (x, y) } = self;
-        let (whole, plot) = (place(ui, height), chart(ui, name, height));
+        let (whole, mut plot) = (place(ui, height), chart(ui, name, height));
+        if bounds[0][0] == 0.0 && bounds[1][0] == 0.0 {
+            // One zero is enough for both axes.
+            plot = plot.y_axis_formatter(|mark, range| {
+                let above = (mark.value - range.start()) / (range.end() - range.start());
+                if mark.value == 0.0 && above < 0.02 { String::new() } else { tick(mark) }
+            });
+        }
         let plot = if below.is_empty() { plot } else { plot.x_axis_label(below) };
         let shown = framed(ui, (name, change(plot)), bounds, add);
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
@@ -168,6 +175,7 @@ impl<'a> Inset<'a> {
             hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
         };
         // What is written below has the corner.
+        let hidden = if below.is_some() { 0.35 * row / height } else { 0.0 };
         let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let above = (mark.value - range.start()) / (range.end() - range.start());
             if above < f64::from(hidden) { String::new() } else { tick(mark) }
@@ -175,7 +183,9 @@ impl<'a> Inset<'a> {
         // The name has the left end, and a neighbour begins soon after the right one.
         let named = below.filter(|name| !name.is_empty());
         let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(ui.painter(), name)).clamp(0.0, 0.6 * row);
-        let hidden = if below.is_some() { 0.35 * row / height } else { 0.0 };
+        // Room for half a number beyond either end.
+        let beyond = [2.0 + spare, 0.4 * row];
+        let half = move |letters: usize| 0.28 * row * letters as f32;
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
             let half = half(text.chars().count());
@@ -183,9 +193,8 @@ impl<'a> Inset<'a> {
             let fits = along - half > -beyond[0] && along + half < rect.width() + beyond[1];
             if fits || named.is_none() { text } else { String::new() }
         };
-        // Room for half a number beyond either end.
-        let beyond = [2.0 + spare, 0.4 * row];
-        let half = move |letters: usize| 0.28 * row * letters as f32;
+        let unseen =
+            beyond.map(|beyond| if named.is_some() { (half(3) - beyond).max(0.0) / rect.width() } else { 0.0 });
         let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
         let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
             .show_axes([below.is_some(), true])
@@ -193,8 +202,6 @@ impl<'a> Inset<'a> {
             .grid_fade(0.0)
             .x_grid_spacer(move |input| several(&input, unseen, columns))
             .y_grid_spacer(move |input| several(&input, [hidden, 0.0], lines));
-        let unseen =
-            beyond.map(|beyond| if named.is_some() { (half(3) - beyond).max(0.0) / rect.width() } else { 0.0 });
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, change(chart)), self.bounds, add);
