@@ -85,7 +85,7 @@ impl Updater {
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::CancelExport => state.exports.cancel(),
-            Command::CloseExportNote => state.exports.written = None,
+            Command::CloseExportNote => state.exports.close_note(),
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
                 None => state.view.playing = !state.view.playing,
@@ -160,9 +160,10 @@ impl Updater {
         if solved {
             self.tell_page();
         }
+        let now = self.now();
         let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());
-        if let Some(error) = state.exports.drain().or_else(|| state.face.drain()) {
+        if let Some(error) = state.exports.drain(now).or_else(|| state.face.drain()) {
             state.fail(error);
         }
         state.pins.drain();
