@@ -114,10 +114,12 @@ fn without_a_file_dialog_the_path_is_typed() {
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     await_path(&mut window);
     window.get_by_label("Save the preset");
-    type_path(&mut window, path.to_str().unwrap());
+    // What has no extension gets its own.
+    type_path(&mut window, folder.path().join("typed").to_str().unwrap());
     window.press(Key::Enter);
     assert_eq!(window.known().document.path(), Some(path.as_path()));
 
+    assert!(window.shows(&format!("Wrote {}", path.display())) && Scene::load(&path).is_ok());
     // What is there already is not replaced by Enter, only by the button that says so.
     let other = folder.path().join("other.toml");
     std::fs::write(&other, "not a preset").unwrap();

@@ -196,7 +196,7 @@ impl Updater {
             Purpose::Open | Purpose::Measurements => self.load_measurements(path),
             Purpose::Heights => self.load_face(path),
             Purpose::Lessons => self.load_lessons(&path),
-            Purpose::Save(then) => self.save_to(&path, then),
+            Purpose::Save(then) => self.save_as(path, then),
             Purpose::Picture(picture) => self.write_picture(picture, &path),
             Purpose::Export(export) => self.export(export, &path),
         }
