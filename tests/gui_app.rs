@@ -402,6 +402,7 @@ fn the_sheet_of_shortcuts_opens_and_closes() {
     window.press(Key::F1);
     window.get_by_label("Keyboard shortcuts");
     assert!(!explained(&window));
+    window.get_by_label("Ctrl+0");
     window.press(Key::Escape);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
 }
