@@ -115,6 +115,7 @@ impl Updater {
                 // Nothing has it yet, so that it counts as changed.
                 let target = self.state.document.target();
                 self.state.document = Document::restored(*scene, Scene::motor(), None).with_target(target);
+                self.state.view.opened += 1;
                 self.scene_replaced();
             }
             Next::Quit => {
@@ -131,6 +132,7 @@ impl Updater {
                     self.state.remember(path);
                 }
                 self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
+                self.state.view.opened += 1;
                 self.scene_replaced();
             }
             Err(error) => {
@@ -148,8 +150,6 @@ impl Updater {
         }
     }
 
-    /// Saves to this file, and goes on with what waited for it.
-    fn save_to(&mut self, path: &Path, then: Option<Next>) {
     /// Saves to a file that was chosen; what has no extension becomes a `.toml`.
     pub(super) fn save_as(&mut self, path: PathBuf, then: Option<Next>) {
         let named = match path.extension() {
@@ -165,13 +165,15 @@ impl Updater {
         }
     }
 
+    /// Saves to this file, and goes on with what waited for it.
+    fn save_to(&mut self, path: &Path, then: Option<Next>) {
         match self.state.document.save(path) {
             Ok(()) => {
                 self.state.remember(path);
-                then.into_iter().for_each(|next| self.proceed_now(next));
-            }
                 let now = self.now();
                 self.state.exports.wrote(vec![path.to_owned()], now);
+                then.into_iter().for_each(|next| self.proceed_now(next));
+            }
             Err(error) => {
                 self.state.failed_path = Some((Purpose::Save(None), path.display().to_string()));
                 self.state.fail(error);
