@@ -12,8 +12,9 @@ use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::Command;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
-use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::document::{Document, Next};
 use squeezefilm::gui::state::modal::Modal;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
@@ -114,9 +115,11 @@ fn without_a_file_dialog_the_path_is_typed() {
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     await_path(&mut window);
     window.get_by_label("Save the preset");
-    type_path(&mut window, path.to_str().unwrap());
+    // What has no extension gets its own.
+    type_path(&mut window, folder.path().join("typed").to_str().unwrap());
     window.press(Key::Enter);
     assert_eq!(window.known().document.path(), Some(path.as_path()));
+    assert!(window.shows(&format!("Wrote {}", path.display())) && Scene::load(&path).is_ok());
 
     // What is there already is not replaced by Enter, only by the button that says so.
     let other = folder.path().join("other.toml");
@@ -399,9 +402,28 @@ fn the_sheet_of_shortcuts_opens_and_closes() {
     assert!(explained(&window));
     window.press(Key::F1);
     window.get_by_label("Keyboard shortcuts");
+    window.get_by_label("Ctrl+0");
     assert!(!explained(&window));
     window.press(Key::Escape);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
+}
+
+#[test]
+fn a_scene_that_is_opened_is_shown_from_its_beginning() {
+    let mut window = window_in("fundamental", 600.0, Platform::default());
+    solved(&mut window);
+    let tops = |window: &Window| ["Main", "Regime"].map(|label| window.get_by_label(label).rect().top());
+    let before = tops(&window);
+    window.get_by_label("Film").scroll_to_me();
+    window.get_by_label("How it was solved").scroll_to_me();
+    window.run_steps(20);
+    let scrolled = tops(&window);
+    assert!(scrolled[0] < before[0] - 50.0 && scrolled[1] < before[1] - 50.0, "{before:?} {scrolled:?}");
+    window.state_mut().carry_out(Command::Proceed(Next::Preset("doubled-mesh")));
+    window.run_steps(3);
+    // Its description has another number of lines.
+    assert!((tops(&window)[0] - before[0]).abs() < 40.0);
+    assert!(tops(&window)[1] > scrolled[1] + 50.0);
 }
 
 #[test]
@@ -529,7 +551,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
         let path = folder.path().join(file);
         window.get_by_label(button).click();
         answer(&mut window, &path);
-        until(&mut window, "written", |app| app.state().exports.written.is_some());
+        until(&mut window, "written", |app| app.state().exports.written().is_some());
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
     }
 

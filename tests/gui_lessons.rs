@@ -17,6 +17,7 @@ use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::job::SolvedScene;
+use squeezefilm::lessons::live::Live;
 use squeezefilm::lessons::work::{Score, Stage, StepWork};
 use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value};
@@ -882,6 +883,64 @@ fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
     let run = window.known().run.clone().unwrap();
     let finest = Numbers::of(&run.problem, &run.solution).get(Quantity::LoadRatio).unwrap();
     assert_eq!(work(&window).readings["mean_load_ratio:2"], finest);
+}
+
+#[test]
+fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not() {
+    const ANOTHER: &str = "which is not the one on screen";
+    let told = |window: &Window| work(window).readings["max_pressure_kpa"];
+    let mut window = window("fundamental");
+    open(&mut window, "Pushing on trapped air");
+    go_on(&mut window);
+    go_on(&mut window);
+    let (_, step) = step(&window);
+    solved(&mut window);
+    predict(&mut window, &step);
+    change(&mut window, "plate.amplitude_um", "0.52");
+    solved(&mut window);
+    let first = told(&window);
+    look(&mut window, step.observe.as_ref().unwrap(), &step.title);
+    assert!(window.shows("0.480 µm") && window.shows("211 kPa") && !window.shows(ANOTHER));
+    // Another amplitude that is about half of the gap.
+    change(&mut window, "plate.amplitude_um", "0.5");
+    solved(&mut window);
+    assert!(told(&window) < first - 5.0);
+    assert!(window.shows("0.500 µm") && window.shows("203 kPa") && !window.shows(ANOTHER));
+    // And one that is not.
+    let kept = told(&window);
+    change(&mut window, "plate.amplitude_um", "0.2");
+    solved(&mut window);
+    assert!(told(&window) == kept && window.shows(ANOTHER));
+    // Opened again, the scene is that of the beginning.
+    let memory = left(&mut window);
+    drop(window);
+    let mut window = window_with(memory);
+    open(&mut window, "Pushing on trapped air");
+    solved(&mut window);
+    assert!(window.shows("203 kPa") && window.shows(ANOTHER));
+}
+
+#[test]
+fn the_highest_pressure_of_a_push_is_kept() {
+    let mut window = window("fundamental");
+    open(&mut window, "Pushing on trapped air");
+    let (_, step) = step(&window);
+    solved(&mut window);
+    predict(&mut window, &step);
+    let live = |window: &Window, live: Live| window.known().lessons.running().unwrap().tabs.now.get(live).unwrap();
+    let highest = |window: &Window| {
+        let hold = window.known().hold.as_ref().unwrap();
+        hold.trail().map(|reading| 1e-3 * reading.mean_pressure).fold(0.0, f64::max)
+    };
+    drag_plate(&mut window, 0.5);
+    until(&mut window, "the air has left", |app| app.state().hold.as_ref().unwrap().now().reading.ratio < 0.2);
+    let (now, kept) = (live(&window, Live::HeldPressure), live(&window, Live::HeldPeak));
+    assert!(now < 125.0 && kept > 160.0, "{now} {kept}");
+    assert!((kept - highest(&window)).abs() < 1e-6, "{kept}: that of the chart is {}", highest(&window));
+    // With the charts it begins anew.
+    window.click_on("Reset");
+    until(&mut window, "it is at rest", |app| app.state().hold.as_ref().unwrap().now().reading.time == 0.0);
+    assert!(live(&window, Live::HeldPeak) < 102.0);
 }
 
 #[test]

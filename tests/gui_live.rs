@@ -302,6 +302,38 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
 }
 
 #[test]
+fn the_charts_begin_at_rest() {
+    let mut window = window("plate-trapped", HOLD);
+    for _ in 0..8 {
+        window.key_press(Key::ArrowDown);
+        window.step();
+    }
+    until(&mut window, "it is pushed down", |app| gap(app) < 0.62);
+    let first = held(window.state()).trail().next().unwrap();
+    assert_eq!((first.time, first.gap, first.force), (0.0, held(window.state()).plate().mean_gap, 0.0));
+}
+
+#[test]
+fn numbers_and_pressure_of_a_plate_let_go_are_of_one_instant() {
+    let mut window = window("floating-disc", HOLD);
+    solved(&mut window);
+    window.click_on("Let go");
+    until(&mut window, "it floats", |app| held(app).trail().len() > 60);
+    window.key_press(Key::Space);
+    wait(&mut window);
+    for _ in 0..40 {
+        let shown = held(window.state()).shown();
+        let highest = shown.pressure.iter().copied().fold(0.0, f64::max);
+        let lowest = shown.pressure.iter().copied().fold(f64::INFINITY, f64::min);
+        let Reading { mean_pressure: mean, error, .. } = shown.reading;
+        // The mean is extrapolated.
+        let off = 3.0 * error / held(window.state()).plate().area();
+        assert!(lowest <= mean + off && mean <= highest + off, "{lowest} {mean} {highest}");
+        window.press(Key::ArrowLeft);
+    }
+}
+
+#[test]
 fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     let mut window = window("floating-disc", HOLD);
     solved(&mut window);

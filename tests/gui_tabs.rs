@@ -584,7 +584,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Fit, form", &[]);
     window.click_on("Fit the scene");
     until(&mut window, "the fit", |app| app.state().fit.found.is_some());
-    let words = ["Standard error", "Measured", "Computed", "Residual", "Measured over computed"];
+    let words = ["Standard error", "Measured", "Computed", "Residual", "Measured against computed"];
     explains(faults, &window, "Fit", &words);
     hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
     drop(window);
@@ -611,7 +611,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Exact", &exact);
     explains(faults, &window, "Exact, in units", &["Stiffness of the film", "Damping coefficient"]);
     explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible (σ → 0)"]);
-    hovers(faults, &mut window, "Mean pressure", "comes to a limit");
+    hovers(faults, &mut window, "Mean pressure / p_a", "comes to a limit");
     window.ctrl(Key::Num7);
     let held = ["Gap", "Leak time", "Slow motion", "Held plate", "Film pressure", "Force", "Loop", "Boyle"];
     explains(faults, &window, "Hold", &held);
@@ -724,6 +724,15 @@ fn an_optimum_is_found_within_limits_and_taken() {
     let faults = &mut Vec::new();
     explains(faults, &window, "Fit, optimum", &["Line through the optimum"]);
     assert!(faults.is_empty(), "{faults:#?}");
+    // What answers another question than the one that is asked now says which.
+    assert!(!window.shows("Found for another question"));
+    window.type_into("Limits on other results", "alpha<0.4");
+    assert!(window.shows("Found for another question") && window.shows("stall torque with alpha < 0.3"));
+    choose(&mut window, "What is looked for", "agreement with measurements");
+    assert!(window.shows("Found for another question"));
+    choose(&mut window, "What is looked for", "the greatest value of");
+    window.type_into("Limits on other results", "alpha < 0.3");
+    assert!(!window.shows("Found for another question"));
     window.click_on("Take these values");
     assert_eq!(window.known().document.scene().get(load.0), Some(Value::Number(load.1)));
 }

@@ -234,6 +234,24 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
 }
 
 #[test]
+fn the_mean_pressure_of_a_plate_let_go_has_the_mean_force() {
+    // Over a part of a cycle, and over many.
+    let (plate, gap) = floating(&[]);
+    let mut hold = dropped(&plate, 0.6 * gap);
+    hold.fall(20.3 / plate.frequency, true).unwrap();
+    for cycles in [0.0, 0.1, 0.7, 12.0] {
+        let reading = hold.fall(cycles / plate.frequency, true).unwrap();
+        let (x, ambient) = (&hold.grid().x, plate.gas.ambient_pressure);
+        let sum = |pressure: &mut dyn Iterator<Item = f64>| -> f64 {
+            pressure.zip(&x.lengths).map(|(p, length)| (p - ambient) * length).sum::<f64>() * x.copies()
+        };
+        let (mean, at_the_end) = (sum(&mut hold.mean_pressure()), sum(&mut hold.pressure()));
+        println!("{cycles}: {mean} and {at_the_end}, {reading:?}");
+        assert!((mean - reading.force).abs() < 3.0 * reading.error + 1e-3 * ambient * plate.area(), "{cycles}");
+    }
+}
+
+#[test]
 fn pushed_away_it_creeps_back_as_fast_as_reynolds_damps_it() {
     let (plate, gap) = floating(&[]);
     let problem = scenes::problem("floating-disc", &[]);

@@ -110,12 +110,9 @@ pub fn with_error(value: f64, error: f64) -> String {
     if !error.is_finite() {
         return format!("{} (error not estimated)", significant(value, 4));
     }
-    if error == 0.0 {
-        return significant(value, 4);
-    }
     let error = error.abs();
     if error <= value.abs() * 1e-12 {
-        return significant(value, 6);
+        return significant(value, 4);
     }
     let size = value.abs().max(error);
     if !(SMALL..LARGE).contains(&size) {
@@ -145,6 +142,42 @@ fn decimals(size: f64, digits: usize) -> usize {
     // 0.0996 to two digits is 0.10, which has moved up a decade.
     let unit = 10f64.powf(-first);
     places((size / unit).round() * unit * (1.0 + 1e-12)) as usize
+}
+
+/// `10⁻⁶`.
+pub fn power_of_ten(exponent: f64) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| match (c, c.to_digit(10)) {
+        ('-', _) => '⁻',
+        (_, Some(digit)) => RAISED[digit as usize],
+        (other, None) => other,
+    };
+    let exponent: String = format!("{exponent:.0}").chars().map(raised).collect();
+    format!("10{exponent}")
+}
+
+/// Text with its powers of ten as they are printed: `10^-7` becomes `10⁻⁷`, and `1.05e-7` becomes `1.05 × 10⁻⁷`.
+pub fn raised(text: &str) -> String {
+    let power = |after: &str| {
+        let end = after.find(|c: char| c != '-' && !c.is_ascii_digit()).unwrap_or(after.len());
+        Some((power_of_ten(after[..end].parse().ok()?), end))
+    };
+    let (mut raised, mut rest) = (String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        let (mark, before) = match first {
+            '1' if rest.starts_with("10^") => (3, ""),
+            'e' if raised.ends_with(|c: char| c.is_ascii_digit()) => (1, " × "),
+            _ => (0, ""),
+        };
+        let found = if mark > 0 { power(&rest[mark..]) } else { None };
+        let taken = found.as_ref().map_or(first.len_utf8(), |(_, end)| mark + end);
+        match found {
+            Some((power, _)) => raised += &format!("{before}{power}"),
+            None => raised.push(first),
+        }
+        rest = &rest[taken..];
+    }
+    raised
 }
 
 /// With a true minus sign; "-0.00" is a zero.
@@ -205,6 +238,18 @@ mod tests {
             ["5.0 %", "0.030 %", "100 %", "−0.00010 %", "1.0e-12 %"]
         );
         assert_eq!((as_given(0.7 + 1e-16), rounded(-1234.0, 2), brief(30417.8)), (0.7, -1200.0, 30400.0));
+    }
+
+    #[test]
+    fn powers_of_ten_are_raised() {
+        for (text, shown) in [
+            ("(1 ± 2) × 10^-6 … (3 ± 4) × 10^12 N", "(1 ± 2) × 10⁻⁶ … (3 ± 4) × 10¹² N"),
+            ("4.060e7 N/m", "4.060 × 10⁷ N/m"),
+            ("−1.0e-12 %", "−1.0 × 10⁻¹² %"),
+            ("10^{−3}, 0.25 (error not estimated), 1e", "10^{−3}, 0.25 (error not estimated), 1e"),
+        ] {
+            assert_eq!(raised(text), shown);
+        }
     }
 
     #[test]

@@ -83,6 +83,8 @@ pub struct Hold {
     gap: f64,
     time: f64,
     free: Free,
+    /// Pressure over ambient pressure under the unknown nodes of the finer grid, mean over the last fall.
+    mean_ratio: Vec<f64>,
     /// By how much steps are shorter than usual.
     finer: f64,
 }
@@ -113,10 +115,11 @@ impl Hold {
         // A hand may be fast: layers thinner than any polynomial across resolves.
         let plan = &plan.volumes().not_turned();
         let coarse = &plan.grids[plan.grids.len() - 1];
-        let fine = &coarse.finer(plan.spectral);
+        let fine = HeldFilm::new(plate, plan, &coarse.finer(plan.spectral));
         Self {
             coarse: HeldFilm::new(plate, plan, coarse),
-            fine: HeldFilm::new(plate, plan, fine),
+            mean_ratio: vec![1.0; fine.state.trapped.len()],
+            fine,
             gap: plate.mean_gap,
             time: 0.0,
             free: Free::default(),
@@ -194,7 +197,8 @@ impl Hold {
     }
 
     /// Lets the plate move freely for `duration` \[s\] of film time from its present position and speed, above a face that vibrates or
-    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force.
+    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force; the pressure
+    /// of which that is the force is [`Self::mean_pressure`].
     ///
     /// # Errors
     /// [`FilmError`] if a step has no solution to working precision.
@@ -204,6 +208,7 @@ impl Hold {
         let gas = self.plate.gas.ambient_pressure * self.plate.area();
         let wanted = if vibrates { self.plate.amplitude } else { 0.0 };
         let (mut force, mut impulse, mut done) = (self.reading().force, 0.0, 0.0);
+        self.mean_ratio.fill(0.0);
         while done < duration {
             let free = self.free;
             let moving = free.amplitude > 0.0 || wanted > 0.0;
@@ -226,7 +231,9 @@ impl Hold {
             };
             let ((_, halfway), (mut free, end)) = (at(0.5), at(1.0));
             let least = self.plate.min_spacing;
+            self.add_ratio(0.5 * step / duration);
             self.step([halfway.max(least), end.max(least)], step)?;
+            self.add_ratio(0.5 * step / duration);
             let before = std::mem::replace(&mut force, self.reading().force);
             impulse += 0.5 * step * (before + force);
             free.speed = speed + 0.5 * step * (force / mass - GRAVITY);
@@ -238,10 +245,20 @@ impl Hold {
             free.phase %= TAU;
             self.free = free;
         }
+        if done == 0.0 {
+            self.add_ratio(1.0);
+        }
         let mean = if duration > 0.0 { impulse / duration } else { force };
         let ambient = self.plate.gas.ambient_pressure;
         let (ratio, mean_pressure) = (mean / gas, ambient * (1.0 + mean / gas));
         Ok(Reading { gap: self.height(), force: mean, ratio, mean_pressure, ..self.reading() })
+    }
+
+    /// Adds the pressure over ambient pressure, times `weight`, to its mean over a fall.
+    fn add_ratio(&mut self, weight: f64) {
+        for (mean, z) in self.mean_ratio.iter_mut().zip(&self.fine.state.trapped) {
+            *mean += weight * z / self.gap;
+        }
     }
 
     /// Whether it neither moves nor is shaken.
@@ -299,14 +316,23 @@ impl Hold {
 
     /// Absolute pressure \[Pa\] at the nodes of [`Self::grid`], `[ix][iy]`; y = 0 is the middle of the width.
     pub fn pressure(&self) -> impl Iterator<Item = f64> {
+        self.at_nodes(|unknown| self.fine.state.trapped[unknown] / self.gap)
+    }
+
+    /// The same, mean over the last [`Self::fall`].
+    pub fn mean_pressure(&self) -> impl Iterator<Item = f64> {
+        self.at_nodes(|unknown| self.mean_ratio[unknown])
+    }
+
+    /// Absolute pressure \[Pa\] at the nodes, of its `ratio` to ambient pressure at those where it is unknown.
+    fn at_nodes(&self, ratio: impl Fn(usize) -> f64) -> impl Iterator<Item = f64> {
         let grid = self.grid();
         let (ux, uy, ny) = (grid.x.unknown(), grid.y.unknown(), grid.y.len());
-        let (ambient, gap) = (self.plate.gas.ambient_pressure, self.gap);
-        let trapped = &self.fine.state.trapped;
+        let ambient = self.plate.gas.ambient_pressure;
         (0..grid.nodes()).map(move |i| {
             let (ix, iy) = (i / ny, i % ny);
             let inside = ux.contains(&ix) && uy.contains(&iy);
-            if inside { ambient * trapped[(ix - ux.start) * uy.len() + iy - uy.start] / gap } else { ambient }
+            if inside { ambient * ratio((ix - ux.start) * uy.len() + iy - uy.start) } else { ambient }
         })
     }
 

@@ -17,7 +17,7 @@ use crate::analysis::regime;
 use crate::analysis::torque::with_film;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
-use crate::digits::{change, significant, with_error};
+use crate::digits::{change, raised, significant, with_error};
 use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
@@ -289,7 +289,11 @@ pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
 
 /// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
 pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
-    let text = row.quantity.text(cell.found);
+    let text = match (row.quantity, cell.found) {
+        // As on the tab Torque.
+        (Quantity::MaxEfficiency, Some(found)) => format!("{} %", found * 100.0),
+        _ => row.quantity.text(cell.found),
+    };
     if row.unit.is_none() && cell.found.is_some() { format!("{text} {}", cell.unit) } else { text }
 }
 
@@ -426,7 +430,7 @@ pub(super) fn again(page: &mut Page, command: &[String]) {
 pub const LIMITS: &str = "limits exceeded";
 
 /// With more runs than this, differences stand below the values instead of beside them.
-const BESIDE: usize = 3;
+const BESIDE: usize = 2;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
@@ -458,7 +462,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
         let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
         let kind = if main { Kind::Strong } else { Kind::Number };
         for (i, cell) in row.cells.iter().enumerate() {
-            let (value, difference) = (value_text(&row, cell), difference_text(&row, cell));
+            let (value, difference) = (raised(&value_text(&row, cell)), raised(&difference_text(&row, cell)));
             match (beside, i) {
                 (_, 0) => cells.push((kind, value)),
                 (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),

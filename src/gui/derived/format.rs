@@ -1,6 +1,7 @@
 //! Numbers and words as the window writes them.
 
 use crate::digits::signed;
+pub use crate::digits::{power_of_ten, raised};
 use crate::estimate::Estimate;
 
 /// Share of its error below which a value is shown as 0.
@@ -52,35 +53,10 @@ pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
     format!("{scaled}e{exponent}").parse().unwrap_or(value)
 }
 
-/// `10⁻⁶`, with the digits that the fonts have.
-pub fn power_of_ten(exponent: f64) -> String {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised = |c: char| match (c, c.to_digit(10)) {
-        ('-', _) => '⁻',
-        (_, Some(digit)) => RAISED[digit as usize],
-        (other, None) => other,
-    };
-    let exponent: String = format!("{exponent:.0}").chars().map(raised).collect();
-    format!("10{exponent}")
-}
-
 /// A value with its error, an exponent raised. What is far below its error is 0.
 pub fn uncertain(found: Estimate) -> String {
     let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
     raised(&Estimate { value, ..found }.to_string())
-}
-
-/// With the exponents of its powers of ten raised.
-pub fn raised(text: &str) -> String {
-    let mut parts = text.split("10^");
-    let mut raised = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let end = part.find(|c: char| c != '-' && !c.is_ascii_digit()).unwrap_or(part.len());
-        let (exponent, rest) = part.split_at(end);
-        raised += &power_of_ten(exponent.parse().unwrap_or(f64::NAN));
-        raised += rest;
-    }
-    raised
 }
 
 /// Without zeros after the decimal point that say nothing.
@@ -173,12 +149,6 @@ mod tests {
         assert_eq!(thousands(12.0), "12");
         assert_eq!(time(3.333e-5), "33.33 µs");
         assert_eq!(time(0.5), "0.50 s");
-    }
-
-    #[test]
-    fn exponents_are_raised() {
-        assert_eq!(raised("(1 ± 2) × 10^-6 … (3 ± 4) × 10^12 N"), "(1 ± 2) × 10⁻⁶ … (3 ± 4) × 10¹² N");
-        assert_eq!(power_of_ten(-12.0), "10⁻¹²");
     }
 
     #[test]

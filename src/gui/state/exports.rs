@@ -5,6 +5,7 @@ use crate::job::export::ExportTask;
 use crate::job::task::News;
 use crate::platform::Instant;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// An export under way.
 #[derive(Debug)]
@@ -24,9 +25,12 @@ pub struct RunningExport {
 #[derive(Debug, Default)]
 pub struct ExportState {
     running: Option<RunningExport>,
-    /// What the last one wrote.
-    pub written: Option<Vec<PathBuf>>,
+    /// What was written last, and when: a note for a while.
+    written: Option<(Vec<PathBuf>, Instant)>,
 }
+
+/// How long what was written is told.
+const TOLD: Duration = Duration::from_secs(10);
 
 impl ExportState {
     /// The one under way.
@@ -48,8 +52,24 @@ impl ExportState {
         }
     }
 
+    /// What was written last, as long as that is told.
+    pub fn written(&self) -> Option<&[PathBuf]> {
+        self.written.as_ref().map(|(paths, _)| paths.as_slice())
+    }
+
+    /// Files were written.
+    pub fn wrote(&mut self, paths: Vec<PathBuf>, now: Instant) {
+        self.written = Some((paths, now));
+    }
+
+    /// What was written has been read.
+    pub fn close_note(&mut self) {
+        self.written = None;
+    }
+
     /// Takes what has been told since the last time; an error is to be shown.
-    pub fn drain(&mut self) -> Option<String> {
+    pub fn drain(&mut self, now: Instant) -> Option<String> {
+        self.written.take_if(|(_, since)| now.saturating_duration_since(*since) > TOLD);
         let running = self.running.as_mut()?;
         let News { messages, end } = running.task.drain();
         for (drawn, all) in messages {
@@ -60,11 +80,26 @@ impl ExportState {
         self.running = None;
         match end {
             Ok(Ok(paths)) => {
-                self.written = Some(paths);
+                self.wrote(paths, now);
                 None
             }
             Ok(Err(reason)) => reason,
             Err(panic) => Some(format!("The export failed; nothing was written: {panic}")),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_written_is_told_for_a_while() {
+        let (mut exports, now) = (ExportState::default(), Instant::now());
+        exports.wrote(vec![PathBuf::from("scene.toml")], now);
+        exports.drain(now + TOLD);
+        assert!(exports.written().is_some());
+        exports.drain(now + 2 * TOLD);
+        assert!(exports.written().is_none());
     }
 }

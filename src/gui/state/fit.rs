@@ -66,6 +66,12 @@ pub struct FitState {
 }
 
 impl FitForm {
+    /// The limits on other numbers.
+    fn limits(&self) -> Result<Vec<Limit>, String> {
+        let limits = self.limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
+        limits.map(str::parse::<Limit>).collect::<Result<_, _>>().map_err(|error| error.to_string())
+    }
+
     /// Whether one more key can be chosen.
     pub fn has_room(&self) -> bool {
         self.axes.len() < MOST_UNKNOWNS
@@ -152,11 +158,24 @@ impl FitState {
     /// # Errors
     /// What is wrong with the limits.
     pub fn goal(&self, scene: &Scene) -> Result<Option<Goal>, String> {
-        let FitForm { sought, quantity, limits, .. } = &self.form;
+        let FitForm { sought, quantity, .. } = &self.form;
         let (Some(name), true) = (*quantity, *sought != Sought::Agreement) else { return Ok(None) };
-        let limits = limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
-        let limits = limits.map(str::parse).collect::<Result<Vec<Limit>, _>>().map_err(|error| error.to_string())?;
+        let limits = self.form.limits()?;
         Goal::new(scene, name, *sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
+    }
+
+    /// Whether something else is asked for than what was found.
+    pub fn asks_for_another(&self) -> bool {
+        let FitForm { sought, quantity, .. } = &self.form;
+        self.found.as_ref().is_some_and(|(_, found)| match &**found {
+            Found::Fit(..) => *sought != Sought::Agreement,
+            Found::Optimum(found) => {
+                let Goal { quantity: of, greatest, limits } = &found.goal;
+                let asked = if *greatest { Sought::Greatest } else { Sought::Least };
+                let limits = limits.iter().map(|(limit, _)| limit.clone()).collect();
+                (*sought, *quantity) != (asked, Some(of.name())) || self.form.limits() != Ok(limits)
+            }
+        })
     }
 
     /// What is wrong with each key of the form.

@@ -45,6 +45,7 @@ impl HoldState {
     /// The `plate` of `scene` in hand, at rest, whose film `job` marches.
     pub fn new(job: HeldPlate, scene: Scene, plate: Plate) -> Self {
         let (now, _) = job.take();
+        let trail = VecDeque::from([Arc::clone(&now)]);
         Self {
             job,
             scene,
@@ -52,7 +53,7 @@ impl HoldState {
             target: plate.mean_gap,
             free: None,
             now,
-            trail: VecDeque::new(),
+            trail,
             recorded: None,
             playing: true,
             pressure_range: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
@@ -75,7 +76,8 @@ impl HoldState {
         }
         let time = |snapshot: &Arc<Snapshot>| snapshot.reading.time;
         if taken.front().zip(self.trail.back()).is_some_and(|(first, last)| time(first) < time(last)) {
-            self.trail.clear();
+            // What was still on its way when it was put to rest counts no more.
+            self.clear();
         }
         self.pressure_range = span(now.pressure.iter().copied().chain(self.pressure_range));
         self.force_range = span(taken.iter().map(|snapshot| snapshot.reading.force).chain(self.force_range));
@@ -90,10 +92,14 @@ impl HoldState {
     /// Puts the film to rest at the mean gap, and clears the charts.
     pub fn reset(&mut self) {
         (self.target, self.free, self.recorded, self.playing) = (self.plate.mean_gap, None, None, true);
+        self.clear();
+        self.job.reset();
+    }
+
+    fn clear(&mut self) {
         self.trail.clear();
         self.pressure_range = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
         self.force_range = [0.0; 2];
-        self.job.reset();
     }
 
     /// Lets the leak time take this many seconds.
@@ -199,6 +205,11 @@ impl HoldState {
     /// The film as it is shown.
     pub fn shown(&self) -> &Snapshot {
         self.recorded.and_then(|_| self.trail.get(self.place())).unwrap_or(&self.now)
+    }
+
+    /// The highest mean absolute pressure since it was reset \[Pa\].
+    pub fn highest_mean_pressure(&self) -> f64 {
+        self.plate.gas.ambient_pressure + self.force_range[1] / self.plate.area()
     }
 
     /// What was read off it lately, oldest first.

@@ -38,15 +38,18 @@ pub struct OffTabs {
 impl OffTabs {
     /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
     pub fn read(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
-        let before = std::mem::take(&mut self.now);
         if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
             let (plate, now) = (hold.plate(), hold.now().reading);
             self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
             let rest = (plate.mean_gap, plate.gas.ambient_pressure);
-            let present = if self.rested { (now.gap, now.mean_pressure) } else { rest };
             self.start.read_held(rest.0, rest.1);
-            self.now.set(Live::HeldPeak, before.get(Live::HeldPeak).unwrap_or(0.0));
-            self.now.read_held(present.0, present.1);
+            if self.rested {
+                self.now.read_held(now.gap, now.mean_pressure);
+                // Between two redraws it may have been higher.
+                self.now.set(Live::HeldPeak, hold.highest_mean_pressure() * 1e-3);
+            } else {
+                self.now.read_held(rest.0, rest.1);
+            }
         }
         if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {
             let points = &startup.points;

@@ -208,6 +208,12 @@ impl LessonState {
         value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
+    /// Whether what is told of the step is of another run than that of `scene`.
+    pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
+        let step = self.step().map(|(_, step)| step);
+        self.running.as_ref().zip(step).is_some_and(|(running, step)| running.tells_of_another(step, scene))
+    }
+
     /// The step on screen, and the student's work on it.
     pub fn step_and_work(&mut self) -> Option<(&Step, &mut StepWork)> {
         let running = self.running.as_mut()?;
@@ -271,7 +277,6 @@ impl LessonState {
             start: StartingPoint::of(scene),
             newest: None,
             tabs: OffTabs::default(),
-            done: None,
             reveal: 0,
             enter: false,
             answered: None,
@@ -324,7 +329,6 @@ impl LessonState {
             document.practise(step.scene.clone());
         }
         running.start = StartingPoint::of(document.scene().clone());
-        running.done = None;
         running.tabs = OffTabs::default();
         changed
     }

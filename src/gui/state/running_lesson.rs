@@ -6,11 +6,11 @@ use super::view::Tab;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::lessons::Lesson;
 use crate::lessons::check::{Ran, Reading};
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::text::readings;
 use crate::lessons::work::{Stage, StepWork};
+use crate::lessons::{Lesson, Step};
 use crate::platform::Instant;
 use crate::scene::Scene;
 use crate::solution::Status;
@@ -57,8 +57,6 @@ pub struct RunningLesson {
     pub newest: Option<Numbers>,
     /// What is read off the tabs.
     pub tabs: OffTabs,
-    /// The run that fulfilled the task of the present step.
-    pub(super) done: Option<Arc<SolvedScene>>,
     pub(super) reveal: u8,
     /// Whether the marked parameter takes the keyboard.
     pub(super) enter: bool,
@@ -74,15 +72,31 @@ impl RunningLesson {
 
     /// The value of what a text quotes: of the run of `scene` or, for what is `told` once a task is done, of the run that did it.
     pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
-        let kept = self.work.get(self.step).filter(|_| told).and_then(|work| work.readings.get(&reading.source));
-        if let Some(kept) = kept {
-            return Some(*kept);
-        }
+        let kept = self.kept(reading).filter(|_| told);
+        kept.or_else(|| self.present(reading, scene))
+    }
+
+    /// Of the run that did the task.
+    fn kept(&self, reading: &Reading) -> Option<f64> {
+        self.work.get(self.step)?.readings.get(&reading.source).copied()
+    }
+
+    /// Of the run of `scene`.
+    fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
         let empty = Numbers::default();
         let numbers = self.newest.as_ref().unwrap_or(&empty);
         let (start, tabs) = (&self.start, &self.tabs);
         let now = Ran { scene, numbers, live: &tabs.now };
         reading.value(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start })
+    }
+
+    /// Whether the run of `scene` has other numbers than what is told of the one that did the task of `step`.
+    pub(super) fn tells_of_another(&self, step: &Step, scene: &Scene) -> bool {
+        let other = |reading: &Reading| {
+            let (kept, present) = (self.kept(reading)?, self.present(reading, scene)?);
+            Some(reading.text(kept) != reading.text(present))
+        };
+        readings(step.told()).any(|reading| other(reading) == Some(true))
     }
 
     /// Looks at the run on screen: what the step began with, and whether its task is fulfilled.
@@ -119,12 +133,13 @@ impl RunningLesson {
         let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
         let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
         let quoted = || readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?)));
+        let unmet = task.check.unmet(now, before);
+        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
+        let does = ready && unmet.is_none() && !beyond;
         if work.stage(step) != Stage::Task {
-            // What the text quotes becomes as accurate as what is on screen. (A plate in the hand has moved on.)
-            let refines = |done: &Arc<SolvedScene>| done.scene == run.scene && done.fidelity < run.fidelity;
-            if !task.check.live().any(Live::is_done_by_hand) && self.done.as_ref().is_some_and(refines) {
+            // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
+            if does && work.fulfilled && !task.check.live().any(Live::is_done_by_hand) {
                 work.readings = quoted().collect();
-                self.done = Some(Arc::clone(run));
             }
             return;
         }
@@ -133,13 +148,10 @@ impl RunningLesson {
         }
         work.tried = run.scene != start.scene
             || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
-        work.unmet = task.check.unmet(now, before);
-        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
-        work.too_far = work.unmet.is_none() && beyond;
-        if work.unmet.is_none() && !beyond {
+        (work.too_far, work.unmet) = (unmet.is_none() && beyond, unmet);
+        if does {
             work.fulfilled = true;
             work.readings = quoted().collect();
-            self.done = Some(Arc::clone(run));
         }
     }
 }

@@ -241,6 +241,8 @@ struct Checked {
 #[derive(Debug, Default)]
 pub struct SweepState {
     form: Option<Form>,
+    /// What was asked for of the kind of scene before this one.
+    before: Option<Form>,
     /// Nothing once the form has changed.
     checked: Option<Arc<Checked>>,
     quantity: Option<Quantity>,
@@ -289,8 +291,11 @@ impl SweepState {
             return;
         }
         let form = self.form.get_or_insert_with(|| Form::of(scene));
-        if !form.axes.iter().all(|axis| varies(scene, axis.key)) {
-            *form = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
+        let fits = |form: &Form| form.axes.iter().all(|axis| varies(scene, axis.key));
+        if !fits(form) {
+            let next = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
+            let next = self.before.take().filter(fits).unwrap_or(next);
+            self.before = Some(std::mem::replace(form, next));
         }
         let faults = form.axes().iter().map(|axis| axis.vary(scene).err()).collect();
         self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::try_from(scene).ok() }));
@@ -430,6 +435,9 @@ mod tests {
         let form = sweeps.form().unwrap();
         assert!(form.axes[0].key == "plate.frequency_khz" && form.second, "{form:?}");
         assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
+        // Back at a motor, what was asked for of one is there again.
+        sweeps.review(&motor);
+        assert_eq!(sweeps.form().unwrap().axes[0].from, "50");
     }
 
     #[test]

@@ -88,6 +88,8 @@ pub struct View {
     pub cursor_x: Option<f64>,
     /// From where the ring is seen.
     pub orbit: Orbit,
+    /// How many scenes were opened: each is shown from its beginning.
+    pub opened: u64,
 }
 
 impl Default for View {
@@ -105,6 +107,7 @@ impl Default for View {
             results: true,
             cursor_x: None,
             orbit: Orbit::default(),
+            opened: 0,
         }
     }
 }

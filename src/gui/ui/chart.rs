@@ -88,7 +88,14 @@ impl Chart<'_> {
         add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
     ) -> PlotResponse<R> {
         let Self { name, height, bounds, below, words: (x, y) } = self;
-        let (whole, plot) = (place(ui, height), chart(ui, name, height));
+        let (whole, mut plot) = (place(ui, height), chart(ui, name, height));
+        if bounds[0][0] == 0.0 && bounds[1][0] == 0.0 {
+            // One zero is enough for both axes.
+            plot = plot.y_axis_formatter(|mark, range| {
+                let above = (mark.value - range.start()) / (range.end() - range.start());
+                if mark.value == 0.0 && above < 0.02 { String::new() } else { tick(mark) }
+            });
+        }
         let plot = if below.is_empty() { plot } else { plot.x_axis_label(below) };
         let shown = framed(ui, (name, change(plot)), bounds, add);
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
@@ -168,27 +175,33 @@ impl<'a> Inset<'a> {
             hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
         };
         // What is written below has the corner.
+        let hidden = if below.is_some() { 0.35 * row / height } else { 0.0 };
         let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
-            let above = (mark.value - range.start()) / (range.end() - range.start()) * f64::from(height / row);
-            if above < 0.35 && below.is_some() { String::new() } else { tick(mark) }
+            let above = (mark.value - range.start()) / (range.end() - range.start());
+            if above < f64::from(hidden) { String::new() } else { tick(mark) }
         };
         // The name has the left end, and a neighbour begins soon after the right one.
         let named = below.filter(|name| !name.is_empty());
         let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(ui.painter(), name)).clamp(0.0, 0.6 * row);
+        // Room for half a number beyond either end.
+        let beyond = [2.0 + spare, 0.4 * row];
+        let half = move |letters: usize| 0.28 * row * letters as f32;
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
-            let half = 0.28 * row * text.chars().count() as f32;
+            let half = half(text.chars().count());
             let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
-            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.4 * row;
+            let fits = along - half > -beyond[0] && along + half < rect.width() + beyond[1];
             if fits || named.is_none() { text } else { String::new() }
         };
+        let unseen =
+            beyond.map(|beyond| if named.is_some() { (half(3) - beyond).max(0.0) / rect.width() } else { 0.0 });
         let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
         let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
             .show_axes([below.is_some(), true])
             .grid_color(style.grid)
             .grid_fade(0.0)
-            .x_grid_spacer(move |input| several(&input, columns))
-            .y_grid_spacer(move |input| several(&input, lines));
+            .x_grid_spacer(move |input| several(&input, unseen, columns))
+            .y_grid_spacer(move |input| several(&input, [hidden, 0.0], lines));
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, change(chart)), self.bounds, add);
@@ -334,9 +347,10 @@ pub(super) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
     apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
 }
 
-/// Round marks, about `about`, and two at least.
-fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
-    marks(Steps::several([input.bounds.0, input.bounds.1], about))
+/// Round marks, about `about`, and two at least that are farther from both ends of the axis than these shares of it.
+fn several(input: &GridInput, [before, after]: [f32; 2], about: usize) -> Vec<GridMark> {
+    let ((from, to), ends) = (input.bounds, [before, after].map(f64::from));
+    marks(Steps::several([from, to], [from + ends[0] * (to - from), to - ends[1] * (to - from)], about))
 }
 
 /// Marks at these numbers.

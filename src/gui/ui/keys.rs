@@ -63,6 +63,9 @@ const MOTION: &str = "Motion";
 const HOLDING: &str = "Held plate";
 const HOLD_STEP: f64 = 0.05;
 
+/// The group of the keys that change how the window looks.
+pub const WINDOW: &str = "Window";
+
 const GO_ON: Command = Command::Lesson(LessonCommand::GoOn);
 
 fn choose(choice: usize) -> Command {
@@ -125,7 +128,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         ],
     ),
     (
-        "Window",
+        WINDOW,
         &[
             Window.on(CTRL, Key::Num1, "Show the motion", || Command::Show(Tab::Motion)),
             Window.on(CTRL, Key::Num2, "Compare pinned runs", || Command::Show(Tab::Compare)),

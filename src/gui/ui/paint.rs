@@ -225,7 +225,7 @@ impl Axes {
     pub(super) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
         let range = [self.y[0] / unit, self.y[1] / unit];
-        let ticks = Steps::several(range, about);
+        let ticks = Steps::several(range, range, about);
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));
@@ -331,14 +331,14 @@ pub(super) fn title_with_bar(
     style: &PlotStyle,
     plot: Rect,
     word: &str,
-    titles: [&str; 2],
+    titles: &[&str],
     range: [f64; 2],
 ) {
     let ends = ends(range.map(|pascal| pascal / 1e3));
     // Of one value there is no scale.
     if ends[0] == ends[1] {
-        let everywhere = titles.map(|title| format!("{title}: {} kPa everywhere", ends[1]));
-        style.title(painter, plot, word, &everywhere.each_ref().map(String::as_str), &[]);
+        let everywhere: Vec<_> = titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
+        style.title(painter, plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
         return;
     }
     title_with_ends(painter, style, plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
@@ -350,14 +350,14 @@ pub(super) fn title_with_ends(
     style: &PlotStyle,
     plot: Rect,
     word: &str,
-    titles: [&str; 2],
+    titles: &[&str],
     ends: [&str; 2],
 ) {
     let bottom = plot.top() - 2.0;
     let written = style.width(painter, ends[0]) + style.width(painter, ends[1]) + 2.0 * style.row;
     let room = plot.width() - written - 2.0 * style.row;
-    // The longer title if a bar of some length is left.
-    let title = if style.width(painter, titles[0]) < room { titles[0] } else { titles[1] };
+    // The longest title that leaves a bar of some length; if none does, none is written.
+    let title = titles.iter().copied().find(|title| style.width(painter, title) < room).unwrap_or_default();
     let length = (room - style.width(painter, title)).clamp(2.0 * style.row, 9.0 * style.row);
     let place = style.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, style.text);
     style.term(place, word);

@@ -25,11 +25,12 @@ impl Updater {
             let rgb = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
             self.ask(Purpose::Picture(Picture { size, rgb: Arc::new(rgb) }));
         }
+        let now = self.now();
         let Self { writing, state, .. } = self;
         writing.retain(|task| {
             match task.drain().end {
                 None => return true,
-                Some(Ok(Ok(paths))) => state.exports.written = Some(paths),
+                Some(Ok(Ok(paths))) => state.exports.wrote(paths, now),
                 Some(Ok(Err(Some(error))) | Err(error)) => state.fail(error),
                 Some(Ok(Err(None))) => {}
             }

@@ -85,7 +85,7 @@ impl Updater {
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::CancelExport => state.exports.cancel(),
-            Command::CloseExportNote => state.exports.written = None,
+            Command::CloseExportNote => state.exports.close_note(),
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
                 None => state.view.playing = !state.view.playing,
@@ -160,9 +160,10 @@ impl Updater {
         if solved {
             self.tell_page();
         }
+        let now = self.now();
         let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());
-        if let Some(error) = state.exports.drain().or_else(|| state.face.drain()) {
+        if let Some(error) = state.exports.drain(now).or_else(|| state.face.drain()) {
             state.fail(error);
         }
         state.pins.drain();
@@ -195,7 +196,7 @@ impl Updater {
             Purpose::Open | Purpose::Measurements => self.load_measurements(path),
             Purpose::Heights => self.load_face(path),
             Purpose::Lessons => self.load_lessons(&path),
-            Purpose::Save(then) => self.save_to(&path, then),
+            Purpose::Save(then) => self.save_as(path, then),
             Purpose::Picture(picture) => self.write_picture(picture, &path),
             Purpose::Export(export) => self.export(export, &path),
         }

@@ -2,7 +2,7 @@
 
 use super::updater::Updater;
 use crate::fidelity::Fidelity;
-use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::dialogs::{Purpose, complete};
 use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::Modal;
@@ -115,6 +115,7 @@ impl Updater {
                 // Nothing has it yet, so that it counts as changed.
                 let target = self.state.document.target();
                 self.state.document = Document::restored(*scene, Scene::motor(), None).with_target(target);
+                self.state.view.opened += 1;
                 self.scene_replaced();
             }
             Next::Quit => {
@@ -131,6 +132,7 @@ impl Updater {
                     self.state.remember(path);
                 }
                 self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
+                self.state.view.opened += 1;
                 self.scene_replaced();
             }
             Err(error) => {
@@ -148,11 +150,28 @@ impl Updater {
         }
     }
 
+    /// Saves to a file that was chosen; what has no extension becomes a `.toml`.
+    pub(super) fn save_as(&mut self, path: PathBuf, then: Option<Next>) {
+        let named = match path.extension() {
+            Some(_) => Ok(path.clone()),
+            None => complete(path.clone(), "preset", &["toml"]),
+        };
+        match named {
+            Ok(path) => self.save_to(&path, then),
+            Err(reason) => {
+                self.state.failed_path = Some((Purpose::Save(None), path.display().to_string()));
+                self.state.fail(reason);
+            }
+        }
+    }
+
     /// Saves to this file, and goes on with what waited for it.
-    pub(super) fn save_to(&mut self, path: &Path, then: Option<Next>) {
+    fn save_to(&mut self, path: &Path, then: Option<Next>) {
         match self.state.document.save(path) {
             Ok(()) => {
                 self.state.remember(path);
+                let now = self.now();
+                self.state.exports.wrote(vec![path.to_owned()], now);
                 then.into_iter().for_each(|next| self.proceed_now(next));
             }
             Err(error) => {

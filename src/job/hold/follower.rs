@@ -32,7 +32,7 @@ pub struct Snapshot {
     pub x: Vec<f64>,
     /// The same across.
     pub y: Vec<f64>,
-    /// Absolute pressure \[Pa\], `[ix][iy]`.
+    /// Absolute pressure \[Pa\], `[ix][iy]`; of a plate that was let go the mean since the snapshot before, as the force is.
     pub pressure: Vec<f64>,
     /// Speed of the film's time over the speed that was asked for: below 1 if marching takes too long for it.
     pub pace: f64,
@@ -122,8 +122,11 @@ impl Follower {
         }
         self.number += 1;
         let snapshot = self.snapshot(failure);
-        // Of a plate that vibrates, the gap without the vibration and the mean force are shown.
-        Snapshot { reading: mean.unwrap_or(snapshot.reading), ..snapshot }
+        // Of a plate that vibrates, the gap without the vibration, and the mean force and pressure since the last snapshot, are shown.
+        match mean {
+            Some(reading) => Snapshot { reading, pressure: self.hold.mean_pressure().collect(), ..snapshot },
+            None => snapshot,
+        }
     }
 
     pub(super) fn snapshot(&self, failure: Option<String>) -> Snapshot {

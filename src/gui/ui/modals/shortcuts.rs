@@ -3,7 +3,8 @@
 use super::frame::frame;
 use crate::gui::command::Command;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::keys::{self, GROUPS, Shortcut};
+use crate::gui::ui::keys::{self, GROUPS, Shortcut, WINDOW};
+use eframe::egui::gui_zoom::kb_shortcuts::{ZOOM_IN, ZOOM_OUT, ZOOM_RESET};
 use eframe::egui::{self, RichText, TextStyle};
 
 /// Between the two columns, and between a key and what it does.
@@ -57,6 +58,13 @@ fn group(ui: &mut egui::Ui, title: &str, shortcuts: &[Shortcut], widest: f32, cx
                 ui.label(RichText::new(keys::name(&shortcut.keys)).monospace().strong());
                 let also = shortcut.also.map_or_else(String::new, |keys| format!(" (also {})", keys::name(&keys)));
                 ui.add(egui::Label::new(format!("{}{also}", shortcut.about)).extend());
+                ui.end_row();
+            }
+            // These are egui's own.
+            let zoom = [(ZOOM_IN, "Larger"), (ZOOM_OUT, "Smaller"), (ZOOM_RESET, "As large as usual")];
+            for (keys, about) in zoom.into_iter().filter(|_| title == WINDOW) {
+                ui.label(RichText::new(keys::name(&keys)).monospace().strong());
+                ui.add(egui::Label::new(about).extend());
                 ui.end_row();
             }
         },

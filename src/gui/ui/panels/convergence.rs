@@ -2,10 +2,10 @@
 
 use crate::control::Progress;
 use crate::gui::derived::format::power_of_ten;
-use crate::gui::ui::chart::{bare, level, line, powers, whole};
+use crate::gui::ui::chart::{level, line, numbered, powers, whole};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui;
-use egui_plot::{LineStyle, PlotPoints, Points};
+use egui_plot::{AxisHints, LineStyle, PlotPoints, Points};
 
 /// Height of the plot, in lines of text.
 const HEIGHT: f32 = 9.0;
@@ -16,7 +16,7 @@ const TICKS: f64 = 5.0;
 pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
     let grids = Progress::grids(history).count();
     let height = HEIGHT * ui.text_style_height(&egui::TextStyle::Body);
-    let plot = bare("convergence", height)
+    let plot = numbered("convergence", height, [AxisHints::new_x(), AxisHints::new_y()])
         .x_axis_label("round")
         .y_axis_label("relative change")
         .y_grid_spacer(|input| powers(&input, TICKS, false))

@@ -25,13 +25,14 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             ui.label(if running.cancelled { "Ending…" } else { running.export.title() });
         });
         ui.ctx().request_repaint_after(Duration::from_secs(1));
-    } else if let Some(paths) = exports.written.as_deref() {
+    } else if let Some(paths) = exports.written() {
         ui.horizontal(|ui| {
             cx.small_button(ui, ("✕", "Closes this note"), "Close the note", Command::CloseExportNote);
             let list = paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
             let text = RichText::new(summary(paths)).color(cx.colours.good);
             ui.add(egui::Label::new(text).truncate()).hint(list);
         });
+        ui.ctx().request_repaint_after(Duration::from_secs(1));
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::digits::{capitalised, significant};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
+use crate::gui::ui::hint::text_width;
 use crate::lessons::Step;
 use crate::lessons::check::Name;
 use crate::lessons::live::Live;
@@ -73,14 +74,25 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
                 }
                 _ => String::new(),
             };
-            let mut name = |ui: &mut Ui| {
-                let label = ui.add(egui::Label::new(format!("{}{unit}", capitalised(&words))).truncate());
+            let text = format!("{}{unit}", capitalised(&words));
+            let name = |ui: &mut Ui| {
+                let label = ui.add(egui::Label::new(&text).wrap());
                 glossary::hover(ui, label, &words);
             };
+            // A name that is longer than what is left has lines of its own, above its numbers.
+            let beside = ui.available_width() - NUMBER_WIDTHS.map(|width| width * em + 4.0).iter().sum::<f32>();
+            let fits = text_width(ui, &text) <= beside;
+            if !fits {
+                name(ui);
+            }
             let present = RichText::new(shown(shown_name, now)).strong().color(ui.visuals().strong_text_color());
             row(
                 ui,
-                &mut name,
+                &mut |ui| {
+                    if fits {
+                        name(ui)
+                    }
+                },
                 [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(cx.colours.film)],
             );
         }

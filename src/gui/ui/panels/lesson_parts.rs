@@ -62,6 +62,12 @@ pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'
         let look = Look::reading(ui);
         boxed(ui, cx.colours.good, "What it shows", |ui| blocks(ui, then, look, true, cx));
     }
+    if !cx.state.awaits_result() && cx.state.lessons.tells_of_another_run(cx.state.document.scene()) {
+        cx.note(
+            ui,
+            "The numbers in this text are those of your run that did the task, which is not the one on screen.",
+        );
+    }
 }
 
 /// A tinted box with a title.

@@ -10,7 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, beside, text_width};
-use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::scroll::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
@@ -53,7 +53,7 @@ const FRAME_MARGIN: i8 = 6;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
-    scrolled(ui, "parameters", 8.0, |ui| {
+    scrolled_anew(ui, "parameters", cx.state.view.opened, 8.0, |ui| {
         let mut panel = Panel { scene, plan, units: 0.0, cx };
         panel.all(ui);
     });

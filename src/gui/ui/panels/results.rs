@@ -13,7 +13,7 @@ use crate::gui::derived::format::{raised, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
-use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::scroll::scrolled_anew;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult, Status, StoppedBy};
@@ -28,7 +28,7 @@ const HEADLINE_ERROR: f32 = 1.35;
 
 /// Shows the results of `run`, and the switches of its model.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
-    scrolled(ui, "results", 8.0, |ui| {
+    scrolled_anew(ui, "results", cx.state.view.opened, 8.0, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);

@@ -2,7 +2,7 @@
 
 use crate::analysis::compare::{ComparedRun, ParameterRow};
 use crate::analysis::quantity::Quantity;
-use crate::digits::capitalised;
+use crate::digits::{capitalised, raised};
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
@@ -152,8 +152,19 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
 fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawContext<'_>) {
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    // A name that is longer than the field ends with "…" until it is typed over.
+    let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
+        let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
+        let mut job = egui::text::LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
+        if !focused {
+            job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+        }
+        ui.fonts_mut(|fonts| fonts.layout_job(job))
+    };
     let field = egui::TextEdit::singleline(&mut text)
         .id(id)
+        .layouter(&mut layouter)
         .frame(egui::Frame::NONE)
         .clip_text(true)
         .margin(egui::Margin::ZERO)
@@ -254,17 +265,17 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
             glossary::term(ui, strong(capitalised(&row.label())), row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
                 if beside {
-                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    ui.add(egui::Label::new(strong(raised(&value_text(row, cell)))).extend());
                     if i > 0 {
-                        let difference = RichText::new(difference_text(row, cell)).color(cx.colours.quiet);
+                        let difference = RichText::new(raised(&difference_text(row, cell))).color(cx.colours.quiet);
                         ui.add(egui::Label::new(difference).extend());
                     }
                     continue;
                 }
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 0.0;
-                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
-                    let difference = difference_text(row, cell);
+                    ui.add(egui::Label::new(strong(raised(&value_text(row, cell)))).extend());
+                    let difference = raised(&difference_text(row, cell));
                     if !difference.is_empty() {
                         ui.add(egui::Label::new(RichText::new(difference).color(cx.colours.quiet)).extend());
                     }

@@ -2,7 +2,7 @@
 //! invariant.
 
 use crate::analysis::exact::{Harmonic, units};
-use crate::digits::{percent, significant};
+use crate::digits::{percent, raised, significant};
 use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::{power_of_ten, uncertain};
@@ -21,8 +21,6 @@ use egui_plot::LineStyle;
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 2] = [0.33, 0.27];
 const LEAST_LINES: [f32; 2] = [10.0, 9.0];
-/// A tab wider than this, in heights of the text, has room for a column of remarks.
-const WIDE: f32 = 28.0;
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
 const RADIUS: f32 = 5.0;
@@ -196,36 +194,30 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     };
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
     let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
-    let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
-        .map(|value| significant(value, DIGITS));
+    let exact = |value: f64| raised(&significant(value, DIGITS));
+    let Harmonic { spring: stiff, damping: lossy } = found.linear;
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
+    let small = "ε → 0";
     // What it is called, computed, exact, and when that holds.
     let rows = [
-        ["Spring S", &spring, &significant(found.linear.spring, DIGITS), "limit ε → 0"],
-        ["Damping D", &damping, &significant(found.linear.damping, DIGITS), "limit ε → 0"],
-        [&names[0], &stiffness, &linear[0], "limit ε → 0"],
-        [&names[1], &loss, &linear[1], "limit ε → 0"],
-        [
-            "Mean pressure",
-            &uncertain(found.mean_pressure),
-            &significant(found.trapped_mean_pressure, DIGITS),
-            "limit σ → ∞",
-        ],
-        ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
+        ["Spring S", &spring, &exact(stiff), small],
+        ["Damping D", &damping, &exact(lossy), small],
+        [&names[0], &stiffness, &exact(stiff * found.unit.spring), small],
+        [&names[1], &loss, &exact(lossy * found.unit.damping), small],
+        ["Mean pressure / p_a", &uncertain(found.mean_pressure), &exact(found.trapped_mean_pressure), "σ → ∞"],
+        ["Invariant, off by", &invariant, "0 %", "any σ and ε"],
     ];
-    // In a narrow tab when the exact value holds is said on hover, and below, alone.
-    let wide = ui.available_width() > WIDE * ui.text_style_height(&TextStyle::Body);
-    table::table(ui, "exact", if wide { 4 } else { 3 }, 14.0, |ui| {
-        table::heads(ui, &[("", ""), ("Computed", "Computed"), ("Exact", "Exact")], cx.colours.quiet);
+    table::table(ui, "exact", 4, 14.0, |ui| {
+        let heads = [("", ""), ("Computed", "Computed"), ("Exact limit", "Exact"), ("valid for", "Exact")];
+        table::heads(ui, &heads, cx.colours.quiet);
         ui.end_row();
         for [name, computed, exact, when] in rows {
-            glossary::term(ui, RichText::new(name).color(cx.colours.quiet), name);
+            let word = name.split(" / ").next().unwrap_or(name);
+            glossary::term(ui, RichText::new(name).color(cx.colours.quiet), word);
             for value in [computed, exact] {
-                glossary::term(ui, RichText::new(value).color(ui.visuals().strong_text_color()), name);
+                glossary::term(ui, RichText::new(value).color(ui.visuals().strong_text_color()), word);
             }
-            if wide {
-                ui.label(RichText::new(when).color(cx.colours.quiet));
-            }
+            ui.label(RichText::new(when).color(cx.colours.quiet));
             ui.end_row();
         }
     });

@@ -63,7 +63,7 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     let [length, width] = [wide, tall].map(|metres| significant(f64::from(metres) * 1e6, 3));
     let long = format!("Heights, {length} × {width} µm, x along the wave");
     let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
-    title_with_ends(ui.painter(), &style, titled, "Measured face", [&long, "Heights"], [&ends[0], &ends[1]]);
+    title_with_ends(ui.painter(), &style, titled, "Measured face", &[&long, "Heights"], [&ends[0], &ends[1]]);
     let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover());
     let name = "Heights of the measured face: point to see the profile along x there";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));

@@ -62,6 +62,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
                 let text = format!("Fitted to “{}” before the scene changed; fit again", scene.name);
                 cx.say(ui, text, cx.colours.alarm);
             }
+            if state.asks_for_another() {
+                cx.say(ui, format!("Found for another question: {}", question(found)), cx.colours.alarm);
+            }
             match &**found {
                 Found::Fit(measured, fitted) => result(ui, measured, fitted, height, cx),
                 Found::Optimum(found) => optimum(ui, found, height, cx),
@@ -69,6 +72,19 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         ui.add_space(8.0);
     });
+}
+
+/// What was asked for.
+fn question(found: &Found) -> String {
+    match found {
+        Found::Fit(..) => "agreement with measurements".to_owned(),
+        Found::Optimum(found) => {
+            let kind = if found.goal.greatest { "greatest" } else { "least" };
+            let limits: Vec<String> = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect();
+            let limits = if limits.is_empty() { "no limits".to_owned() } else { limits.join(", ") };
+            format!("the {kind} value of {} with {limits}", found.goal.quantity.words())
+        }
+    }
 }
 
 /// What is looked for: agreement with measurements, or the optimum of a number, within limits on others.
@@ -319,7 +335,7 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
     });
 }
 
-/// Measured over computed, both as shares of the largest of their kind, and residuals row by row.
+/// Measured against computed, both as shares of the largest of their kind, and residuals row by row.
 fn charts(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
     let largest = |name: &str| {
         let alike = measured.measurements.iter().filter(|one| one.what.name() == name);
@@ -337,7 +353,7 @@ fn charts(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &Dr
     let ends =
         points.iter().flatten().fold([0.0_f64, 1.0_f64], |[low, high], end| [low.min(*end), high.max(1.05 * end)]);
     legend(ui, &[("measured", cx.colours.contact, SOLID), ("as computed", cx.colours.quiet, SOLID)]);
-    let name = "Measured over computed";
+    let name = "Measured against computed";
     title(ui, name, name);
     let below = "computed, a share of the largest measured";
     let (contact, quiet) = (cx.colours.contact, cx.colours.quiet);
@@ -348,7 +364,7 @@ fn charts(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &Dr
     let residuals: Vec<[f64; 2]> =
         (1..).zip(&found.rows).filter_map(|(i, row): (u32, _)| Some([f64::from(i), row.residual?])).collect();
     let widest = residuals.iter().fold(2.0, |widest: f64, one| widest.max(1.1 * one[1].abs()));
-    title(ui, "Residuals, in standard errors", "Residual");
+    title(ui, "Residuals: computed minus measured, in standard errors", "Residual");
     let bounds = [[0.5, found.rows.len() as f64 + 0.5], [-widest, widest]];
     let (name, below, words) = ("Residuals", "measurement", (Some("Residual"), "Residual"));
     let chart = Chart { name, height: 0.7 * height, bounds, below, words };

@@ -40,7 +40,7 @@ const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
-    scrolled(ui, "trade-off", 8.0, |ui| {
+    scrolled(ui, "trade-off", 20.0, |ui| {
         buttons(ui, cx);
         let Some(measured) = &cx.state.tradeoff else {
             cx.introduce(ui, INTRODUCTION);

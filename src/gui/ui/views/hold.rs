@@ -218,7 +218,7 @@ fn profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'
         style,
         rect,
         "Film pressure",
-        [if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"],
+        &[if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"],
         [low, high],
     );
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));

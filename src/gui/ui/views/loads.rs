@@ -15,7 +15,11 @@ const NAME: &str = "Pressures along one wavelength: point to read values, click 
 pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<()> {
     let kilo = 1e-3 / shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
-    let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
+    let title = [
+        "Pressure on the teeth, mean over the width, kPa gauge",
+        "Pressure on the teeth, kPa gauge",
+        "Pressure, kPa gauge",
+    ];
     let mut legend = vec![("contact", contact), ("film", film)];
     legend.extend(style.at_first(shown.first.as_ref()));
     style.title(ui.painter(), rect, "Gauge pressure", &title, &legend);

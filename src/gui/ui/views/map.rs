@@ -12,8 +12,8 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, sh
     let range = shown.ranges.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
     let axes = field::draw(ui, style, painter, rect, shown.recording, "all teeth", stamp);
-    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
-    title_with_bar(painter, style, rect, "Pressure map", titles, range);
+    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute", "Film"];
+    title_with_bar(painter, style, rect, "Pressure map", &titles, range);
     y_labels(painter, style, &axes);
     axes.x_labels(painter, style, 1e-3, "x, mm");
     // The followed tooth.

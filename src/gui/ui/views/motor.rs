@@ -123,13 +123,12 @@ fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_,
 }
 
 /// A row of values, as wide as it takes.
-const LONGEST: [&str; 7] = [
+const LONGEST: [&str; 6] = [
     "x −00.00 mm",
     "tooth 00",
     "gap 0.0000 µm",
     "film thickness 0.0000 µm",
-    "contact 0000 kPa",
-    "film −0000 kPa gauge",
+    "mean over y: contact 0000 kPa, film −0000 kPa gauge",
     "p at y = 0 0000 kPa absolute",
 ];
 
@@ -152,8 +151,8 @@ fn readout(shown: &Frame<'_, Motor>) -> Vec<String> {
     values.push(format!("tooth {tooth}"));
     values.push(format!("gap {} µm", number((thickness - shown.of.spacing()).max(0.0) * 1e6)));
     values.push(format!("film thickness {} µm", number(thickness * 1e6)));
-    values.push(format!("contact {} kPa", number(at(&lines.contact) / width / 1e3)));
-    values.push(format!("film {} kPa gauge", number(at(&lines.film) / width / 1e3)));
+    let [contact, film] = [&lines.contact, &lines.film].map(|field| number(at(field) / width / 1e3));
+    values.push(format!("mean over y: contact {contact} kPa, film {film} kPa gauge"));
     if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
         values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
     }

@@ -184,9 +184,13 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
 
     let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
-    let titles =
-        ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
-    title_with_bar(&painter, &style, maps[0], "Pressure map", titles, range);
+    let titles = [
+        "Pressure maps of the film, kPa absolute, one scale of colours",
+        "Pressure maps, absolute, one scale",
+        "Maps, one scale",
+        "Maps",
+    ];
+    title_with_bar(&painter, &style, maps[0], "Pressure map", &titles, range);
     for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
         let metre = along.metre(run.recording.length);
         // In metres of this run: its own teeth are where its own x says.
@@ -268,8 +272,10 @@ fn over_cycle(
         .collect();
     let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
     let word = title.split(',').next().unwrap_or(title);
+    let short = title.replace(" on one wave", "");
     let (traces, phase) = (&traces[..], cx.state.view.phase);
-    let series = Series { name: title, titles: &[title], word, legend: &[], traces, range, unit, period, phase };
+    let series =
+        Series { name: title, titles: &[title, &short], word, legend: &[], traces, range, unit, period, phase };
     series.show(ui, style, place, cx);
 }
 
@@ -418,8 +424,8 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
             row = column.next(if slot == 0 { title } else { 6.0 }, map);
         }
         if slot == 0 {
-            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
-            title_with_bar(&painter, &style, row, "Pressure map", titles, range);
+            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale", "Maps"];
+            title_with_bar(&painter, &style, row, "Pressure map", &titles, range);
         }
         let (beside, step) = ((slot % columns) as f32, (right - start) / columns as f32);
         let left = start + beside * step;

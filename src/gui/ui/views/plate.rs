@@ -51,7 +51,14 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
         let range = shown.ranges.pressure;
         let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
         let axes = field::draw(ui, &style, &painter, last, shown.recording, "plate", stamp);
-        title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
+        title_with_bar(
+            &painter,
+            &style,
+            last,
+            "Pressure map",
+            &["Pressure map, kPa absolute", "Map, absolute", "Map"],
+            range,
+        );
         y_labels(&painter, &style, &axes);
         axes.cursor(&painter, &style, shown.view.cursor_x);
     }
@@ -59,7 +66,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
 
     let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + style.row);
     let count = if area.width() > 40.0 * style.row { 3 } else { 2 };
-    let between = 0.8 * style.row;
+    // Between the last number of a chart and the name of the axis of the next.
+    let between = 1.3 * style.row;
     let wide = (right - area.left() + between) / count as f32;
     let plots: Vec<Rect> = (0..count)
         .map(|i| {
@@ -143,12 +151,14 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin].map(|pressure| pressure * 1e-3)];
     let title = if shown.of.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
     let (film, quiet) = (style.palette.film, style.palette.quiet);
+    let behind = style.at_first(shown.first.as_ref());
     // Both are grey; what the plate began with is the one to be told apart.
-    let behind = style.at_first(shown.first.as_ref()).unwrap_or(("ambient", quiet));
-    style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), behind]);
+    let faint = if behind.is_some() { quiet.gamma_multiply(0.55) } else { quiet };
+    let legend: Vec<_> = [("film", film)].into_iter().chain(behind).chain([("ambient", faint)]).collect();
+    style.title(ui.painter(), rect, "Film pressure", &[title, "Pressure, kPa"], &legend);
     let name = "Pressure along the plate: point to read values";
     Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
-        plot.hline(level(ambient * 1e-3, quiet, 1.0));
+        plot.hline(level(ambient * 1e-3, faint, 1.0));
         if let Some(first) = &shown.first {
             plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
         }
@@ -231,7 +241,13 @@ pub(super) fn show_loops(
     phase: f64,
 ) {
     let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
-    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa gauge"];
+    let titles = [
+        "Mean pressure against the gap, kPa gauge",
+        "Mean pressure, kPa gauge",
+        "Mean p, kPa gauge",
+        "p, kPa gauge",
+        "p, kPa",
+    ];
     style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
     Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {

@@ -386,7 +386,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         let ends = extent.map(written);
         let above = rect.translate(vec2(0.0, -style.row - 6.0));
         let ends = ends.each_ref().map(String::as_str);
-        title_with_ends(&painter, style, above, plotted.quantity.words(), [&title, &title], ends);
+        title_with_ends(&painter, style, above, plotted.quantity.words(), &[&title], ends);
     }
     let corner = pos2(rect.left(), rect.top() - 2.0);
     let named = style.write(&painter, corner, Align2::LEFT_BOTTOM, &format!("↑ {}", name(y)), style.text);
