@@ -38,10 +38,19 @@ pub fn trapped_mean_pressure(excursion: f64, knudsen: f64) -> f64 {
 /// κ² = iσ/(1+6m). Returns (real, imaginary): the real part is the spring, negative if it restores; the imaginary part is
 /// minus the damping, negative if it dissipates.
 pub fn linear_strip(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
-    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
-    let half = kappa * 0.5;
-    let load = half.tanh() / half - Complex::new(1.0, 0.0);
+    let load = strip(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)));
     (load.re, load.im)
+}
+
+/// Load of a strip at κ², as in [`linear_strip`].
+fn strip(square: Complex<f64>) -> Complex<f64> {
+    let half = square.sqrt() * 0.5;
+    tanh(half) / half - 1.0
+}
+
+/// tanh, which as two exponentials overflows at large arguments.
+fn tanh(z: Complex<f64>) -> Complex<f64> {
+    if z.re > 20.0 { Complex::new(1.0, 0.0) } else { z.tanh() }
 }
 
 /// The same for a rectangle of length 1 along x (σ is based on it) and width `aspect` along y, by Blech's double series
@@ -56,8 +65,7 @@ pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64,
         let k = f64::from(n) * PI;
         let square = Complex::new(k * k, sigma);
         let half = square.sqrt() * (0.5 * aspect);
-        let tanh = if half.re > 20.0 { Complex::new(1.0, 0.0) } else { half.tanh() };
-        let profile = Complex::new(1.0, 0.0) - tanh / half;
+        let profile = Complex::new(1.0, 0.0) - tanh(half) / half;
         let term = -Complex::new(0.0, sigma) / square * profile * (8.0 / (k * k));
         load += term;
         // Terms fall at least as 1/n²: what is left is no more than n/2 times the last.
@@ -175,6 +183,14 @@ mod tests {
         // A thin ring is a strip.
         let (ring, strip) = (linear_ring(20.0, 0.1, 0.999), linear_strip(20.0, 0.1));
         assert!((ring.0 - strip.0).abs() < 1e-6 && (ring.1 - strip.1).abs() < 1e-6, "{ring:?} {strip:?}");
+    }
+
+    #[test]
+    fn a_strip_at_any_squeeze_number_has_its_limit() {
+        for sigma in [1e5, 1e7, 1e13] {
+            let (load, layer) = (linear_strip(sigma, 0.0), (2.0 / sigma).sqrt());
+            assert!((load.0 + 1.0 - layer).abs() < 1e-6 * layer && (load.1 + layer).abs() < 1e-6 * layer, "{load:?}");
+        }
     }
 
     #[test]
