@@ -170,6 +170,9 @@ pub struct PlateResult {
     pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: Estimate,
+    /// What grids along and in time do not show of the error of the load's first harmonic \[N; of a strip N/m\], in phase with the approach and
+    /// with its speed: nodes across, and the gap of a plate that floats.
+    pub harmonic_error: [f64; 2],
     /// How it floats; `None` if its mean gap is given.
     pub floating: Option<Floating>,
 }

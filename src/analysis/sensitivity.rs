@@ -19,7 +19,7 @@ use crate::digits::as_given;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene};
-use crate::solution::{Solution, Status, settled};
+use crate::solution::{Outcome, Solution, Status, settled};
 use crate::solve::near::Centre;
 use crate::solve::{Settings, SolveError};
 use rand_chacha::ChaCha8Rng;
@@ -90,8 +90,10 @@ impl Output {
     /// Its value in a solution, whose lines are kept, with its stated numerical error; not finite where it has none.
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
         let harmonic = |part: fn(&Harmonic<Estimate>) -> Estimate, unit: fn(&Harmonic<f64>) -> f64| {
-            let Scenario::Plate(plate) = &problem.scenario else { return None };
-            Some(part(&solved(plate, &solution.recording)?) * unit(&Harmonic::unit(plate)))
+            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
+                return None;
+            };
+            Some(part(&solved(plate, result, &solution.recording)?) * unit(&Harmonic::unit(plate)))
         };
         let found = match self {
             Self::Number(quantity) => numbers.estimate(quantity),

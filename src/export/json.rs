@@ -256,7 +256,7 @@ impl Summary {
             }
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
                 summary.scene = "plate";
-                summary.exact = Some(Comparison::of(plate, result.film_load, &solution.recording));
+                summary.exact = Some(Comparison::of(plate, result, &solution.recording));
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }

@@ -58,7 +58,7 @@ pub fn of(
             figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
             figures.push(("map", plate::map(scene, recording)));
             if let Outcome::Plate(result) = &solution.outcome {
-                let comparison = Comparison::of(scene, result.film_load, recording);
+                let comparison = Comparison::of(scene, result, recording);
                 figures.push(("exact", exact::exact(scene, &comparison, recording)));
             }
         }
