@@ -10,6 +10,7 @@
 
 use super::level::Level;
 use super::result::{add_errors, first_harmonic, numbers};
+use super::slow::slow_motion;
 use super::{Periodic, Search, finish, stated, turned};
 use crate::control::{Cancel, Observer};
 use crate::digits::brief;
@@ -113,9 +114,10 @@ pub fn float(
     beside.add(&mut periodic, mean_gap);
     let natural = (stiffness.value.max(0.0) * GRAVITY / load).sqrt() / TAU;
     let natural_frequency = Estimate { value: natural, error: 0.5 * natural * stiffness.error / stiffness.value.abs() };
-    let floating = Floating { mean_gap, stiffness, natural_frequency };
+    let floating = Floating { mean_gap, stiffness, natural_frequency, slow: None };
+    let slow = slow_motion(&at, load, &floating);
     let result = &mut periodic.result;
-    result.floating = Some(floating);
+    result.floating = Some(Floating { slow, ..floating });
     result.min_film_thickness.error = mean_gap.error;
     periodic.recording.min_film_thickness_error.fill(mean_gap.error);
     Ok((periodic, plan))

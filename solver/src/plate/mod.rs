@@ -4,6 +4,7 @@ pub mod floating;
 mod frames;
 mod level;
 mod result;
+mod slow;
 mod transient;
 
 pub(crate) use level::film_grid;

@@ -74,7 +74,7 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
         let mean_gap = Estimate { value, error: result.film_load.error / stiffness.value.abs() };
         // The stiffness is that of the centre, and so is what the error of the gap adds to others: how they differ here is not known.
         let natural_frequency = Estimate { value: f64::NAN, error: f64::NAN };
-        result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+        result.floating = Some(Floating { mean_gap, stiffness, natural_frequency, slow: None });
         result.harmonic_error = afloat.harmonic_error;
         result.min_film_thickness.error = mean_gap.error;
     }
