@@ -20,7 +20,7 @@ pub struct Row {
     pub time_us: f64,
     /// Height: the gap without the vibration.
     pub height_um: f64,
-    /// Its error, by the length of the steps.
+    /// Its error.
     pub height_error_um: f64,
     /// Speed, upwards.
     pub speed_mm_per_s: f64,
@@ -84,7 +84,7 @@ pub fn figure(problem: &Problem, rows: &[Row], floats: Option<f64>) -> Figure {
         .map(|row| [row.time_us * 1e-3, row.height_um - row.height_error_um, row.height_um + row.height_error_um]);
     let line = rows.iter().map(|row| [row.time_us * 1e-3, row.height_um]);
     let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
-        .layer(Band::new("error of the steps", band, Colour::FILM))
+        .layer(Band::new("error", band, Colour::FILM))
         .layer(Line::new("height", line, Style::solid(Colour::FILM)));
     if let Some(gap) = floats {
         let mut mark = Mark::horizontal(gap, "periodic solve");
