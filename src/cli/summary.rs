@@ -303,7 +303,7 @@ fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
 }
 
 /// Where the model is out of its depth; nothing if it is not.
-fn limits(validity: &[Excess]) -> String {
+pub(super) fn limits(validity: &[Excess]) -> String {
     let mut text = String::new();
     for (i, excess) in validity.iter().enumerate() {
         if i == 0 {

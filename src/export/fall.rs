@@ -1,6 +1,7 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
 use super::estimates;
+use crate::analysis::validity::Excess;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -50,6 +51,8 @@ pub struct Object<'a> {
     pub fidelity: Fidelity,
     /// How it ended.
     pub ended: &'a Fall,
+    /// The limits of the model that it exceeds.
+    pub validity: &'a [Excess],
     /// One for each cycle.
     pub rows: &'a [Row],
     /// Wall time \[s\] by the caller's clock, the periodic solve included.
@@ -58,7 +61,7 @@ pub struct Object<'a> {
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, fidelity, ended, rows, wall_s } = self;
+        let Self { scene, fidelity, ended, validity, rows, wall_s } = self;
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("preset", &scene.name)?;
         map.serialize_entry("scene", scene.scene())?;
@@ -67,6 +70,7 @@ impl Serialize for Object<'_> {
         estimates::add(&mut map, "mean_gap", "_um", floats(ended))?;
         map.serialize_entry("wall_s", wall_s)?;
         map.serialize_entry("rows", rows)?;
+        map.serialize_entry("validity", validity)?;
         map.serialize_entry("warnings", &ended.floats.as_ref().err().into_iter().collect::<Vec<_>>())?;
         map.end()
     }
