@@ -87,6 +87,7 @@ pub fn float(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<(Periodic, Plan), FloatError> {
+    let mut nobody = ();
     let mut way = Way { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
     if plate.amplitude == 0.0 {
         return Err(way.rests(0.0, rough));
@@ -101,6 +102,8 @@ pub fn float(
     let mut periodic = finish(&turned(&at, &plan), &plan, &found, way.stats);
     let pinned = found.pinned(&plan);
     drop((found, way.warm.take()));
+    // What converges beside the gap is no part of the answer's convergence.
+    way.observer = &mut nobody;
     let (mut stiffness, beside) = way.stiffness(x, &pinned)?;
     periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..way.stats };
     periodic.stats.steps_per_cycle = pinned.grids.last().map_or(0, |grid| grid.steps);
