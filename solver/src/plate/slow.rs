@@ -11,8 +11,9 @@
 //! (`film::trapped`), ∂Z/∂t = ∇·[M h ψ(Z) ∇Z] with Z = Z_e(h, a) at the edges, whose load is p_a ∫ Z dA/√(h² − a²) − p_a A.
 //!
 //! Where the vibrating film leaks within a cycle c is the mean over the cycle of that of a film that is not compressed. In between both are mixed,
-//! by the square of 1 − S, S the spring of the linear film at the least gap and the frequency of the vibration, and S (1 − S) of what they differ by is
-//! error.
+//! by the square of 1 − S, S the spring of the linear film at the least gap and the frequency of the vibration, and half of S (1 − S) of what they differ by is
+//! error. A plate that is light enough to shake has an amplitude of its own, (−dF/dh + k_T)/(m ω²) of the vibration's: twice that share of both
+//! stiffnesses is error, too.
 //!
 //! K is that of a row of springs with dashpots: it has a pair of complex roots or none, all others are real.
 
@@ -30,6 +31,8 @@ use std::f64::consts::{PI, TAU};
 const SAMPLES: usize = 256;
 /// First zero of the Bessel function J₀.
 const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
+/// Share of S (1 − S) of what the two dampings differ by that is error.
+const MIXED: f64 = 0.5;
 /// Least share of a push that creeps back slowly enough to be told.
 const TOLD: f64 = 0.01;
 /// Step between rates that are tried, from the least on, as a share of the leak's.
@@ -45,7 +48,7 @@ pub(super) fn slow_motion(plate: &Plate, load: f64, floating: &Floating) -> Opti
     }
     let film = SlowFilm::of(plate, mass, stiffness)?;
     let higher = Plate { mean_gap: plate.mean_gap + floating.mean_gap.error, ..plate.clone() };
-    let mut others = vec![SlowFilm { stiffness: stiffness + error, ..film }];
+    let mut others = vec![SlowFilm { stiffness: stiffness * (1.0 + 2.0 * film.shakes) + error, ..film }];
     // No gap above is known: then neither is an error.
     others.extend(SlowFilm::of(&higher, mass, stiffness));
     others.push(SlowFilm { trapped: film.trapped * (1.0 + film.doubt), ..film });
@@ -84,6 +87,8 @@ struct SlowFilm {
     outline: Outline,
     /// How far damping and spring of gas may be off, relative.
     doubt: f64,
+    /// By what share a plate that is light enough to shake changes the amplitude: what the force's swing makes of its acceleration.
+    shakes: f64,
 }
 
 impl SlowFilm {
@@ -97,16 +102,16 @@ impl SlowFilm {
         let omega = TAU * plate.frequency;
         let per_rate = Dimensionless::of_plate(plate).squeeze_number * h / omega;
         let trapped = gas.ambient_pressure * plate.area() * slope / ((h - a) * (h + a)).sqrt();
-        let mut film = Self { mass, stiffness, trapped, time: per_rate / law.at(height).0, outline, doubt: 0.0 };
+        let mut film =
+            Self { mass, stiffness, trapped, time: per_rate / law.at(height).0, outline, doubt: 0.0, shakes: 0.0 };
         let leaking = phases().map(|phase| viscous_force(plate, plate.gap(phase), -1.0)).sum::<f64>() / SAMPLES as f64;
         // Where it is closest it damps most.
         let least = h - a;
         let vibrating = linear_response(Complex::new(0.0, omega * per_rate * h / (least * law.at(least).0)), outline);
         let (leaks, more) = ((1.0 + vibrating.re).clamp(0.0, 1.0), leaking / film.damping() - 1.0);
         film.trapped *= 1.0 + leaks * leaks * more;
-        // Beside what the averaging leaves out: a plate that is light enough to shake.
-        let shakes = (stiffness + trapped) / mass / (omega * omega);
-        film.doubt = leaks * (1.0 - leaks) * more.abs() + 2.0 * shakes;
+        film.shakes = (stiffness + trapped) / mass / (omega * omega);
+        film.doubt = MIXED * leaks * (1.0 - leaks) * more.abs() + 2.0 * film.shakes;
         (film.doubt < 1.0 && film.time.is_finite()).then_some(film)
     }
 
