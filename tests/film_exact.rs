@@ -258,8 +258,7 @@ fn the_published_stiffness_and_damping_of_a_plate() {
     let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = solve(plate, Fidelity::Reference);
-    let film_load = found.result.film_load;
-    let compared = Comparison::of(plate, film_load, &found.recording);
+    let compared = Comparison::of(plate, &found.result, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();
     for (what, solved, published, digit, exact) in [
         ("stiffness", solved.spring, 28.65e3, 0.01e3, compared.linear.spring * compared.unit.spring),
@@ -370,4 +369,23 @@ fn what_trapped_gas_leaves_out_is_bounded() {
                 < trapped.film_load.error + marched.film_load.error
         );
     }
+}
+
+#[test]
+fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
+    let set = [
+        ("plate.length_mm", "12.79"),
+        ("plate.width_mm", "1.601"),
+        ("plate.mean_gap_um", "0.6838"),
+        ("plate.amplitude_um", "0.006838"),
+        ("film.slip", "none"),
+        ("plate.frequency_khz", "60.628"),
+    ];
+    let mut scene = presets::find("plate-crossover").unwrap();
+    scene.set_all(set).unwrap();
+    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
+    let found = solve(&plate, Fidelity::Draft);
+    let compared = Comparison::of(&plate, &found.result, &found.recording);
+    let damping = compared.solved.unwrap().damping;
+    assert!((damping.value - compared.linear.damping).abs() < damping.error, "{damping:?} {:?}", compared.linear);
 }

@@ -13,7 +13,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact::trapped_mean_pressure;
 use squeezefilm::problem::{GRAVITY, Plate, Problem, Scenario};
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::{Outcome, PlateResult, Solution, Status, settled};
+use squeezefilm::solution::{Floating, Outcome, PlateResult, Solution, Status, settled};
 use squeezefilm::solve::{Settings, SolveError, solve};
 
 const DISC: &[(&str, &str)] = &[("plate.shape", "disc"), ("plate.radius_mm", "1")];
@@ -43,8 +43,7 @@ fn found(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> (Plate, P
 
 fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> Comparison {
     let (plate, result, solution) = found(preset, set, fidelity);
-    let film_load = result.film_load;
-    Comparison::of(&plate, film_load, &solution.recording)
+    Comparison::of(&plate, &result, &solution.recording)
 }
 
 // ---- round films
@@ -213,6 +212,31 @@ fn the_film_carries_the_load_at_the_gap_that_is_found() {
 }
 
 #[test]
+fn what_the_gap_is_off_by_is_in_all_errors_there() {
+    let off_damping = "plate.shape=disc plate.radius_mm=0.4352 plate.frequency_khz=43.73 plate.amplitude_um=6.037 plate.load_n=7.922e-05 \
+        film.min_spacing_nm=5.953 film.slip=fukui-kaneko film.accommodation=0.3406 film.viscosity_upa_s=21.81 \
+        film.mean_free_path_nm=111.4 film.ambient_pressure_kpa=241.1";
+    let off_pressure = "plate.shape=disc plate.radius_mm=5.183 plate.frequency_khz=10.24 plate.amplitude_um=19.81 plate.load_n=9.676 \
+        film.min_spacing_nm=209.1 film.slip=second-order film.gas=air film.temperature_c=33.8 film.altitude_m=1.316e4";
+    for set in [off_damping, off_pressure] {
+        let set: Vec<_> = set.split(' ').filter_map(|change| change.split_once('=')).collect();
+        let [standard, reference] = [Fidelity::Standard, Fidelity::Reference].map(|fidelity| {
+            let (plate, result, solution) = found("plate-crossover", &[&set], fidelity);
+            let film = Comparison::of(&plate, &result, &solution.recording).stiffness_and_damping().unwrap();
+            let Floating { mean_gap, stiffness, slow, .. } = result.floating.unwrap();
+            let extremes = [result.film_load_min, result.film_load_max, result.max_pressure];
+            let slow = slow.map_or(Estimate::default(), |slow| slow.damping);
+            [mean_gap, stiffness, slow, film.spring, film.damping, extremes[0], extremes[1], extremes[2]]
+        });
+        for (standard, reference) in standard.into_iter().zip(reference) {
+            println!("{standard} {reference}");
+            let off = (standard.value - reference.value).abs();
+            assert!(off <= standard.error + reference.error, "{standard:?} {reference:?}");
+        }
+    }
+}
+
+#[test]
 fn a_load_that_no_film_carries_is_refused_with_the_amplitude_it_needs() {
     let with = |amplitude: &str, load: &str| {
         solved(
@@ -273,7 +297,9 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
     let scene = scene("floating-disc", &[&[("plate.frequency_khz", "200"), ("film.slip", "none")]]);
     let vary = ["plate.amplitude_um=0.5:2:3".parse().unwrap()];
     let sweep = Sweep::new(&scene, &vary, &Settings { fidelity: Fidelity::Draft, ..Settings::default() }).unwrap();
-    assert!(sweep.quantities().contains(&Quantity::MeanGap));
+    for quantity in [Quantity::MeanGap, Quantity::FloatingStiffness, Quantity::SlowDamping, Quantity::CreepTime] {
+        assert!(sweep.quantities().contains(&quantity));
+    }
     let rows = sweep.run(&[], &Cancel::new(), &|_| ());
     for row in &rows {
         let (gap, error) =
@@ -282,6 +308,10 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
             panic!("a plate")
         };
         let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;
+        assert!(
+            row.numbers.get(Quantity::SlowDampingError).unwrap()
+                < 0.1 * row.numbers.get(Quantity::SlowDamping).unwrap()
+        );
         println!("{:?}: {gap} ± {error}, law {law}", row.values);
         assert!((gap / law - 1.0).abs() < 0.05 && error < 0.02 * gap, "{row:?}");
     }

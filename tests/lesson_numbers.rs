@@ -248,7 +248,7 @@ fn sensor(set: &[&str]) -> [f64; 3] {
     let problem = Problem::try_from(&scene).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
-    let found = exact_of_runs::solved(plate, &solution.recording).unwrap();
+    let found = exact_of_runs::solved(plate, &PlateResult::default(), &solution.recording).unwrap();
     let unit = exact_of_runs::Harmonic::unit(plate);
     let knudsen = Numbers::of(&problem, &solution).get(Quantity::KnudsenNumber).unwrap();
     [found.spring.value * unit.spring, found.damping.value * unit.damping, knudsen]

@@ -308,3 +308,29 @@ fn text_object_and_files_agree() {
         text.lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
     assert_eq!(cells, ["motor.load_per_wave_n", "0", "none", "none"]);
 }
+
+#[test]
+fn two_ladders_that_agree_by_chance_are_no_proof() {
+    let mut scene = presets::find("plate-crossover").unwrap();
+    scene
+        .set_all([
+            ("plate.shape", "disc"),
+            ("plate.radius_mm", "0.7436"),
+            ("plate.frequency_khz", "279.1"),
+            ("plate.mean_gap_um", "6.5465"),
+            ("plate.amplitude_um", "0.52814"),
+            ("film.slip", "none"),
+            ("film.viscosity_upa_s", "24.08"),
+            ("film.ambient_pressure_kpa", "100.5"),
+        ])
+        .unwrap();
+    let found = sensitivity(&scene, &["plate.amplitude_um"], Fidelity::Standard);
+    let slope = found.slope(2, 0).unwrap();
+    // By solves to an accuracy of 10⁻⁶ on both sides.
+    assert!((slope.value + 2.3795e-5).abs() < slope.error, "{slope:?}");
+    assert!(slope.error < 2.0 * slope.value.abs(), "{slope:?}");
+    // What is proportional to a key is so to rounding.
+    let found = sensitivity(&presets::find("fundamental").unwrap(), &["motor.dry_friction"], Fidelity::Draft);
+    let elasticity = found.elasticity(1, 0).unwrap();
+    assert!((elasticity.value - 1.0).abs() <= elasticity.error && elasticity.error < 1e-2, "{elasticity:?}");
+}

@@ -5,7 +5,10 @@
 mod scenes;
 
 use scenes::problem;
+use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::control::Cancel;
+use squeezefilm::export::startup::validity;
+use squeezefilm::fall::fall;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
 use squeezefilm::solution::{Outcome, PlateResult, Status, StoppedBy};
@@ -220,4 +223,42 @@ fn a_compliance_that_does_not_cover_the_wave_is_told() {
     assert!(told.is_some());
     let (_, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 2, ..Settings::default() });
     assert_eq!(ended.warnings, told.into_iter().collect::<Vec<_>>());
+}
+
+#[test]
+fn a_start_up_names_the_limits_that_its_solve_does() {
+    for (preset, set) in [("fundamental", &[][..]), ("plate-crossover", &[("film.slip", "none")])] {
+        let problem = problem(preset, set);
+        let (_, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 3, ..Settings::default() });
+        let solution = solve(&problem, &solve::Settings::default(), &mut (), &Cancel::new()).unwrap();
+        let (found, known) = (validity(&problem, &ended), outside(&problem, Some(&solution)));
+        assert!(names(&found) == names(&known) && !known.is_empty(), "{found:?} {known:?}");
+    }
+}
+
+#[test]
+fn the_heights_of_a_fall_are_as_exact_as_they_say() {
+    let problem = problem("floating-disc", &[]);
+    let [draft, fine] = [Fidelity::Draft, Fidelity::Fine].map(|fidelity| {
+        let mut heights = Vec::new();
+        fall(&problem, fidelity, 60, 1e-3, &mut |cycle| heights.push(cycle.height), &Cancel::new()).unwrap().unwrap();
+        heights
+    });
+    assert!(draft[0].error > 0.0);
+    for (cycle, (draft, fine)) in draft.iter().zip(&fine).enumerate() {
+        assert!((draft.value - fine.value).abs() < draft.error, "{cycle}: {draft:?} {fine:?}");
+        assert!(draft.error < 0.02 * draft.value, "{cycle}: {draft:?}");
+    }
+}
+
+#[test]
+fn a_fall_ends_where_its_height_is_no_longer_resolved() {
+    let problem = problem("floating-disc", &[("plate.mass_g", "2000")]);
+    let mut heights = Vec::new();
+    let each = &mut |cycle: squeezefilm::fall::Cycle| heights.push(cycle.height);
+    let ended = fall(&problem, Fidelity::Draft, 5000, 1e-3, each, &Cancel::new()).unwrap().unwrap();
+    let (last, before) = heights.split_last().unwrap();
+    println!("{} cycles, {last}", ended.cycles);
+    assert!(matches!(ended.status, Status::NotResolved { .. }) && last.error > 0.5 * last.value, "{ended:?}");
+    assert!(before.iter().all(|height| height.error <= 0.5 * height.value));
 }

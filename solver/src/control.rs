@@ -104,6 +104,12 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// Those of the last of several solves, which began with the coarsest grid again.
+    pub fn last_solve(history: &[Self]) -> &[Self] {
+        let again = history.windows(2).rposition(|pair| pair[1].level < pair[0].level);
+        &history[again.map_or(0, |before| before + 1)..]
+    }
+
     /// The rounds of each grid, in the order in which the grids were solved.
     pub fn grids(history: &[Self]) -> impl Iterator<Item = &[Self]> {
         history.chunk_by(|round, next| next.level == round.level && next.iteration > round.iteration)
@@ -144,5 +150,19 @@ impl<'a> Reporter<'a> {
     pub fn round(&mut self, iteration: usize, residual: f64, film_load: f64) {
         let Self { level, levels, tolerance, .. } = *self;
         self.observer.progress(&Progress { level, levels, iteration, residual, tolerance, film_load });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_solve_begins_with_the_coarsest_grid() {
+        let round = |level| Progress { level, levels: 3, iteration: 1, residual: 0.1, tolerance: 1e-6, film_load: 0.0 };
+        let history = [0, 0, 1, 2, 0, 0, 1].map(round);
+        assert_eq!(Progress::last_solve(&history), &history[4..]);
+        assert_eq!(Progress::last_solve(&history[..3]), &history[..3]);
+        assert!(Progress::last_solve(&[]).is_empty());
     }
 }

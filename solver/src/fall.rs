@@ -1,8 +1,10 @@
 //! A plate that is dropped on its vibration: its height, cycle by cycle, until it floats where the periodic solve says, or rests.
 //!
 //! The plate is the mass of [`mod@crate::hold`]. It falls from rest at twice the gap at which it floats, or at which it would rest, through gas at
-//! ambient pressure, while the vibration comes up. The way is marched twice, with steps of one length and of half: the height is
-//! extrapolated from both, of second order, and their difference is its stated error.
+//! ambient pressure, while the vibration comes up. The way is marched with steps of one length and of half: the height is
+//! extrapolated from both, of second order. Its stated error is their difference, a share of what a third way differs by, whose grids are
+//! coarser, and that of the gap at which the plate floats, as the same share of the height. A plate that bounces may magnify errors from one time to the
+//! next, until its height is not resolved.
 
 use crate::control::Cancel;
 use crate::estimate::{Estimate, extrapolate, left};
@@ -21,6 +23,9 @@ use serde::{Deserialize, Serialize};
 const FROM: f64 = 2.0;
 /// Cycles in which a plate should have settled.
 pub const CYCLES: usize = 5000;
+/// Share of what coarser grids change of the height that is error, and the largest error of a height, relative, that is followed.
+const GRIDS_SHARE: f64 = 1.0 / 3.0;
+const RESOLVED: f64 = 0.5;
 /// Cycles over which the height may not change any more.
 const SETTLED: usize = 32;
 /// Where these changes shrink by less than this factor, the height may be so many times the last one from where it settles.
@@ -45,12 +50,14 @@ pub struct Cycle {
 /// How a fall ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fall {
-    /// Converged: its height no longer changes.
+    /// Converged: its height no longer changes. Not resolved: its error has become as large as half of it.
     pub status: Status,
     /// Cycles made.
     pub cycles: usize,
     /// Mean gap at which the plate floats by the periodic solve \[m\]; `Err` with the reason in words if it does not float.
     pub floats: Result<Estimate, String>,
+    /// What the periodic solve gives; `None` if it does not float.
+    pub outcome: Option<Outcome>,
 }
 
 /// Drops the plate of `problem` and hands over every cycle, at most so many `cycles`, until its height is within
@@ -68,48 +75,55 @@ pub fn fall(
 ) -> Result<Option<Fall>, SolveError> {
     let Scenario::Plate(plate @ Plate { load: Some(_), .. }) = &problem.scenario else { return Ok(None) };
     let settings = Settings { fidelity, record: Record::Numbers, ..Settings::default() };
-    let (found, floats) = match solve(problem, &settings, &mut (), cancel) {
+    let (found, floats, outcome) = match solve(problem, &settings, &mut (), cancel) {
         Ok(solution) => {
             let floats = match solution.outcome {
                 Outcome::Plate(PlateResult { floating: Some(floating), .. }) => Ok(floating.mean_gap),
                 _ => Err("cancelled".to_owned()),
             };
-            (settled(problem, &solution.outcome).into_owned(), floats)
+            (settled(problem, &solution.outcome).into_owned(), floats, Some(solution.outcome))
         }
         Err(SolveError::Float(error @ (FloatError::Rests { .. } | FloatError::High))) => {
-            (problem.clone(), Err(error.to_string()))
+            (problem.clone(), Err(error.to_string()), None)
         }
         Err(error) => return Err(error),
     };
     let Scenario::Plate(found) = &found.scenario else { return Ok(None) };
-    let start = FROM * floats.as_ref().map_or(plate.amplitude + plate.min_spacing, |gap| gap.value);
+    let gap = floats.clone().unwrap_or(Estimate::exact(plate.amplitude + plate.min_spacing));
+    let start = gap * FROM;
     let plan = Plan::plate(found, fidelity, &problem.numerics);
     let need = memory::plate(found, &plan);
-    let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, cancel)?;
-    let mut ways = [1.0, 2.0].map(|finer| {
-        let mut hold = Hold::new(found, &plan).finer(finer);
-        hold.rest_at(start);
+    let _taken = memory::take(memory::Need { bytes: 3 * need.bytes, ..need }, cancel)?;
+    let coarse = Plan { grids: plan.grids[..plan.grids.len().saturating_sub(1).max(1)].to_vec(), ..plan.clone() };
+    let mut ways = [(&plan, 1.0), (&plan, 2.0), (&coarse, 1.0)].map(|(plan, finer)| {
+        let mut hold = Hold::new(found, plan).finer(finer);
+        hold.rest_at(start.value);
         hold
     });
     let period = 1.0 / plate.frequency;
-    let mut heights = vec![start];
+    let mut heights = vec![start.value];
     let mut status = Status::NotConverged { residual: f64::INFINITY, tolerance };
-    each(Cycle { number: 0, time: 0.0, height: Estimate::exact(start), speed: 0.0, rests: false });
+    each(Cycle { number: 0, time: 0.0, height: start, speed: 0.0, rests: false });
     for number in 1..=cycles {
         let rested = ways[1].free().rests;
         for way in &mut ways {
             if cancel.is_cancelled() {
-                return Ok(Some(Fall { status: Status::Cancelled, cycles: number - 1, floats }));
+                return Ok(Some(Fall { status: Status::Cancelled, cycles: number - 1, floats, outcome }));
             }
             let failed = |source| SolveError::Plate(Interrupted::Failed { step: number, source });
             way.fall(period, true).map_err(failed)?;
         }
-        let [usual, finer] = &ways;
-        let height = extrapolate(&[usual.height(), finer.height()]);
+        let [usual, finer, coarse] = &ways;
+        let mut height = extrapolate(&[usual.height(), finer.height()]);
+        height.error += GRIDS_SHARE * (usual.height() - coarse.height()).abs() + height.value * gap.error / gap.value;
         let rests = finer.free().rests > rested;
         let speed = (height.value - heights[number - 1]) / period;
         each(Cycle { number, time: finer.reading().time, height, speed, rests });
         heights.push(height.value);
+        if height.error > RESOLVED * height.value {
+            let status = Status::NotResolved { error: height.error / height.value };
+            return Ok(Some(Fall { status, cycles: number, floats, outcome }));
+        }
         if let Some(first) = heights.len().checked_sub(2 * SETTLED + 1) {
             let change = |heights: &[f64]| {
                 let last = heights[SETTLED];
@@ -118,10 +132,10 @@ pub fn fall(
             let (before, after) = (change(&heights[first..=first + SETTLED]), change(&heights[first + SETTLED..]));
             let residual = after.max(left(before, after, SLOWEST, CREEP));
             if residual < tolerance {
-                return Ok(Some(Fall { status: Status::Converged, cycles: number, floats }));
+                return Ok(Some(Fall { status: Status::Converged, cycles: number, floats, outcome }));
             }
             status = Status::NotConverged { residual, tolerance };
         }
     }
-    Ok(Some(Fall { status, cycles, floats }))
+    Ok(Some(Fall { status, cycles, floats, outcome }))
 }

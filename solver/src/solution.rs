@@ -143,17 +143,29 @@ pub struct Floating {
     pub stiffness: Estimate,
     /// Natural frequency of a mass whose weight is the load, on that stiffness \[Hz\]; 0 if it is not stable.
     pub natural_frequency: Estimate,
+    /// How that mass moves when it is pushed; `None` if it is not stable, or so light that it shakes with the vibration.
+    pub slow: Option<SlowMotion>,
+}
+
+/// How a mass moves that floats on a film and is pushed: it creeps back, swings, or both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SlowMotion {
+    /// Damping of motion so slow that gas has time to leave \[N s/m, of a strip per metre of width\].
+    pub damping: Estimate,
+    /// The same over the one at which a mass on the stiffness against slow motion no longer swings, 2 √(k m).
+    pub damping_ratio: Estimate,
+    /// Time constant of creeping back \[s\]; `None` if next to nothing of a push does.
+    pub creep_time: Option<Estimate>,
+    /// Frequency at which it swings \[Hz\], and the time constant with which that dies out \[s\]; `None` if it does not.
+    pub swing_frequency: Option<Estimate>,
+    /// See `swing_frequency`.
+    pub swing_decay: Option<Estimate>,
 }
 
 impl Floating {
     /// Whether the film carries less at a greater gap.
     pub fn is_stable(&self) -> bool {
         self.stiffness.value > self.stiffness.error
-    }
-
-    /// A `damping` of slow motion \[N s/m\] over the one at which the mass no longer swings: c ω/2k.
-    pub fn damping_ratio(&self, damping: f64) -> f64 {
-        damping * std::f64::consts::TAU * self.natural_frequency.value / (2.0 * self.stiffness.value)
     }
 }
 
@@ -170,6 +182,9 @@ pub struct PlateResult {
     pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: Estimate,
+    /// What grids along and in time do not show of the error of the load's first harmonic \[N; of a strip N/m\], in phase with the approach and
+    /// with its speed: nodes across, and the gap of a plate that floats.
+    pub harmonic_error: [f64; 2],
     /// How it floats; `None` if its mean gap is given.
     pub floating: Option<Floating>,
 }

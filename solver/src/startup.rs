@@ -15,7 +15,7 @@ use crate::fidelity::Fidelity;
 use crate::ladder::{TransientCycle, WIDTH_SHARE};
 use crate::memory::{self, Need};
 use crate::motor;
-use crate::plan::{Grid, Plan};
+use crate::plan::{Decision, Grid, Plan};
 use crate::plate;
 use crate::problem::{Numerics, Problem, Scenario, Time};
 use crate::recording::Recording;
@@ -78,6 +78,8 @@ pub struct Startup {
     pub steady: Option<Estimate>,
     /// What it cost, all grids, without the periodic solve.
     pub stats: Stats,
+    /// What was modelled.
+    pub decisions: Vec<Decision>,
     /// What the user should know of the scene.
     pub warnings: Vec<String>,
 }
@@ -93,6 +95,7 @@ impl Startup {
             accuracy: Accuracy::default(),
             steady: None,
             stats: Stats::default(),
+            decisions: Vec::new(),
             warnings: Vec::new(),
         }
     }
@@ -317,6 +320,7 @@ impl<'a> Way<'a> {
             accuracy: accuracy(plan, worst, self.unit, cancel),
             steady: self.steady,
             stats: self.stats,
+            decisions: plan.decisions.clone(),
             warnings,
         }
     }

@@ -11,14 +11,13 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::film::exact::{
-    linear_disc, linear_rectangle, linear_ring, linear_strip, viscous_rectangle_force, viscous_ring_force,
-    viscous_strip_force,
-};
+use crate::film::exact::{linear_disc, linear_rectangle, linear_ring, linear_strip, viscous_force};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
+use crate::plate::first_harmonic;
 use crate::problem::{Outline, Plate};
 use crate::recording::Recording;
+use crate::solution::PlateResult;
 use std::f64::consts::TAU;
 
 /// Samples of a cycle for exact means: spectrally accurate.
@@ -91,8 +90,9 @@ impl Comparison {
         })
     }
 
-    /// Of a solve of `plate`; `film_load` is its mean \[N; of a strip N/m\] with its error.
-    pub fn of(plate: &Plate, film_load: Estimate, recording: &Recording) -> Self {
+    /// Of a solve of `plate`, its numbers and its fields.
+    pub fn of(plate: &Plate, result: &PlateResult, recording: &Recording) -> Self {
+        let film_load = result.film_load;
         let force = plate.gas.ambient_pressure * plate.area();
         let effective = effective_squeeze_number(plate);
         let trapped = trapped_height_of(plate);
@@ -100,7 +100,7 @@ impl Comparison {
             (0..SAMPLES).map(|i| 1.0 / plate.gap(i as f64 / SAMPLES as f64)).sum::<f64>() / SAMPLES as f64;
         Self {
             effective_squeeze_number: effective,
-            solved: solved(plate, recording),
+            solved: solved(plate, result, recording),
             linear: linear(effective, plate.outline()),
             unit: Harmonic::unit(plate),
             mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
@@ -112,17 +112,17 @@ impl Comparison {
 }
 
 /// Spring and damping of a solve of `plate`, over p_a · area · ε; `None` if nothing vibrates.
-pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>> {
+pub fn solved(plate: &Plate, result: &PlateResult, recording: &Recording) -> Option<Harmonic<Estimate>> {
     let excursion = plate.amplitude / plate.mean_gap;
     let scale = plate.gas.ambient_pressure * plate.area() * excursion;
     let errors = &recording.film_load_error;
     let of_load = errors.iter().sum::<f64>() / errors.len().max(1) as f64 / scale;
-    let of = |part: fn(&Harmonic<f64>) -> f64, share: f64| {
-        let found = recording.estimate(|lines| part(&first_harmonic(&lines.film_loads())) / scale);
-        Estimate { error: found.error.max(share * of_load), ..found }
+    let of = |part: usize, share: f64| {
+        let found = recording.estimate(|lines| first_harmonic(&lines.film_loads())[part] / scale);
+        Estimate { error: found.error.max(share * of_load) + result.harmonic_error[part] / scale, ..found }
     };
     (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
-        let (mut spring, mut damping) = (of(|h| h.spring, SPRING_SHARE), of(|h| h.damping, DAMPING_SHARE));
+        let (mut spring, mut damping) = (of(0, SPRING_SHARE), of(1, DAMPING_SHARE));
         if damping.value.abs() < IN_PHASE * spring.value.abs() {
             // What leaks, which is left out, damps, and softens the spring by as much: at no amplitude more than at a small one.
             let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;
@@ -159,18 +159,6 @@ pub fn effective_squeeze_number(plate: &Plate) -> f64 {
     Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
 }
 
-/// Parts of `load`, one value a frame \[N; of a strip N/m\], in phase with −cos τ and with sin τ, in the same unit.
-pub fn first_harmonic(load: &[f64]) -> Harmonic<f64> {
-    let count = load.len().max(1) as f64;
-    let mut harmonic = Harmonic { spring: 0.0, damping: 0.0 };
-    for (frame, load) in load.iter().enumerate() {
-        let (sin, cos) = (TAU * frame as f64 / count).sin_cos();
-        harmonic.spring -= 2.0 / count * cos * load;
-        harmonic.damping += 2.0 / count * sin * load;
-    }
-    harmonic
-}
-
 /// Z of gas that cannot leave within a cycle \[m\], for any law of slip.
 fn trapped_height_of(plate: &Plate) -> f64 {
     let law = SlipLaw::of(&plate.gas);
@@ -186,24 +174,6 @@ fn limits(plate: &Plate, trapped: f64, frames: usize) -> Limits {
     };
     let (boyle, viscous) = (0..frames).map(at).unzip();
     Limits { boyle, viscous }
-}
-
-/// Force \[N, of a strip N/m\] of a film at ambient pressure that is not compressed, of a gap \[m\] that changes at `rate` \[m/s\].
-fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
-    let gas = &plate.gas;
-    // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
-    let factor = SlipLaw::of(gas).at(gap).0 / gap;
-    let path = (factor - 1.0) * gap / 6.0;
-    match (plate.width, plate.hole) {
-        (_, Some(hole)) => viscous_ring_force(gas.viscosity, hole, plate.radius(), gap, rate, path),
-        (None, None) => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
-        (Some(width), None) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
-    }
-}
-
-/// Damping of slow motion at the mean gap \[N s/m, of a strip per metre of width\], of a film that is not compressed (Reynolds).
-pub fn slow_damping(plate: &Plate) -> f64 {
-    viscous_force(plate, plate.mean_gap, -1.0)
 }
 
 /// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is
@@ -248,8 +218,7 @@ mod tests {
         let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
             panic!("a plate")
         };
-        let film_load = result.film_load;
-        let comparison = Comparison::of(&plate, film_load, &solution.recording);
+        let comparison = Comparison::of(&plate, &result, &solution.recording);
         (plate, solution.recording, comparison)
     }
 

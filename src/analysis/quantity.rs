@@ -109,6 +109,16 @@ numbers! {
     MeanGapError "mean_gap_error_um" "error of the mean gap" "µm" Plate;
     NaturalFrequency "natural_frequency_hz" "natural frequency" "Hz" Plate;
     NaturalFrequencyError "natural_frequency_error_hz" "error of the natural frequency" "Hz" Plate;
+    FloatingStiffness "floating_stiffness_n_per_m" "stiffness at this height" "N/m" Plate;
+    FloatingStiffnessError "floating_stiffness_error_n_per_m" "error of the stiffness at this height" "N/m" Plate;
+    SlowDamping "slow_damping_n_s_per_m" "damping of slow motion" "N·s/m" Plate;
+    SlowDampingError "slow_damping_error_n_s_per_m" "error of the damping of slow motion" "N·s/m" Plate;
+    CreepTime "creep_time_ms" "time constant of creeping back" "ms" Plate;
+    CreepTimeError "creep_time_error_ms" "error of the time constant of creeping back" "ms" Plate;
+    SwingFrequency "swing_frequency_hz" "frequency at which it swings" "Hz" Plate;
+    SwingFrequencyError "swing_frequency_error_hz" "error of the frequency at which it swings" "Hz" Plate;
+    SwingDecay "swing_decay_ms" "time constant of the swing" "ms" Plate;
+    SwingDecayError "swing_decay_error_ms" "error of the time constant of the swing" "ms" Plate;
     LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;
     LoadRatioError "mean_load_ratio_error" "error of the load ratio" "" Plate;
     LoadRatioMin "load_ratio_min" "least load ratio" "" Plate;
@@ -140,15 +150,15 @@ impl Quantity {
         };
         let floats = matches!(problem.scenario, Scenario::Plate(Plate { load: Some(_), .. }));
         let all = TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0);
-        all.filter(move |quantity| {
-            floats || !matches!(quantity, MeanGap | MeanGapError | NaturalFrequency | NaturalFrequencyError)
-        })
+        all.filter(move |quantity| floats || !(MeanGap as usize..LoadRatio as usize).contains(&(*quantity as usize)))
     }
 
     /// Its unit in the results of `problem`; empty for a pure number. Forces of a strip are per metre of width.
     pub fn unit(self, problem: &Problem) -> &'static str {
         match TABLE[self as usize].3 {
             "N" => force_unit(problem),
+            "N/m" if force_unit(problem) == "N/m" => "N/m²",
+            "N·s/m" if force_unit(problem) == "N/m" => "N·s/m²",
             unit => unit,
         }
     }
@@ -313,6 +323,18 @@ impl Numbers {
             self.set_estimate(MeanGap, floating.mean_gap * 1e6);
             if floating.is_stable() {
                 self.set_estimate(NaturalFrequency, floating.natural_frequency);
+            }
+            self.set_estimate(FloatingStiffness, floating.stiffness);
+            let slow = floating.slow;
+            for (quantity, found) in [
+                (SlowDamping, slow.map(|slow| slow.damping)),
+                (CreepTime, slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3)),
+                (SwingFrequency, slow.and_then(|slow| slow.swing_frequency)),
+                (SwingDecay, slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3)),
+            ] {
+                if let Some(found) = found {
+                    self.set_estimate(quantity, found);
+                }
             }
         }
     }

@@ -19,7 +19,7 @@ use crate::digits::as_given;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene};
-use crate::solution::{Solution, Status, settled};
+use crate::solution::{Outcome, Solution, Status, settled};
 use crate::solve::near::Centre;
 use crate::solve::{Settings, SolveError};
 use rand_chacha::ChaCha8Rng;
@@ -90,8 +90,10 @@ impl Output {
     /// Its value in a solution, whose lines are kept, with its stated numerical error; not finite where it has none.
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
         let harmonic = |part: fn(&Harmonic<Estimate>) -> Estimate, unit: fn(&Harmonic<f64>) -> f64| {
-            let Scenario::Plate(plate) = &problem.scenario else { return None };
-            Some(part(&solved(plate, &solution.recording)?) * unit(&Harmonic::unit(plate)))
+            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
+                return None;
+            };
+            Some(part(&solved(plate, result, &solution.recording)?) * unit(&Harmonic::unit(plate)))
         };
         let found = match self {
             Self::Number(quantity) => numbers.estimate(quantity),
@@ -149,12 +151,15 @@ impl Sensitivity {
         let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
         let centre = Centre::new(&problem, settings, None, cancel)?;
-        let Some(Jacobian { numbers, columns }) =
+        let Some(Jacobian { numbers, mut columns }) =
             variation.jacobian(&variation.values(), &centre, &values, cancel, solved)
         else {
             return Ok(None);
         };
         let (outputs, values) = (Output::of(&problem), read(&problem, &centre.solved.fine));
+        for column in &mut columns {
+            column.expect(&values);
+        }
         let coarse = numbers.coarse.unwrap_or(numbers.fine);
         let (status, warnings) = (centre.solved.fine.status, centre.solved.fine.warnings.clone());
         let (settings, centre) = (*settings, OnceLock::from(centre));
@@ -221,8 +226,10 @@ impl Sensitivity {
         let hidden = value == 0.0 || error >= value.abs();
         let of = |slope: f64, value: f64| slope * scale / value.abs();
         let found = of(slope.value, value);
-        let error =
-            of(slope.step_error + slope.left_out, value) + (found - of(slope.coarse, self.coarse[output])).abs();
+        let grids = (found - of(slope.coarse, self.coarse[output])).abs();
+        // Where both ladders have the same to rounding, the output is a power of the key.
+        let least = if grids < SAME { 0.0 } else { of(slope.least, value) };
+        let error = of(slope.step_error + slope.left_out, value) + grids.max(least);
         (!hidden).then_some(Estimate { value: found, error })
     }
 
@@ -333,6 +340,9 @@ impl<'de> Deserialize<'de> for Sensitivity {
         Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
     }
 }
+
+/// Elasticities that differ by less are the same.
+const SAME: f64 = 1e-6;
 
 /// Bars of a tornado that are shorter than this share of the longest are left out.
 pub const LEAST: f64 = 0.01;

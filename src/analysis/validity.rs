@@ -29,7 +29,7 @@ mod limits;
 pub(super) use limits::known_names;
 pub use limits::{Excess, NAMES, mach};
 
-use crate::plan::Choice;
+use crate::plan::{Choice, Decision};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution, settled};
 use limits::{Film, dense, nearness, resonance, roughness, sliding, stress};
@@ -39,10 +39,16 @@ use std::f64::consts::TAU;
 /// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
 /// with a closed film of a motor at its minimum spacing, and no contact.
 pub fn outside(problem: &Problem, solution: Option<&Solution>) -> Vec<Excess> {
-    let problem = &*solution.map_or(Cow::Borrowed(problem), |solution| settled(problem, &solution.outcome));
+    let decisions = solution.map_or(&[][..], |solution| &solution.model.decisions);
+    of_outcome(problem, solution.map(|solution| &solution.outcome), decisions)
+}
+
+/// The same of an outcome, and of what was decided for it.
+pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
+    let problem = &*outcome.map_or(Cow::Borrowed(problem), |outcome| settled(problem, outcome));
     match &problem.scenario {
-        Scenario::Motor(motor) => of_motor(motor, solution),
-        Scenario::Plate(plate) => of_plate(plate, solution),
+        Scenario::Motor(motor) => of_motor(motor, outcome, decisions),
+        Scenario::Plate(plate) => of_plate(plate, outcome),
     }
 }
 
@@ -63,15 +69,14 @@ pub fn beside_headline(exceeded: &[Excess]) -> Option<String> {
     (!names.is_empty()).then(|| format!("outside the limits of the model: {}", names.join(", ")))
 }
 
-fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
-    let result = solution.and_then(|solution| match solution.outcome {
+fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
+    let result = outcome.and_then(|outcome| match outcome {
         Outcome::Motor(result) => Some(result),
         Outcome::Plate(_) => None,
     });
     let closed =
         result.map(|result| result.min_film_thickness.value).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
     let contact = result.map_or(0.0, |result| result.max_contact);
-    let decisions = solution.map_or(&[][..], |solution| &solution.model.decisions);
     let natural = decisions.iter().find_map(|decision| match decision.chosen {
         Choice::Rotor { resonances, .. } => resonances,
         _ => None,
@@ -91,7 +96,7 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
         film.slip(),
         film.sound(),
         sliding(motor),
-        dense(highest_pressure(solution)),
+        dense(highest_pressure(outcome)),
         natural.and_then(|natural| resonance(motor, &natural)),
         stress(contact / motor.contact_width),
         roughness(motor, closed),
@@ -101,14 +106,14 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
 }
 
 /// Highest pressure of the gas \[Pa\], as far as it is known.
-fn highest_pressure(solution: Option<&Solution>) -> f64 {
-    solution.map_or(0.0, |solution| match &solution.outcome {
+fn highest_pressure(outcome: Option<&Outcome>) -> f64 {
+    outcome.map_or(0.0, |outcome| match outcome {
         Outcome::Motor(result) => result.max_pressure.value,
         Outcome::Plate(result) => result.max_pressure.value,
     })
 }
 
-fn of_plate(plate: &Plate, solution: Option<&Solution>) -> Vec<Excess> {
+fn of_plate(plate: &Plate, outcome: Option<&Outcome>) -> Vec<Excess> {
     let film = Film {
         gas: &plate.gas,
         omega: TAU * plate.frequency,
@@ -118,7 +123,7 @@ fn of_plate(plate: &Plate, solution: Option<&Solution>) -> Vec<Excess> {
         amplitude: plate.amplitude,
         body: "plate",
     };
-    let dense = dense(highest_pressure(solution));
+    let dense = dense(highest_pressure(outcome));
     let found = [film.inertia(), film.heat(), film.slip(), film.sound(), dense, film.thinness(), nearness(plate)];
     found.into_iter().flatten().collect()
 }

@@ -8,7 +8,8 @@
 //! open is nearly the same in all of them; how well their cycles repeat changes D by less than a millionth. What does change it are
 //! contact edges that pass a node of the grid: f has ripples as fine as the grid, which a very short step would differentiate. The error of
 //! a derivative is therefore taken from two steps, |D(h) − D(2h)|, and from two ladders of grids, the difference to the D of the same
-//! solves without their finest grid. Their sum is stated, and what the plan leaves out of the model (measured in `docs/theory.md`).
+//! solves without their finest grid, but never less than a share of the stated error of f over the scale of p. Their sum is stated, and what the plan
+//! leaves out of the model (measured in `docs/theory.md`).
 //!
 //! Where p is at an end of its range, or a rule between keys has no room on one side, D is one-sided, (4 f(h) − f(2h) − 3 f(0))/2h,
 //! and its error the difference to (f(h) − f(0))/h.
@@ -16,6 +17,7 @@
 use super::attempt::told;
 use super::error::AnalysisError;
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::ladder::Nested;
 use crate::problem::{Problem, RotorCompliance, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
@@ -29,6 +31,10 @@ use serde::{Deserialize, Serialize};
 const STEP: f64 = 0.01;
 /// The scale of a key that is zero, as a share of its slider.
 const SCALE_AT_ZERO: f64 = 0.1;
+/// Share of the stated error of a number that its derivative has at least, times the scale of the key (calibrated by random plates and motors).
+const EXPECTED: f64 = 0.3;
+/// Rounding of a number that a solution tells, relative: how exactly what follows from its fields is looked for.
+const ROUNDING: f64 = 1e-9;
 /// Steps away from the middle at which is solved: on both sides, or on one.
 const BOTH: [i32; 4] = [-2, -1, 1, 2];
 const ABOVE: [i32; 2] = [1, 2];
@@ -62,9 +68,11 @@ pub struct Slope {
     pub value: f64,
     /// The same without the finest grid.
     pub coarse: f64,
+    /// The least error that the grids leave, absolute: both ladders of them may agree by chance.
+    pub least: f64,
     /// Its estimated error by the length of the step, absolute.
     pub step_error: f64,
-    /// Its estimated error by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
+    /// Its estimated error by rounding, and by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
     /// the key does, and the derivative with it by ε of the number over the scale of the key. Where a ring has other elements at each point, what
     /// they leave is another share there: ε of the number over the step, of a one-sided derivative four times that.
     pub left_out: f64,
@@ -73,7 +81,7 @@ pub struct Slope {
 impl Slope {
     /// Its estimated error by the grids, absolute.
     pub fn grid_error(&self) -> f64 {
-        (self.value - self.coarse).abs()
+        (self.value - self.coarse).abs().max(self.least)
     }
 
     /// Its whole estimated error, absolute.
@@ -303,14 +311,23 @@ fn slopes(
             let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i])).collect();
             Some(derivative(middle[i], &at?).0)
         });
-        let left_out = relative * middle.fine[i].abs();
+        let left_out = (relative + ROUNDING / step) * middle.fine[i].abs();
         // A single grid tells nothing of its error.
-        Slope { value, coarse: coarse.unwrap_or(f64::INFINITY), step_error: (value - longer).abs(), left_out }
+        let coarse = coarse.unwrap_or(f64::INFINITY);
+        Slope { value, coarse, least: 0.0, step_error: (value - longer).abs(), left_out }
     };
     (0..middle.fine.len()).map(number).collect()
 }
 
 impl Column {
+    /// Takes a share of the stated errors of the `numbers` in the middle, as if these changed as the key does, for the least errors by the grids.
+    pub fn expect(&mut self, numbers: &[Estimate]) {
+        for (slope, number) in self.slopes.iter_mut().flatten().zip(numbers) {
+            // An error that is not known is no measure.
+            slope.least = if number.error.is_finite() { EXPECTED * number.error * STEP / self.step } else { 0.0 };
+        }
+    }
+
     /// The scale of the key that an elasticity is relative to, in its unit: the size of its value, of a temperature the value above
     /// absolute zero. `None` if the value is 0 and the key is no temperature.
     pub fn scale(&self) -> Option<f64> {

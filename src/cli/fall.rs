@@ -4,7 +4,9 @@ use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
+use super::summary::limits;
 use super::terminal;
+use crate::analysis::validity::{Excess, beside_headline, of_outcome};
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
@@ -50,9 +52,11 @@ pub(super) fn run(
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let (floats, object) = (floats(&ended), Object { scene, fidelity, ended: &ended, rows: &rows, wall_s });
+    let validity = of_outcome(problem, ended.outcome.as_ref(), &[]);
+    let object = Object { scene, fidelity, ended: &ended, validity: &validity, rows: &rows, wall_s };
+    let floats = floats(&ended);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
-    let human = text(scene, &rows, &ended, tolerance, floats);
+    let human = text(scene, &rows, &ended, tolerance, floats, &validity);
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
@@ -69,7 +73,14 @@ pub(super) fn run(
     Ok(Some(Exit::of(&ended.status)))
 }
 
-fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Option<Estimate>) -> String {
+fn text(
+    scene: &Scene,
+    rows: &[Row],
+    ended: &Fall,
+    tolerance: f64,
+    floats: Option<Estimate>,
+    validity: &[Excess],
+) -> String {
     let rests = rows.last().is_some_and(|row| row.rests);
     let how = match ended.status {
         Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
@@ -77,12 +88,20 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Optio
             let near = percent(tolerance);
             format!("it floats, within {near} of the height at which it settles, after {} cycles", ended.cycles)
         }
-        Status::NotConverged { .. } | Status::NotResolved { .. } => {
+        Status::NotResolved { .. } => {
+            format!(
+                "NOT RESOLVED after {} cycles: where it bounces, errors of steps and grids have grown to half of its height; \
+                     a higher --fidelity follows it further",
+                ended.cycles
+            )
+        }
+        Status::NotConverged { .. } => {
             format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles)
         }
         Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
     };
-    let mut text = heading(&format!("{}, dropped on its vibration: {how}", show_text(&scene.name)));
+    let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();
+    let mut text = heading(&format!("{}, dropped on its vibration: {how}{beside}", show_text(&scene.name)));
     let mut columns = Columns::new();
     columns.row(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
     let every = rows.len().div_ceil(SHOWN).max(1);
@@ -99,11 +118,9 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, tolerance: f64, floats: Optio
     }
     text.push_str(&columns.text(&[0, 1, 2, 3]));
     if let Some(gap) = floats {
-        let told = format!(
-            "The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm; the ± above is that of the time \
-             steps alone."
-        );
+        let told = format!("The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm.");
         text.push_str(&paragraph(&told, "\n", ""));
     }
+    text.push_str(&limits(validity));
     text
 }

@@ -5,19 +5,21 @@ use super::exit::{CliError, Exit};
 use super::fall::{self, Dropped};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
+use super::summary::limits;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
+use crate::analysis::validity::beside_headline;
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::startup::{Object, Row, figure, place, steady, warnings, write_csv};
+use crate::export::startup::{Object, Row, figure, place, steady, validity, warnings, write_csv};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
-use crate::scene::{Scene, show_text};
+use crate::scene::show_text;
 use crate::solution::{Accuracy, Status, StoppedBy};
 use crate::solve::Method;
-use crate::startup::{self, Cycle, Startup};
+use crate::startup::{self, Cycle};
 use clap::Args;
 
 const EXAMPLES: &str = "\
@@ -111,9 +113,18 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
     let ended = ended?;
     let steady = steady(&problem, &ended);
-    let object = Object { scene: &scene, problem: &problem, settings: &settings, ended: &ended, rows: &rows, wall_s };
+    let validity = validity(&problem, &ended);
+    let object = Object {
+        scene: &scene,
+        problem: &problem,
+        settings: &settings,
+        ended: &ended,
+        validity: &validity,
+        rows: &rows,
+        wall_s,
+    };
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
-    let human = text(&scene, &problem, &rows, &ended, steady);
+    let human = text(&object, steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
@@ -136,7 +147,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 /// Cycles shown to people at the beginning, and as powers of two after that.
 const SHOWN: usize = 8;
 
-fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<Estimate>) -> String {
+fn text(object: &Object<'_>, steady: Option<Estimate>) -> String {
+    let Object { scene, problem, ended, validity, rows, .. } = *object;
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
         Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
@@ -147,7 +159,8 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         }
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };
-    let mut text = heading(&format!("{}, start-up from rest: {how}", show_text(&scene.name)));
+    let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();
+    let mut text = heading(&format!("{}, start-up from rest: {how}{beside}", show_text(&scene.name)));
     let motor = scene.scene() == "motor";
     let unit = force_unit(problem);
     let mut columns = Columns::new();
@@ -188,6 +201,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
     if ended.accuracy.stated.is_finite() {
         text.push_str(&paragraph(&exactness(&ended.accuracy), "", ""));
     }
+    text.push_str(&limits(validity));
     text
 }
 

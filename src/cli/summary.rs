@@ -200,18 +200,25 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
         "fall of the mean load per unit of mean gap",
     ]);
     if let Some(frequency) = floating.natural_frequency() {
-        let of = format!("of the mass whose weight is the load, {} g", shown(mass));
+        let of = format!("of the mass whose weight is the load, {} g, on that stiffness alone", shown(mass));
         columns.row(["natural frequency", &format!("{frequency} Hz"), &of]);
     }
-    if let Some(ratio) = floating.damping_ratio() {
-        let damping = floating.damping;
-        let how = if ratio < 1.0 {
-            "it swings".to_owned()
-        } else {
-            format!("creeps back without overshoot, time constant {}", duration(damping / found.stiffness.value))
-        };
-        let of = format!("of an incompressible film; {} times critical: {how}", significant(ratio, 2));
-        columns.row(["damping of slow motion", &format!("{} {}", shown(damping), units(plate)[1]), &of]);
+    let Some(slow) = found.slow else { return };
+    columns.row([
+        "damping of slow motion",
+        &format!("{} {}", slow.damping, units(plate)[1]),
+        "of motion so slow that gas has time to leave",
+    ]);
+    if let Some(time) = slow.creep_time {
+        columns.row(["creeps back in", &format!("{} ms", time * 1e3), "time constant, after a push"]);
+    }
+    if let Some((frequency, decay)) = slow.swing_frequency.zip(slow.swing_decay) {
+        columns.row([
+            "swings at",
+            &format!("{frequency} Hz"),
+            "after a push; gas that has no time to leave is a spring too",
+        ]);
+        columns.row(["", &format!("{} ms", decay * 1e3), "time constant with which that dies out"]);
     }
 }
 
@@ -296,7 +303,7 @@ fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
 }
 
 /// Where the model is out of its depth; nothing if it is not.
-fn limits(validity: &[Excess]) -> String {
+pub(super) fn limits(validity: &[Excess]) -> String {
     let mut text = String::new();
     for (i, excess) in validity.iter().enumerate() {
         if i == 0 {

@@ -314,10 +314,13 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
 }
 
 /// What the table for people shows; all is in the files.
-const SHOWN: [Quantity; 9] = [
+const SHOWN: [Quantity; 12] = [
     Quantity::Alpha,
     Quantity::MeanGap,
-    Quantity::NaturalFrequency,
+    Quantity::FloatingStiffness,
+    Quantity::SlowDamping,
+    Quantity::CreepTime,
+    Quantity::SwingFrequency,
     Quantity::FilmLoad,
     Quantity::LoadRatio,
     Quantity::StallTorque,

@@ -1,6 +1,7 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
 use super::estimates;
+use crate::analysis::validity::Excess;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -20,7 +21,7 @@ pub struct Row {
     pub time_us: f64,
     /// Height: the gap without the vibration.
     pub height_um: f64,
-    /// Its error, by the length of the steps.
+    /// Its error.
     pub height_error_um: f64,
     /// Speed, upwards.
     pub speed_mm_per_s: f64,
@@ -50,6 +51,8 @@ pub struct Object<'a> {
     pub fidelity: Fidelity,
     /// How it ended.
     pub ended: &'a Fall,
+    /// The limits of the model that it exceeds.
+    pub validity: &'a [Excess],
     /// One for each cycle.
     pub rows: &'a [Row],
     /// Wall time \[s\] by the caller's clock, the periodic solve included.
@@ -58,7 +61,7 @@ pub struct Object<'a> {
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, fidelity, ended, rows, wall_s } = self;
+        let Self { scene, fidelity, ended, validity, rows, wall_s } = self;
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("preset", &scene.name)?;
         map.serialize_entry("scene", scene.scene())?;
@@ -67,6 +70,7 @@ impl Serialize for Object<'_> {
         estimates::add(&mut map, "mean_gap", "_um", floats(ended))?;
         map.serialize_entry("wall_s", wall_s)?;
         map.serialize_entry("rows", rows)?;
+        map.serialize_entry("validity", validity)?;
         map.serialize_entry("warnings", &ended.floats.as_ref().err().into_iter().collect::<Vec<_>>())?;
         map.end()
     }
@@ -84,7 +88,7 @@ pub fn figure(problem: &Problem, rows: &[Row], floats: Option<f64>) -> Figure {
         .map(|row| [row.time_us * 1e-3, row.height_um - row.height_error_um, row.height_um + row.height_error_um]);
     let line = rows.iter().map(|row| [row.time_us * 1e-3, row.height_um]);
     let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
-        .layer(Band::new("error of the steps", band, Colour::FILM))
+        .layer(Band::new("error", band, Colour::FILM))
         .layer(Line::new("height", line, Style::solid(Colour::FILM)));
     if let Some(gap) = floats {
         let mut mark = Mark::horizontal(gap, "periodic solve");

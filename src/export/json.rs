@@ -3,7 +3,7 @@
 use super::estimates::{self, finite};
 use super::torque::Merit;
 use crate::analysis::decision::sentences;
-use crate::analysis::exact::{Comparison, slow_damping};
+use crate::analysis::exact::Comparison;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
@@ -129,8 +129,8 @@ impl Serialize for Summary {
     }
 }
 
-/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width. In the object the natural frequency
-/// and the damping ratio are null if it is not stable.
+/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width. In the object natural frequency and
+/// slow motion are null if it is not stable, and so is a time or frequency of a motion that it does not make.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FloatingObject {
     /// The load.
@@ -139,8 +139,6 @@ pub struct FloatingObject {
     pub found: Floating,
     /// Whether the film carries less at a greater gap.
     pub stable: bool,
-    /// Damping of slow motion at this gap, by Reynolds: of a film that is not compressed.
-    pub damping: f64,
     /// Mean gap \[µm\] at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
     pub trapped_mean_gap_um: f64,
     /// The same for a small load, a √(1.25 p_a A/F).
@@ -153,7 +151,6 @@ impl FloatingObject {
             load,
             found,
             stable: found.is_stable(),
-            damping: slow_damping(plate),
             trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
             small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
         }
@@ -168,11 +165,6 @@ impl FloatingObject {
     pub fn natural_frequency(&self) -> Option<Estimate> {
         self.stable.then_some(self.found.natural_frequency)
     }
-
-    /// The damping over the one at which the mass no longer swings; `None` if it is not stable.
-    pub fn damping_ratio(&self) -> Option<f64> {
-        self.stable.then(|| self.found.damping_ratio(self.damping)).filter(|ratio| ratio.is_finite())
-    }
 }
 
 impl Serialize for FloatingObject {
@@ -183,8 +175,12 @@ impl Serialize for FloatingObject {
         map.serialize_entry("stable", &self.stable)?;
         estimates::add(&mut map, "stiffness", "_n_per_m", Some(self.found.stiffness))?;
         estimates::add(&mut map, "natural_frequency", "_hz", self.natural_frequency())?;
-        map.serialize_entry("damping_n_s_per_m", &self.damping)?;
-        map.serialize_entry("damping_ratio", &self.damping_ratio())?;
+        let slow = self.found.slow;
+        estimates::add(&mut map, "damping", "_n_s_per_m", slow.map(|slow| slow.damping))?;
+        estimates::add(&mut map, "damping_ratio", "", slow.map(|slow| slow.damping_ratio))?;
+        estimates::add(&mut map, "creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3))?;
+        estimates::add(&mut map, "swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency))?;
+        estimates::add(&mut map, "swing_decay", "_ms", slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3))?;
         map.serialize_entry("trapped_mean_gap_um", &self.trapped_mean_gap_um)?;
         map.serialize_entry("small_load_mean_gap_um", &self.small_load_mean_gap_um)?;
         map.end()
@@ -256,7 +252,7 @@ impl Summary {
             }
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
                 summary.scene = "plate";
-                summary.exact = Some(Comparison::of(plate, result.film_load, &solution.recording));
+                summary.exact = Some(Comparison::of(plate, result, &solution.recording));
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }

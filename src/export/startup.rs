@@ -3,6 +3,7 @@
 use super::csv;
 use super::estimates::finite;
 use crate::analysis::quantity::force_unit;
+use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
@@ -103,6 +104,8 @@ pub struct Object<'a> {
     pub settings: &'a Settings,
     /// How it ended.
     pub ended: &'a Startup,
+    /// The limits of the model that it exceeds.
+    pub validity: &'a [Excess],
     /// One for each cycle.
     pub rows: &'a [Row],
     /// Wall time \[s\] by the caller's clock, the periodic solve included.
@@ -111,7 +114,7 @@ pub struct Object<'a> {
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, problem, settings, ended, rows, wall_s } = self;
+        let Self { scene, problem, settings, ended, validity, rows, wall_s } = self;
         let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("preset", &scene.name)?;
@@ -132,9 +135,15 @@ impl Serialize for Object<'_> {
         map.serialize_entry("unsettled_steps", &ended.stats.unsettled_steps)?;
         map.serialize_entry("wall_s", wall_s)?;
         map.serialize_entry("rows", rows)?;
+        map.serialize_entry("validity", validity)?;
         map.serialize_entry("warnings", &warnings(ended))?;
         map.end()
     }
+}
+
+/// The limits of the model that its last cycle exceeds; without one, those that the scene alone does.
+pub fn validity(problem: &Problem, ended: &Startup) -> Vec<Excess> {
+    of_outcome(problem, (ended.cycles > 0).then_some(&ended.outcome), &ended.decisions)
 }
 
 /// What the user should know of a start-up.

@@ -34,6 +34,6 @@ impl Work for Dropping {
     }
 
     fn ended() -> Self::Found {
-        Ok(Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()) })
+        Ok(Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()), outcome: None })
     }
 }

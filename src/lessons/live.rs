@@ -97,7 +97,7 @@ impl Readings {
 
     /// Takes the numbers of a plate that are compared with exact results.
     pub fn read_exact(&mut self, plate: &Plate, recording: &Recording) {
-        if let Some(found) = exact::solved(plate, recording) {
+        if let Some(found) = exact::solved(plate, &PlateResult::default(), recording) {
             self.set(Live::Spring, found.spring.value);
             self.set(Live::Damping, found.damping.value);
             let unit = Harmonic::unit(plate);

@@ -3,7 +3,9 @@
 //! All are for a plate with a gap that is uniform in space, H = h/h₀ = 1 + ε cos τ, in the dimensionless form
 //! σ ∂(PH)/∂τ = ∇·[(P H³ + 6 m H²) ∇P], σ = 12μωb²/(p_a h₀²), m = λ_a/h₀.
 
+use super::slip::{Mobility, SlipLaw};
 use crate::numerics::bessel::{self, Bessel};
+use crate::problem::{Outline, Plate};
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -38,10 +40,19 @@ pub fn trapped_mean_pressure(excursion: f64, knudsen: f64) -> f64 {
 /// κ² = iσ/(1+6m). Returns (real, imaginary): the real part is the spring, negative if it restores; the imaginary part is
 /// minus the damping, negative if it dissipates.
 pub fn linear_strip(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
-    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
-    let half = kappa * 0.5;
-    let load = half.tanh() / half - Complex::new(1.0, 0.0);
+    let load = strip(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)));
     (load.re, load.im)
+}
+
+/// Load of a strip at κ², as in [`linear_strip`].
+fn strip(square: Complex<f64>) -> Complex<f64> {
+    let half = square.sqrt() * 0.5;
+    tanh(half) / half - 1.0
+}
+
+/// tanh, which as two exponentials overflows at large arguments.
+fn tanh(z: Complex<f64>) -> Complex<f64> {
+    if z.re > 20.0 { Complex::new(1.0, 0.0) } else { z.tanh() }
 }
 
 /// The same for a rectangle of length 1 along x (σ is based on it) and width `aspect` along y, by Blech's double series
@@ -50,30 +61,39 @@ pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64,
     // Linearised: iσ'(P₁ + 1) = ∇²P₁, P₁ = 0 on the edge, σ' = σ/(1+6m). Expand in sin nπx, n odd:
     // P₁ = Σ (4/nπ) f_n(y) sin nπx, f_n'' − (n²π² + iσ') f_n = iσ'. Mean of f_n over y ∈ (−a/2, a/2):
     // −iσ'/q² [1 − tanh(qa/2)/(qa/2)], q² = n²π² + iσ'. Load = Σ 8/(n²π²) ⟨f_n⟩.
-    let sigma = squeeze_number / (1.0 + 6.0 * knudsen);
+    let load = rectangle(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)), aspect);
+    (load.re, load.im)
+}
+
+/// Load of a rectangle at κ², iσ' in [`linear_rectangle`].
+fn rectangle(square: Complex<f64>, aspect: f64) -> Complex<f64> {
     let mut load = Complex::new(0.0, 0.0);
     for n in (1..MOST_TERMS).step_by(2) {
         let k = f64::from(n) * PI;
-        let square = Complex::new(k * k, sigma);
-        let half = square.sqrt() * (0.5 * aspect);
-        let tanh = if half.re > 20.0 { Complex::new(1.0, 0.0) } else { half.tanh() };
-        let profile = Complex::new(1.0, 0.0) - tanh / half;
-        let term = -Complex::new(0.0, sigma) / square * profile * (8.0 / (k * k));
+        let with_along = square + k * k;
+        let half = with_along.sqrt() * (0.5 * aspect);
+        let profile = Complex::new(1.0, 0.0) - tanh(half) / half;
+        let term = -square / with_along * profile * (8.0 / (k * k));
         load += term;
         // Terms fall at least as 1/n²: what is left is no more than n/2 times the last.
         if f64::from(n) * term.norm() < 2.0 * SERIES_TOLERANCE * load.norm() {
             break;
         }
     }
-    (load.re, load.im)
+    load
 }
 
 /// The same for a disc, σ based on its radius: 2 I₁(κ)/(κ I₀(κ)) − 1.
 pub fn linear_disc(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
-    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
-    let Bessel { i, .. } = bessel::scaled(kappa);
-    let load = i[1] / (kappa * i[0]) * 2.0 - 1.0;
+    let load = disc(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)));
     (load.re, load.im)
+}
+
+/// Load of a disc at κ².
+fn disc(square: Complex<f64>) -> Complex<f64> {
+    let kappa = square.sqrt();
+    let Bessel { i, .. } = bessel::scaled(kappa);
+    i[1] / (kappa * i[0]) * 2.0 - 1.0
 }
 
 /// The same for a ring whose inner radius is `hole` times the outer one, σ based on the difference of the radii.
@@ -93,6 +113,40 @@ pub fn linear_ring(squeeze_number: f64, knudsen: f64, hole: f64) -> (f64, f64) {
     (load.re, load.im)
 }
 
+/// The same for any outline and any κ², that of a plate which moves as e^(st) being s·σ/ω: what a film at rest answers to motion that swings, grows
+/// or dies out.
+pub fn linear_response(square: Complex<f64>, outline: Outline) -> Complex<f64> {
+    match outline {
+        Outline::Strip => strip(square),
+        Outline::Rectangle { aspect } => rectangle(square, aspect),
+        Outline::Disc => disc(square),
+        Outline::Ring { hole } => ring(square, hole),
+    }
+}
+
+/// Load of a ring at κ², also where K₀ is of no use, by finite volumes in the radius: (r u')' = κ² r u, 1 at both edges.
+fn ring(square: Complex<f64>, hole: f64) -> Complex<f64> {
+    let (inner, step) = (hole / (1.0 - hole), 1.0 / RING_INTERVALS as f64);
+    let radius = |i: f64| inner + i * step;
+    // From the inside out, u_i = a_i u_(i+1) + b_i; then back, with ∫ r u.
+    let mut rows = vec![(Complex::new(0.0, 0.0), Complex::new(1.0, 0.0))];
+    for i in 1..RING_INTERVALS {
+        let [below, above] = [-0.5, 0.5].map(|side| radius(i as f64 + side));
+        let (a, b) = rows[i - 1];
+        let diagonal = square * (radius(i as f64) * step * step) + below + above - a * below;
+        rows.push((diagonal.inv() * above, b * below / diagonal));
+    }
+    let mut u = Complex::new(1.0, 0.0);
+    let mut sum = u * (0.5 * (radius(0.0) + radius(RING_INTERVALS as f64)));
+    for (i, (a, b)) in rows.iter().enumerate().skip(1).rev() {
+        u = a * u + b;
+        sum += u * radius(i as f64);
+    }
+    sum * step / (inner + 0.5) - 1.0
+}
+
+/// Intervals of the radius of a ring.
+const RING_INTERVALS: usize = 256;
 /// A series ends when what is left of it is below this share.
 const SERIES_TOLERANCE: f64 = 1e-10;
 /// Or here.
@@ -124,6 +178,19 @@ pub fn viscous_ring_force(viscosity: f64, inner: f64, outer: f64, gap: f64, rate
     let pumped = if inner > 0.0 { squares * squares / (outer / inner).ln() } else { 0.0 };
     let shape = squares * (outer * outer + inner * inner) - pumped;
     -1.5 * PI * viscosity * rate / gap.powi(3) * shape / (1.0 + 6.0 * mean_free_path / gap)
+}
+
+/// Force \[N, of a strip N/m\] of a film at ambient pressure that is not compressed, of a `gap` \[m\] that changes at `rate` \[m/s\].
+pub fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
+    let gas = &plate.gas;
+    // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
+    let factor = SlipLaw::of(gas).at(gap).0 / gap;
+    let path = (factor - 1.0) * gap / 6.0;
+    match (plate.width, plate.hole) {
+        (_, Some(hole)) => viscous_ring_force(gas.viscosity, hole, plate.radius(), gap, rate, path),
+        (None, None) => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
+        (Some(width), None) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
+    }
 }
 
 /// Incompressible load of a rectangle of length 1 and width `aspect`, for each unit of width, over that of a strip.
@@ -175,6 +242,35 @@ mod tests {
         // A thin ring is a strip.
         let (ring, strip) = (linear_ring(20.0, 0.1, 0.999), linear_strip(20.0, 0.1));
         assert!((ring.0 - strip.0).abs() < 1e-6 && (ring.1 - strip.1).abs() < 1e-6, "{ring:?} {strip:?}");
+    }
+
+    #[test]
+    fn a_strip_at_any_squeeze_number_has_its_limit() {
+        for sigma in [1e5, 1e7, 1e13] {
+            let (load, layer) = (linear_strip(sigma, 0.0), (2.0 / sigma).sqrt());
+            assert!((load.0 + 1.0 - layer).abs() < 1e-6 * layer && (load.1 + layer).abs() < 1e-6 * layer, "{load:?}");
+        }
+    }
+
+    #[test]
+    fn the_response_to_any_motion_is_that_to_a_vibration_and_to_a_decay() {
+        for sigma in [0.3, 20.0, 900.0] {
+            let vibrating = |outline: Outline| linear_response(Complex::new(0.0, sigma), outline);
+            for hole in [0.02, 0.4, 0.97] {
+                let (exact, found) = (linear_ring(sigma, 0.0, hole), vibrating(Outline::Ring { hole }));
+                assert!((found - Complex::new(exact.0, exact.1)).norm() < 2e-4 * found.norm(), "{found} {exact:?}");
+            }
+            let (exact, found) = (linear_disc(sigma, 0.0), vibrating(Outline::Disc));
+            assert_eq!((found.re, found.im), exact);
+        }
+        // Dying out, a strip's pressure is a cosine, tan(q/2)/(q/2) in the mean; so is a thin ring's and a long rectangle's.
+        for q in [0.5f64, 2.0, 3.0] {
+            let exact = (0.5 * q).tan() / (0.5 * q) - 1.0;
+            for outline in [Outline::Strip, Outline::Ring { hole: 0.999 }, Outline::Rectangle { aspect: 1e5 }] {
+                let found = linear_response(Complex::new(-q * q, 0.0), outline);
+                assert!((found.re / exact - 1.0).abs() < 2e-3 && found.im.abs() < 1e-9, "{outline:?} {found} {exact}");
+            }
+        }
     }
 
     #[test]

@@ -9,6 +9,8 @@
 //! its error is that of the load over |dF/dh|.
 
 use super::level::Level;
+use super::result::{add_errors, first_harmonic, numbers};
+use super::slow::slow_motion;
 use super::{Periodic, Search, finish, stated, turned};
 use crate::control::{Cancel, Observer};
 use crate::digits::brief;
@@ -85,6 +87,7 @@ pub fn float(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<(Periodic, Plan), FloatError> {
+    let mut nobody = ();
     let mut way = Way { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
     if plate.amplitude == 0.0 {
         return Err(way.rests(0.0, rough));
@@ -99,18 +102,57 @@ pub fn float(
     let mut periodic = finish(&turned(&at, &plan), &plan, &found, way.stats);
     let pinned = found.pinned(&plan);
     drop((found, way.warm.take()));
-    let stiffness = way.stiffness(x, &pinned)?;
+    // What converges beside the gap is no part of the answer's convergence.
+    way.observer = &mut nobody;
+    let (mut stiffness, beside) = way.stiffness(x, &pinned)?;
     periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..way.stats };
     periodic.stats.steps_per_cycle = pinned.grids.last().map_or(0, |grid| grid.steps);
     let result = &mut periodic.result;
     let off = result.film_load.error + (result.film_load.value - load).abs();
+    result.film_load.error = off;
     let mean_gap = Estimate { value: at.mean_gap, error: off / (stiffness.value.abs() - stiffness.error).max(0.0) };
+    // F ~ exp(−p x), about.
+    let power = stiffness.value.abs() * x.exp() / load;
+    stiffness.error += (power + 1.0) * stiffness.value.abs() * mean_gap.error / x.exp();
+    beside.add(&mut periodic, mean_gap);
     let natural = (stiffness.value.max(0.0) * GRAVITY / load).sqrt() / TAU;
     let natural_frequency = Estimate { value: natural, error: 0.5 * natural * stiffness.error / stiffness.value.abs() };
-    result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+    let floating = Floating { mean_gap, stiffness, natural_frequency, slow: None };
+    let slow = slow_motion(&at, load, &floating);
+    let result = &mut periodic.result;
+    result.floating = Some(Floating { slow, ..floating });
     result.min_film_thickness.error = mean_gap.error;
     periodic.recording.min_film_thickness_error.fill(mean_gap.error);
     Ok((periodic, plan))
+}
+
+/// What a change of the gap does to a cycle: it at a smaller and at a greater gap, so far from each other \[m\].
+struct Beside {
+    sides: Vec<Periodic>,
+    apart: f64,
+}
+
+impl Beside {
+    /// Adds what the error of its `gap` does to errors of the state there.
+    fn add(&self, state: &mut Periodic, gap: Estimate) {
+        let [below, above] = &self.sides[..] else { return };
+        let share = gap.error / self.apart;
+        let of = |side: &Periodic| numbers(&side.recording.film_load, &side.recording.max_pressure);
+        let (less, more) = (of(below), of(above));
+        // S and D are of the amplitude over the gap, besides.
+        let scale = first_harmonic(&state.recording.film_load).map(|part| part.abs() * gap.error / gap.value);
+        let scale = [0.0, 0.0, 0.0, scale[0], scale[1]];
+        let errors = std::array::from_fn(|k| (more[k] - less[k]).abs() * share + scale[k]);
+        add_errors(&mut state.result, errors);
+        let (below, above, state) = (&below.recording, &above.recording, &mut state.recording);
+        let add = |errors: &mut [f64], below: &[f64], above: &[f64]| {
+            for (error, (below, above)) in errors.iter_mut().zip(below.iter().zip(above)) {
+                *error += (above - below).abs() * share;
+            }
+        };
+        add(&mut state.film_load_error, &below.film_load, &above.film_load);
+        add(&mut state.max_pressure_error, &below.max_pressure, &above.max_pressure);
+    }
 }
 
 /// A search for the gap.
@@ -206,23 +248,25 @@ impl Way<'_> {
         }
     }
 
-    /// −dF/dh \[N/m\] about the gap of `x`, by two solves on the grids of `plan`, whose errors cancel.
-    fn stiffness(&mut self, x: f64, plan: &Plan) -> Result<Estimate, FloatError> {
+    /// −dF/dh \[N/m\] about the gap of `x`, by two solves on the grids of `plan`, whose errors cancel; and these.
+    fn stiffness(&mut self, x: f64, plan: &Plan) -> Result<(Estimate, Beside), FloatError> {
         let plan = Plan { tolerance: plan.tolerance.min(REPEATING), accuracy: REPEATING, maps: false, ..plan.clone() };
-        let mut loads = [[0.0; 2]; 2];
+        let (mut loads, mut sides) = ([[0.0; 2]; 2], Vec::new());
         let gaps = [x - STEP, x + STEP].map(|x| self.at(x));
         for (plate, load) in gaps.iter().zip(&mut loads) {
             let (_, mut found) = self.solve(plate, &plan)?;
             let plate = turned(plate, &plan);
             let carried = found.nested(|found| stated(&plate, &plan, found).value);
             *load = [carried.fine, carried.coarse.unwrap_or(f64::NAN)];
+            sides.push(finish(&plate, &plan, &found, Stats::default()));
         }
         let step = gaps[1].mean_gap - gaps[0].mean_gap;
         let [fine, coarse] = [0, 1].map(|grids| (loads[0][grids] - loads[1][grids]) / step);
         // F ~ exp(−p x): the difference over 2 STEP is off by (p² − 1) STEP²/6.
         let power = fine * x.exp() / self.load;
         let error = (fine - coarse).abs() + (power * power + 1.0) / 6.0 * STEP * STEP * fine.abs();
-        Ok(Estimate { value: fine, error: if error.is_finite() { error } else { f64::INFINITY } })
+        let error = if error.is_finite() { error } else { f64::INFINITY };
+        Ok((Estimate { value: fine, error }, Beside { sides, apart: step }))
     }
 
     /// That the plate rests on its roughness, where the film carries this `share` of the load, and what it would need.

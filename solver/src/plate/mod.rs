@@ -4,10 +4,12 @@ pub mod floating;
 mod frames;
 mod level;
 mod result;
+mod slow;
 mod transient;
 
 pub(crate) use level::film_grid;
 pub use level::unit;
+pub use result::first_harmonic;
 pub use transient::Transient;
 
 use crate::control::{Cancel, Observer, Reporter};
@@ -18,7 +20,7 @@ use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::solution::{PlateResult, Stats, Status};
 use level::Level;
-use result::extremes;
+use result::{add_errors, numbers};
 use std::borrow::Cow;
 
 /// Rounding of a mean load over the force of the gas.
@@ -72,10 +74,7 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     recording.judge_series(of_gas, of_gas);
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
-    let [least, most, highest] = width_errors(plate, found);
-    result.film_load_min.error += least;
-    result.film_load_max.error += most;
-    result.max_pressure.error += highest;
+    add_errors(&mut result, width_errors(plate, found));
     let force = result.film_load.value;
     let error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
     result.film_load.error = error;
@@ -171,12 +170,12 @@ impl Scene for Search<'_> {
     }
 }
 
-/// What one node less across changes of least and greatest load and greatest pressure, on the coarsest grid.
-fn width_errors(plate: &Plate, found: &Found<Level>) -> [f64; 3] {
-    let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 3] };
+/// What one node less across changes of [`numbers`], on the coarsest grid.
+fn width_errors(plate: &Plate, found: &Found<Level>) -> [f64; 5] {
+    let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 5] };
     let of = |level: &Level| {
         let (lines, _) = level.fields(plate, false);
-        extremes(&lines.film_loads(), &lines.max_pressures())
+        numbers(&lines.film_loads(), &lines.max_pressures())
     };
     let (less, more) = (of(narrower), of(coarsest));
     std::array::from_fn(|k| (more[k] - less[k]).abs())

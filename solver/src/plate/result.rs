@@ -4,6 +4,7 @@ use crate::estimate::Estimate;
 use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::PlateResult;
+use std::f64::consts::TAU;
 
 impl PlateResult {
     /// Cycle mean and extremes of a recording; no error of the mean is known.
@@ -24,7 +25,7 @@ impl PlateResult {
                 recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
             ),
             max_pressure: extreme(LineLoads::max_pressures, pressures, errors, f64::max),
-            floating: None,
+            ..Self::default()
         }
     }
 
@@ -34,10 +35,32 @@ impl PlateResult {
     }
 }
 
-/// Least and greatest load, and greatest pressure.
-pub(super) fn extremes(loads: &[f64], pressures: &[f64]) -> [f64; 3] {
+/// Least and greatest load, greatest pressure, and the first harmonic of the load.
+pub(super) fn numbers(loads: &[f64], pressures: &[f64]) -> [f64; 5] {
     let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    [loads.iter().copied().fold(f64::INFINITY, f64::min), most(loads), most(pressures)]
+    let [spring, damping] = first_harmonic(loads);
+    [loads.iter().copied().fold(f64::INFINITY, f64::min), most(loads), most(pressures), spring, damping]
+}
+
+/// Parts of `load`, one value a frame, in phase with −cos τ and with sin τ, in the same unit.
+pub fn first_harmonic(load: &[f64]) -> [f64; 2] {
+    let count = load.len().max(1) as f64;
+    let (mut spring, mut damping) = (0.0, 0.0);
+    for (frame, load) in load.iter().enumerate() {
+        let (sin, cos) = (TAU * frame as f64 / count).sin_cos();
+        spring -= 2.0 / count * cos * load;
+        damping += 2.0 / count * sin * load;
+    }
+    [spring, damping]
+}
+
+/// Adds to the errors of [`numbers`].
+pub(super) fn add_errors(result: &mut PlateResult, more: [f64; 5]) {
+    let [spring, damping] = &mut result.harmonic_error;
+    let (load_min, load_max) = (&mut result.film_load_min.error, &mut result.film_load_max.error);
+    for (error, more) in [load_min, load_max, &mut result.max_pressure.error, spring, damping].into_iter().zip(more) {
+        *error += more;
+    }
 }
 
 /// By how much the extreme of a cycle exceeds that of its frames: the parabola through the three about it.

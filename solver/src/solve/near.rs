@@ -38,6 +38,7 @@ pub struct Centre {
 struct Afloat {
     gap: f64,
     stiffness: Estimate,
+    harmonic_error: [f64; 2],
 }
 
 impl Afloat {
@@ -46,8 +47,8 @@ impl Afloat {
             return Ok(None);
         }
         Ok(match super::solve(problem, settings, &mut (), cancel)?.outcome {
-            Outcome::Plate(PlateResult { floating: Some(floating), .. }) => {
-                Some(Self { gap: floating.mean_gap.value, stiffness: floating.stiffness })
+            Outcome::Plate(PlateResult { floating: Some(floating), harmonic_error, .. }) => {
+                Some(Self { gap: floating.mean_gap.value, stiffness: floating.stiffness, harmonic_error })
             }
             _ => None,
         })
@@ -71,16 +72,18 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
         let stiffness = afloat.stiffness;
         let value = afloat.next(plate, plate.mean_gap, result.film_load.value);
         let mean_gap = Estimate { value, error: result.film_load.error / stiffness.value.abs() };
-        // The stiffness is that of the centre: how it differs here is not known.
+        // The stiffness is that of the centre, and so is what the error of the gap adds to others: how they differ here is not known.
         let natural_frequency = Estimate { value: f64::NAN, error: f64::NAN };
-        result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+        result.floating = Some(Floating { mean_gap, stiffness, natural_frequency, slow: None });
+        result.harmonic_error = afloat.harmonic_error;
         result.min_film_thickness.error = mean_gap.error;
     }
     solution
 }
 
-/// Solves at a gap near that of the centre until the film carries the load, if there is one.
-const NEWTON: usize = 2;
+/// Solves at a gap near that of the centre until the film carries the load, if there is one: by a stiffness that is off by a share e, the gap of
+/// the last is off by e² of its change.
+const NEWTON: usize = 3;
 
 impl Centre {
     /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect; `last` is one to start from.

@@ -107,7 +107,7 @@ mod tests {
             let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
                 panic!("a plate")
             };
-            let found = Comparison::of(plate, result.film_load, &solution.recording);
+            let found = Comparison::of(plate, result, &solution.recording);
             let panel = coefficients(plate, &found);
             let (present, Range::Fixed(from, to)) = (found.effective_squeeze_number, &panel.x.range) else {
                 panic!("{:?}", panel.x.range)

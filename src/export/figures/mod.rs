@@ -58,7 +58,7 @@ pub fn of(
             figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
             figures.push(("map", plate::map(scene, recording)));
             if let Outcome::Plate(result) = &solution.outcome {
-                let comparison = Comparison::of(scene, result.film_load, recording);
+                let comparison = Comparison::of(scene, result, recording);
                 figures.push(("exact", exact::exact(scene, &comparison, recording)));
             }
         }
@@ -82,6 +82,8 @@ fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure
 
 /// The change in every round of every grid, and what it had to fall below.
 pub fn convergence(history: &[Progress]) -> Figure {
+    // A plate that floats was solved at many gaps.
+    let history = Progress::last_solve(history);
     let grids = Progress::grids(history).count();
     let y = Axis::new("relative change in a round", "").log();
     let mut panel = Panel::new("", Axis::new("round", "").whole(), y);

@@ -3,10 +3,9 @@
 use super::format::load_unit;
 use super::scales::span;
 use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
-use crate::estimate::Estimate;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Plate};
-use crate::solution::Outcome;
+use crate::solution::{Outcome, PlateResult};
 
 /// Points of a curve over the squeeze number.
 const SAMPLES: usize = 81;
@@ -38,11 +37,11 @@ impl ExactCurves {
     /// Reads the recording of `run`, a solved `plate`.
     pub fn new(run: &SolvedScene, plate: &Plate) -> Self {
         let recording = &run.solution.recording;
-        let film_load = match run.solution.outcome {
-            Outcome::Plate(result) => result.film_load,
-            Outcome::Motor(_) => Estimate::default(),
+        let result = match run.solution.outcome {
+            Outcome::Plate(result) => result,
+            Outcome::Motor(_) => PlateResult::default(),
         };
-        let comparison = Comparison::of(plate, film_load, recording);
+        let comparison = Comparison::of(plate, &result, recording);
         let window = window(comparison.effective_squeeze_number, plate.outline());
         let frames = recording.frames.max(1);
         let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));

@@ -14,6 +14,7 @@ const TICKS: f64 = 5.0;
 
 /// Shows the rounds of `history`: one line for each grid, and dashed what each had to fall below.
 pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
+    let history = Progress::last_solve(history);
     let grids = Progress::grids(history).count();
     let height = HEIGHT * ui.text_style_height(&egui::TextStyle::Body);
     let plot = numbered("convergence", height, [AxisHints::new_x(), AxisHints::new_y()])

@@ -1,7 +1,7 @@
 //! The right panel: the numbers of a run. Every text can be selected and copied.
 
 use super::{convergence, model};
-use crate::analysis::exact::{slow_damping, units};
+use crate::analysis::exact::units;
 use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::{Excess, beside_headline};
@@ -99,9 +99,17 @@ fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &P
         ui.add_space(4.0);
         number(ui, cx, "Stiffness at this height", &uncertain(floating.stiffness), units(plate)[0]);
         number(ui, cx, "Natural frequency", &uncertain(floating.natural_frequency), "Hz");
-        if floating.natural_frequency.value > 0.0 {
-            let ratio = floating.damping_ratio(slow_damping(plate));
-            number(ui, cx, "Damping ratio", &significant(ratio, 2), "");
+        if let Some(slow) = floating.slow {
+            let told = [
+                ("Creeps back in", slow.creep_time.map(|time| time * 1e3), "ms"),
+                ("Swings at", slow.swing_frequency, "Hz"),
+                ("Swing dies out in", slow.swing_decay.map(|time| time * 1e3), "ms"),
+            ];
+            for (name, found, unit) in told {
+                if let Some(found) = found {
+                    number(ui, cx, name, &uncertain(found), unit);
+                }
+            }
         }
         shown.row(ui, cx, "Film load, mean", FilmLoad);
     } else {

@@ -110,9 +110,8 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
                 Status::Converged if rests => (format!("{at}. It rests on its roughness"), cx.colours.alarm),
                 Status::Converged => (format!("{at}. It floats{aim}"), cx.colours.good),
                 Status::Cancelled => (format!("Cancelled at {at}"), cx.colours.quiet),
-                Status::NotConverged { .. } | Status::NotResolved { .. } => {
-                    (format!("{at}. It still moves{aim}"), cx.colours.alarm)
-                }
+                Status::NotConverged { .. } => (format!("{at}. It still moves{aim}"), cx.colours.alarm),
+                Status::NotResolved { .. } => (format!("{at}. It is not resolved any further{aim}"), cx.colours.alarm),
             }
         }
     }
