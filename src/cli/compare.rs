@@ -9,7 +9,7 @@ use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::analysis::decision::effort;
 use crate::digits::duration;
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, Object, difference_text, frames, mark, parameter_rows, value_text};
+use crate::export::compare::{LIMITS, difference_text, frames, mark, object, parameter_rows, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::scene::Value;
@@ -73,8 +73,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::document(&Object { runs: &runs, settings: &settings }, command);
-    terminal::result(arguments.common.output.json, object, || {
+    let told = || json::document(&object(&runs, &settings), command);
+    terminal::result(arguments.common.output.json, told, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
     let presets = if runs.len() == 1 { "preset" } else { "presets" };

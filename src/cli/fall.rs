@@ -8,7 +8,7 @@ use super::terminal;
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Object, Row, figure, floats};
+use crate::export::fall::{Row, figure, floats, object};
 use crate::export::files::Files;
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
@@ -50,7 +50,7 @@ pub(super) fn run(
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let (floats, object) = (floats(&ended), Object { scene, fidelity, ended: &ended, rows: &rows, wall_s });
+    let (floats, object) = (floats(&ended), object(scene, fidelity, &ended, &rows, wall_s));
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats);
     terminal::result(common.output.json, || json::document(&object, command), || human);

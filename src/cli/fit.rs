@@ -10,7 +10,7 @@ use crate::analysis::fit::{
 };
 use crate::control::Cancel;
 use crate::digits::{duration, percent, short, signed, significant, with_error};
-use crate::export::fit::{Object, OptimumObject};
+use crate::export::fit as export;
 use crate::export::{files, json};
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
@@ -145,14 +145,15 @@ impl Call<'_> {
             })
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
-        let object = Object { preset: &self.scene.name, fitted: &fitted, measured };
+        let (preset, problem) = (&self.scene.name, Problem::try_from(&fitted.scene)?);
+        let object = || json::document(&export::object(preset, &fitted, measured), self.command);
         let json = self.arguments.common.output.json;
-        terminal::result(json, || json::document(&object, self.command), || text(self.scene, &fitted, measured));
+        terminal::result(json, object, || text(self.scene, &fitted, measured));
         fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::fitted(&out, &Problem::try_from(&fitted.scene)?, &object)?);
+            terminal::wrote(folder, &files::fitted(&out, &problem, preset, &fitted, measured)?);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -168,14 +169,15 @@ impl Call<'_> {
         });
         let Some(found) = found? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&found.scene)?;
-        let object = OptimumObject { preset: &self.scene.name, found: &found };
+        let preset = &self.scene.name;
+        let object = || json::document(&export::optimum(preset, &found), self.command);
         let json = self.arguments.common.output.json;
-        terminal::result(json, || json::document(&object, self.command), || optimum_text(self.scene, &problem, &found));
+        terminal::result(json, object, || optimum_text(self.scene, &problem, &found));
         found.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::optimum(&out, &problem, &object)?);
+            terminal::wrote(folder, &files::optimum(&out, &problem, preset, &found)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }

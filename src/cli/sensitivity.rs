@@ -120,7 +120,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::warning(&warning);
     }
     let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-    terminal::result(arguments.common.output.json, || json::document(&found, command), || text(&found));
+    terminal::result(arguments.common.output.json, || json::document(&found.object(), command), || text(&found));
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let out = arguments.common.figures.folder(folder, command);

@@ -11,7 +11,7 @@ use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::startup::{Object, Row, figure, place, steady, warnings, write_csv};
+use crate::export::startup::{Row, figure, object, place, steady, warnings, write_csv};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -111,7 +111,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
     let ended = ended?;
     let steady = steady(&problem, &ended);
-    let object = Object { scene: &scene, problem: &problem, settings: &settings, ended: &ended, rows: &rows, wall_s };
+    let object = object((&scene, &problem), &settings, &ended, &rows, wall_s);
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);

@@ -58,13 +58,6 @@ impl ExportState {
         }
         let end = end?;
         self.running = None;
-        match end {
-            Ok(Ok(paths)) => {
-                self.written = Some(paths);
-                None
-            }
-            Ok(Err(reason)) => reason,
-            Err(panic) => Some(format!("The export failed; nothing was written: {panic}")),
-        }
+        end.map(|paths| self.written = paths).err()
     }
 }

@@ -5,7 +5,7 @@ use super::document::solved_alike;
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
-use crate::job::fit::Asked;
+use crate::job::fit::FitWork;
 pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
 use crate::job::work::Work;
@@ -54,7 +54,7 @@ pub struct FitState {
     /// What is wrong with the limits.
     goal_fault: Option<String>,
     /// The search: it tells how many points were tried, and the best so far.
-    pub work: Background<<Asked as Work>::Message, <Asked as Work>::Found>,
+    pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
     /// The scene that it is of.
     asked: Option<Scene>,
     /// How many points were tried, and the least χ² or the best number so far.
@@ -185,10 +185,9 @@ impl FitState {
         let News { messages, end } = self.work.news();
         self.told = messages.into_iter().last().or(self.told);
         match end {
-            Some(Ok(Ok(Some(found)))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
-            None | Some(Ok(Ok(None))) => {}
-            Some(Ok(Err(why))) => self.failure = Some(why),
-            Some(Err(panic)) => self.failure = Some(format!("it failed: {panic}")),
+            Some(Ok(Some(found))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
+            None | Some(Ok(None)) => {}
+            Some(Err(why)) => self.failure = Some(why),
         }
     }
 

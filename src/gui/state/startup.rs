@@ -5,7 +5,7 @@ use super::document::solved_alike;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
-use crate::job::startup::FromRest;
+use crate::job::startup::StartupWork;
 use crate::job::task::{News, TaskOf};
 use crate::problem::Problem;
 use crate::recording::Recording;
@@ -55,7 +55,7 @@ fn bytes(recording: &Recording) -> usize {
 #[derive(Debug)]
 pub struct StartupState {
     /// It tells each cycle, and returns how it ended.
-    pub work: Background<Cycle, Result<Startup, String>>,
+    pub work: Background<Cycle, Startup>,
     /// The scene that was started.
     pub scene: Scene,
     /// What it poses.
@@ -79,7 +79,7 @@ pub struct StartupState {
 
 impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
-    pub fn new(task: TaskOf<FromRest>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
+    pub fn new(task: TaskOf<StartupWork>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
         Self {
             work: task.into(),
             scene,
@@ -100,7 +100,7 @@ impl StartupState {
         let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
-            self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+            self.ended = Some(end.map(|ended| ended.unwrap_or_else(Startup::cancelled)));
         }
         if self.stale(scene) {
             self.work.cancel();

@@ -346,17 +346,13 @@ impl SweepState {
         let building = self.building();
         self.task = None;
         match (end, &mut self.swept) {
-            (Ok(Err(refusal)), _) => self.refusal = Some(refusal),
-            (Ok(Ok(rows)), Some(swept)) if !building => {
+            (Ok(rows), Some(swept)) if !building => {
                 swept.running = false;
-                // A worker that was ended returns none.
-                if rows.len() >= swept.rows.len() {
-                    swept.rows = rows;
-                }
+                rows.into_iter().for_each(|rows| swept.rows = rows);
             }
-            (Ok(Ok(_)), _) => {}
-            (Err(panic), Some(swept)) if !building => (swept.failure, swept.running) = (Some(panic), false),
-            (Err(panic), _) => self.refusal = Some(panic),
+            (Ok(_), _) => {}
+            (Err(why), Some(swept)) if !building => (swept.failure, swept.running) = (Some(why), false),
+            (Err(why), _) => self.refusal = Some(why),
         }
     }
 

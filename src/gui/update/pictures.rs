@@ -29,9 +29,8 @@ impl Updater {
         writing.retain(|task| {
             match task.drain().end {
                 None => return true,
-                Some(Ok(Ok(paths))) => state.exports.written = Some(paths),
-                Some(Ok(Err(Some(error))) | Err(error)) => state.fail(error),
-                Some(Ok(Err(None))) => {}
+                Some(Ok(paths)) => state.exports.written = paths,
+                Some(Err(error)) => state.fail(error),
             }
             false
         });
