@@ -80,8 +80,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
     if let Some(folder) = folder {
-        let bar = Bar::frames(frames(&runs, Options::default().frames));
-        let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
+        let bar = Bar::points(frames(&runs, Options::default().frames), 0);
+        let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
         let out = arguments.common.figures.folder(folder, command);
         let paths = files::comparison(&out, &runs, &settings, arguments.all, &control)?;
         drop(bar);

@@ -40,7 +40,7 @@ pub(super) fn run(
 ) -> Result<Option<Exit>, CliError> {
     let Dropped { scene, problem, common, fidelity, cycles, tolerance } = *asked;
     let mut rows: Vec<Row> = Vec::new();
-    let (ended, wall_s) = Bar::share().timed(|bar| {
+    let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: crate::fall::Cycle| {
             let row = Row::from(cycle);
             let share = row.cycle as f64 / cycles as f64;

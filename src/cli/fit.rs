@@ -139,7 +139,7 @@ impl Call<'_> {
     fn fit(&self, measured: &Measured) -> Result<Exit, CliError> {
         let model = Model::new(self.scene, &self.arguments.vary, self.settings)?.under(measured)?;
         let starts = usize::from(self.arguments.starts);
-        let (fitted, wall_s) = Bar::share().timed(|bar| {
+        let (fitted, wall_s) = Bar::solve("").timed(|bar| {
             fit(&model, measured, starts, self.cancel, &|points, chi_squared| {
                 bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
             })
@@ -160,7 +160,7 @@ impl Call<'_> {
 
     fn optimum(&self, goal: &Goal) -> Result<Exit, CliError> {
         let name = goal.quantity.name();
-        let (found, wall_s) = Bar::share().timed(|bar| {
+        let (found, wall_s) = Bar::solve("").timed(|bar| {
             let told = |points: usize, best: f64| {
                 bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
             };
@@ -188,13 +188,8 @@ fn cancelled() -> Exit {
     Exit::Other
 }
 
-/// `9.5 nm`.
-pub(super) fn with_unit(number: String, parameter: &Parameter) -> String {
-    format!("{number} {}", parameter.unit).trim_end().to_owned()
-}
-
 fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
-    with_unit(format!("{} … {}", short(from, 5), short(to, 5)), parameter)
+    parameter.with_unit(format!("{} … {}", short(from, 5), short(to, 5)))
 }
 
 fn at_bound(at: Option<Bound>) -> &'static str {
@@ -219,7 +214,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         };
         columns.row([
             parameter.key.to_owned(),
-            with_unit(value, parameter),
+            parameter.with_unit(value),
             short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
@@ -321,7 +316,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
         let parameter = line.unknown.parameter;
         columns.row([
             parameter.key.to_owned(),
-            with_unit(significant(line.value, 4), parameter),
+            parameter.with_unit(significant(line.value, 4)),
             bounds((line.unknown.from, line.unknown.to), parameter),
             bounds(line.flat, parameter),
             at_bound(line.at).to_owned(),

@@ -89,8 +89,8 @@ fn write(
         all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
     {
         let options = Options { width: 860, ..Options::default() };
-        let bar = Bar::frames(frames(&solution.recording, options.frames));
-        let movie = cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel)?;
+        let bar = Bar::points(frames(&solution.recording, options.frames), 0);
+        let movie = cycle(&both.problem, solution, &options, &|| bar.point_done("frames"), cancel)?;
         gif = Some(files::gif(&movie, &folder.join("cycle.gif"), cancel)?);
     }
     let out = arguments.figures.folder(folder, command);

@@ -95,7 +95,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
     let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
-    let (ended, wall_s) = Bar::share().timed(|bar| {
+    let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = Row::of(&problem, &cycle);
             let main = significant(row.main().value, 4);

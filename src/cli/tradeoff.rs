@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let folder = arguments.output.folder()?;
     let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
     let cancel = cancel_on_interrupt();
-    let bar = Bar::share();
+    let bar = Bar::solve("");
     let started = Instant::now();
     let clock = || started.elapsed().as_secs_f64();
     let runs = measure(&problem, candidates(&problem), &effort, &clock, &cancel, &mut |runs, share| {

@@ -370,7 +370,7 @@ pub fn report(
     page.finish(&provenance(runs).line())
 }
 
-/// Where the model is out of its depth; nothing if it is not.
+/// Limits of the model that are exceeded; empty if none.
 pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
     if !validity.is_empty() {
         page.warning("Outside the limits of the model:");

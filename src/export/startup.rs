@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
     /// From 1.
     pub cycle: usize,
@@ -51,15 +51,20 @@ pub struct Row {
 impl Row {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
-        let mut row = Self {
+        Self {
             cycle: cycle.number,
             time_us: cycle.number as f64 * cycle.recording.period * 1e6,
             change: cycle.change,
             remaining: finite(cycle.remaining),
-            ..Self::default()
-        };
+            ..Self::of_outcome(problem, &cycle.outcome)
+        }
+    }
+
+    /// The means and extremes of a result.
+    pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
+        let mut row = Self::default();
         let parts = |found: Estimate| [found.value, found.error].map(finite);
-        let (loads, thickness, pressure) = match &cycle.outcome {
+        let (loads, thickness, pressure) = match outcome {
             Outcome::Motor(r) => {
                 [row.alpha, row.alpha_error] = parts(r.alpha);
                 row.contact_load_n = finite(r.contact_load.value);

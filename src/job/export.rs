@@ -187,7 +187,7 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
 fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
     let SolvedScene { scene, problem, fidelity, solution, wall_s, history, .. } = run;
     let solved = Solved { scene, problem, solution, history, torque: None };
-    let merit = || TorqueCurves::of_solve(problem, *fidelity, solution, control.cancel);
+    let merit = || TorqueCurves::of(problem, *fidelity, solution, control.cancel);
     match what {
         OfRun::Data => {
             let mut summary = Summary::new(problem, solution, *wall_s, &[]);

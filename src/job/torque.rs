@@ -22,6 +22,6 @@ impl Work for TorqueWork {
 
     fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
         let SolvedScene { problem, fidelity, solution, .. } = &*self.0;
-        TorqueCurves::of_solve(problem, *fidelity, solution, cancel).map_err(|error| format!("without film, {error}"))
+        TorqueCurves::of(problem, *fidelity, solution, cancel).map_err(|error| format!("without film, {error}"))
     }
 }

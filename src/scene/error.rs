@@ -189,7 +189,7 @@ pub enum What {
         nearest: Option<String>,
     },
     /// A number outside its range.
-    #[error("{} = {value} is out of range: allowed {range}{}", parameter.key, with_unit(parameter))]
+    #[error("{} = {value} is out of range: allowed {}{}", parameter.key, parameter.with_unit(range), or_none(parameter))]
     OutOfRange {
         /// The key.
         parameter: &'static Parameter,
@@ -263,12 +263,9 @@ pub(super) fn check_count(
     if allowed.contains(&count) { Ok(()) } else { Err(What::Rule { key, message: message() }) }
 }
 
-fn with_unit(parameter: &Parameter) -> String {
-    let mut tail = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
-    if let Some(meaning) = parameter.absent {
-        tail.push_str(&format!(", or none ({meaning})"));
-    }
-    tail
+/// What the absence of an optional key means, if `parameter` is one.
+pub(super) fn or_none(parameter: &Parameter) -> String {
+    parameter.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"))
 }
 
 /// `"a", "b" or "c"`.

@@ -10,7 +10,7 @@ pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
 use crate::job::work::Work;
 use crate::problem::Problem;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
+use crate::scene::{Parameter, ParameterKind, Scene};
 use std::sync::Arc;
 
 /// What is chosen at first: the first that a scene has.
@@ -206,10 +206,8 @@ pub fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
 
 /// What a line of the form says.
 fn bounds(scene: &Scene, axis: &AxisForm) -> Result<Bounds, String> {
-    let parameter = Parameter::find(axis.key).ok_or_else(|| format!("{} is not known", axis.key))?;
-    let (from, to) = (quantity_text::read(parameter, &axis.from)?, quantity_text::read(parameter, &axis.to)?);
-    let scale = Some(if axis.log { Scale::Log } else { Scale::Linear });
-    let bounds = Bounds { key: axis.key.to_owned(), from, to, scale };
+    let (from, to, scale) = axis.ends()?;
+    let bounds = Bounds { key: axis.key.to_owned(), from, to, scale: Some(scale) };
     Unknown::new(scene, &bounds).map_err(|error| error.to_string())?;
     Ok(bounds)
 }
