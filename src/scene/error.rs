@@ -189,7 +189,7 @@ pub enum What {
         nearest: Option<String>,
     },
     /// A number outside its range.
-    #[error("{} = {value} is out of range: allowed {}{}", parameter.key, parameter.with_unit(range), or_none(parameter))]
+    #[error("{} = {value} is out of range: allowed {}{}", parameter.key, parameter.with_unit(range), parameter.or_none())]
     OutOfRange {
         /// The key.
         parameter: &'static Parameter,
@@ -261,11 +261,6 @@ pub(super) fn check_count(
 ) -> Result<(), What> {
     let message = || format!("{key} has {count} {what}: allowed {} to {}", allowed.start(), allowed.end());
     if allowed.contains(&count) { Ok(()) } else { Err(What::Rule { key, message: message() }) }
-}
-
-/// What the absence of an optional key means, if `parameter` is one.
-pub(super) fn or_none(parameter: &Parameter) -> String {
-    parameter.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"))
 }
 
 /// `"a", "b" or "c"`.

@@ -1,6 +1,5 @@
 //! The description of a key of a scene: its unit, range, default and meaning, and the scenes that have it.
 
-use super::error::or_none;
 use super::value::{Value, show_number};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -249,7 +248,12 @@ impl Parameter {
 
     /// What the key accepts, in words: `a number from 5 to 10000 nm`; of an optional key also that it may be absent.
     pub fn accepts(&self) -> String {
-        self.accepts_if_given() + &or_none(self)
+        self.accepts_if_given() + &self.or_none()
+    }
+
+    /// What the absence of an optional key means.
+    pub(super) fn or_none(&self) -> String {
+        self.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"))
     }
 
     /// What the key accepts if it is given, in words.
