@@ -155,8 +155,8 @@ impl SolvedScene {
     }
 }
 
-/// Solves a problem at one fidelity, timed by the clock `now`. Returns the solution, or the message for the user if it failed; `None` if it
-/// was cancelled.
+/// Solves a problem at one fidelity, timed by the clock `now`. Returns the solution, `None` if it was cancelled, or the message for the user
+/// if it failed.
 fn solved(
     problem: &Problem,
     (fidelity, budget): (Fidelity, Option<Duration>),
@@ -164,19 +164,19 @@ fn solved(
     warm: &mut Warm,
     cancel: &Cancel,
     mut listen: impl FnMut(&Progress),
-) -> Option<Result<Timed, String>> {
+) -> Result<Option<Timed>, String> {
     let settings = Settings { fidelity, ..Settings::default() };
     let limited = budget.map_or(cancel.clone(), |budget| timed(cancel, budget));
     let (started_warm, started) = (!warm.is_empty(), now());
     let found = caught(|| solve_from(warm, problem, &settings, &mut listen, &limited));
     let wall_s = now().duration_since(started).as_secs_f64();
-    Some(match found {
-        Ok(Ok(solution)) if solution.status == Status::Cancelled => return None,
-        Ok(Ok(solution)) => Ok((solution, started_warm, wall_s)),
-        Ok(Err(_)) if cancel.is_cancelled() => return None,
+    match found {
+        Ok(Ok(solution)) if solution.status == Status::Cancelled => Ok(None),
+        Ok(Ok(solution)) => Ok(Some((solution, started_warm, wall_s))),
+        Ok(Err(_)) if cancel.is_cancelled() => Ok(None),
         Ok(Err(error)) => Err(error.to_string()),
         Err(panic) => Err(failure(fidelity, &panic)),
-    })
+    }
 }
 
 /// The message for the user after a panic.

@@ -79,7 +79,7 @@ fn change(window: &mut Window, key: &str, value: &str) {
         }
         _ => {
             if window.known().document.scene().get(key).is_none() {
-                window.click_on(labels::switch(parameter));
+                window.click_on(parameter.switch);
             }
             window.type_into(&labels::field_name(parameter), value);
         }

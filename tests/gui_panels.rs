@@ -132,7 +132,7 @@ fn every_parameter_has_a_named_widget() {
             let present = scene.get(parameter.key).is_some();
             let found = match parameter.kind {
                 ParameterKind::Number { .. } | ParameterKind::Whole { .. } => {
-                    let switched = parameter.absent.is_none() || has(Role::CheckBox, labels::switch(parameter));
+                    let switched = parameter.absent.is_none() || has(Role::CheckBox, parameter.switch);
                     let edited = has(Role::Slider, name) && has(Role::TextInput, &labels::field_name(parameter));
                     switched && edited == present
                 }

@@ -226,7 +226,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
         let problem = problem(preset, set);
         let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
-        TorqueCurves::of_solve(&problem, Fidelity::Fine, &solution, &Cancel::new()).unwrap().unwrap()
+        TorqueCurves::of(&problem, Fidelity::Fine, &solution, &Cancel::new()).unwrap().unwrap()
     };
     let usual = merit("fundamental", &[]);
     let idle = |of: &Performance| usual.rpm(of.no_load_speed.unwrap().value);

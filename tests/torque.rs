@@ -28,13 +28,11 @@ fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Met
     let problem = scenes::problem(preset, set);
     let settings = Settings { fidelity, method, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+    let merit = TorqueCurves::of(&problem, fidelity, &solution, &Cancel::new()).unwrap().unwrap();
     let (Scenario::Motor(motor), Outcome::Motor(result)) = (problem.scenario, solution.outcome) else {
         panic!("a motor")
     };
-    let recording = solution.recording;
-    let merit =
-        TorqueCurves::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
-    Solved { motor, result, recording, merit }
+    Solved { motor, result, recording: solution.recording, merit }
 }
 
 fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Solved {

@@ -59,7 +59,7 @@ impl Inner {
     fn complete(&self, cancel: &Cancel) -> &Summary {
         self.complete.get_or_init(|| {
             let mut summary = self.summary();
-            summary.add_torque(TorqueCurves::of_solve(&self.problem, self.settings.fidelity, &self.solution, cancel));
+            summary.add_torque(TorqueCurves::of(&self.problem, self.settings.fidelity, &self.solution, cancel));
             summary
         })
     }

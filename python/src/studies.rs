@@ -7,9 +7,8 @@ use squeezefilm::analysis::error::AnalysisError;
 use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured, Model};
 use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::control::Cancel;
-use squeezefilm::export::fit::{Object as Fit, OptimumObject};
 use squeezefilm::export::sensitivity::Found;
-use squeezefilm::export::{fall as fallen, json, startup as export};
+use squeezefilm::export::{fall as fallen, fit as fitted, json, startup as export};
 use squeezefilm::fall::{Cycle as Fallen, fall};
 use squeezefilm::hold::{Hold, REACH};
 use squeezefilm::plan::Plan;
@@ -54,7 +53,7 @@ pub(crate) fn sensitivity(
             _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
         };
         let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-        Ok(json::document(&found, &[]))
+        Ok(json::document(&found.object(), &[]))
     })?
 }
 
@@ -94,7 +93,7 @@ pub(crate) fn fit(
         let model = model.map_err(analysis_error)?;
         let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
         let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
-        let object = json::document(&Fit { preset: &scene.name, fitted: &found, measured: &measured }, &[]);
+        let object = json::document(&fitted::object(&scene.name, &found, &measured), &[]);
         Ok((object, Scene(found.scene)))
     })?
 }
@@ -120,7 +119,7 @@ pub(crate) fn optimise(
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
         let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
-        Ok((json::document(&OptimumObject { preset: &scene.name, found: &found }, &[]), Scene(found.scene)))
+        Ok((json::document(&fitted::optimum(&scene.name, &found), &[]), Scene(found.scene)))
     })?
 }
 
@@ -150,7 +149,7 @@ pub(crate) fn startup(
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
             let wall_s = began.elapsed().as_secs_f64();
-            let object = fallen::Object { scene: &scene, fidelity, ended: &ended, rows: &rows, wall_s };
+            let object = fallen::object(&scene, fidelity, &ended, &rows, wall_s);
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();
@@ -162,8 +161,7 @@ pub(crate) fn startup(
         let ended = transient::startup(&problem, &settings, &mut each, cancel);
         let ended = ended.map_err(|error| error_of(error.is_bad_input(), error))?;
         let wall_s = began.elapsed().as_secs_f64();
-        let (scene, problem, settings) = (&scene, &problem, &settings);
-        let object = export::Object { scene, problem, settings, ended: &ended, rows: &rows, wall_s };
+        let object = export::object((&scene, &problem), &settings, &ended, &rows, wall_s);
         Ok(json::document(&object, &[]))
     })?
 }

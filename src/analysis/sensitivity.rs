@@ -13,6 +13,7 @@ use super::attempt::told;
 use super::error::AnalysisError;
 use super::exact::{Harmonic, solved, units};
 use super::quantity::{Numbers, Quantity, labelled};
+use super::tradeoff::quantile;
 use super::variation::{Column, Jacobian, Slope, Variation};
 use crate::control::Cancel;
 use crate::digits::as_given;
@@ -567,11 +568,6 @@ impl MonteCarlo {
         }
         let mean = found.iter().sum::<f64>() / count as f64;
         let deviation = (found.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / last as f64).sqrt();
-        let quantile = |share: f64| {
-            let place = share * last as f64;
-            let (low, high) = (found[place as usize], found[(place as usize + 1).min(last)]);
-            low + place.fract() * (high - low)
-        };
         // Twice the cube root: Rice's rule.
         let number = if found[last] > found[0] { (2.0 * (count as f64).cbrt()).ceil() as usize } else { 1 };
         let width = (found[last] - found[0]) / number as f64;
@@ -580,7 +576,7 @@ impl MonteCarlo {
             let bin = if width > 0.0 { ((value - found[0]) / width) as usize } else { 0 };
             bins[bin.min(number - 1)] += 1;
         }
-        let quantiles = [0.05, 0.5, 0.95].map(quantile);
+        let quantiles = [0.05, 0.5, 0.95].map(|share| quantile(&found, share));
         Some(Spread { count, mean, deviation, quantiles, bins: (found[0], width, bins) })
     }
 }

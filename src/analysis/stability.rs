@@ -19,8 +19,6 @@ use rayon::prelude::*;
 pub struct Map {
     /// Its name on the command line and in files.
     pub name: &'static str,
-    /// What it shows.
-    pub about: &'static str,
     /// Key along x, and key along y.
     pub axes: [Edge; 2],
 }
@@ -45,31 +43,11 @@ const DECADES_FROM_ZERO: i32 = 3;
 
 /// The maps.
 pub const MAPS: [Map; 5] = [
-    Map {
-        name: "spacing-frequency",
-        about: "stiffness of the film against its squeeze number",
-        axes: [edge(SPACING), edge("stator.frequency_khz")],
-    },
-    Map {
-        name: "load-amplitude",
-        about: "from a floating rotor to one pressed flat",
-        axes: [edge("motor.load_per_wave_n"), edge("stator.normal_amplitude_um")],
-    },
-    Map {
-        name: "pressure-width",
-        about: "from a vacuum to a film that dwarfs the load",
-        axes: [edge("film.ambient_pressure_kpa"), edge("rotor.contact_width_mm")],
-    },
-    Map {
-        name: "steps-spacing",
-        about: "steps in time against the stiffness of the film",
-        axes: [Edge { key: "numerics.steps_per_cycle", up_to: Some(720.0) }, edge(SPACING)],
-    },
-    Map {
-        name: "grid-tooth",
-        about: "nodes along a tooth (across it and of the contact in proportion) against its width",
-        axes: [Edge { key: NODES, up_to: Some(201.0) }, edge("stator.tooth_width_mm")],
-    },
+    Map { name: "spacing-frequency", axes: [edge(SPACING), edge("stator.frequency_khz")] },
+    Map { name: "load-amplitude", axes: [edge("motor.load_per_wave_n"), edge("stator.normal_amplitude_um")] },
+    Map { name: "pressure-width", axes: [edge("film.ambient_pressure_kpa"), edge("rotor.contact_width_mm")] },
+    Map { name: "steps-spacing", axes: [Edge { key: "numerics.steps_per_cycle", up_to: Some(720.0) }, edge(SPACING)] },
+    Map { name: "grid-tooth", axes: [Edge { key: NODES, up_to: Some(201.0) }, edge("stator.tooth_width_mm")] },
 ];
 
 impl Map {
@@ -244,7 +222,7 @@ pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<
             let verdict = match solution.status {
                 Status::Converged if violations.is_empty() => Verdict::Solved,
                 Status::Converged => Verdict::NonPhysical,
-                // That nothing is told is told: the numbers are within their errors.
+                // `NotResolved`: the error is as large as the result, but the numbers are physical.
                 Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
                 Status::NotResolved { .. } => Verdict::NonPhysical,
                 Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,

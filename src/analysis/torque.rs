@@ -45,38 +45,24 @@ pub struct TorqueCurves {
 }
 
 impl TorqueCurves {
-    /// From a solve of `motor`, and the contact without film, which is solved here on the grids that `fidelity` and
-    /// `numerics` ask for. `None` if cancelled.
+    /// From a solve of a motor, and the contact without film, which is solved here on the grids that `fidelity` and the scene ask for. `None`
+    /// of a plate, and if cancelled.
     ///
     /// # Errors
     /// [`MotorError`] if a contact problem without film has no solution to working precision.
     pub fn of(
-        motor: &Motor,
-        numerics: &Numerics,
-        fidelity: Fidelity,
-        result: &MotorResult,
-        recording: &Recording,
-        cancel: &Cancel,
-    ) -> Result<Option<Self>, MotorError> {
-        let plan = Plan::motor(motor, fidelity, numerics)?;
-        let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
-        let speed_effect = speed_effect(motor, numerics, result.alpha.value, cancel);
-        Ok(Some(Self { speed_effect, ..Self::from_contacts(motor, result, recording, &dry) }))
-    }
-
-    /// Of a solve at `fidelity`; `None` of a plate, and if cancelled.
-    pub fn of_solve(
         problem: &Problem,
         fidelity: Fidelity,
         solution: &Solution,
         cancel: &Cancel,
     ) -> Result<Option<Self>, MotorError> {
-        match (&problem.scenario, &solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                Self::of(motor, &problem.numerics, fidelity, result, &solution.recording, cancel)
-            }
-            _ => Ok(None),
-        }
+        let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else {
+            return Ok(None);
+        };
+        let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
+        let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
+        let speed_effect = speed_effect(motor, &problem.numerics, result.alpha.value, cancel);
+        Ok(Some(Self { speed_effect, ..Self::from_contacts(motor, result, &solution.recording, &dry) }))
     }
 
     /// From the contact with the film, in `recording`, and without it, coarse to fine; all but what the speed changes.

@@ -14,6 +14,7 @@ mod curve;
 mod measure;
 
 pub use candidates::{Candidate, Family, candidates, without_grid};
+pub(super) use curve::quantile;
 pub use curve::{Point, Target, Tradeoff};
 pub use measure::{Effort, MeasuredSetting, measure};
 

@@ -85,9 +85,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
     let count = files::animated_frames(&solution, &options, format);
-    let bar = Bar::frames(count);
+    let bar = Bar::points(count, 0);
     let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
-    let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
+    let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);
     terminal::note(&format!("wrote {}: {count} frames", arguments.out.display()));

@@ -9,7 +9,7 @@ use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::analysis::decision::effort;
 use crate::digits::duration;
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, Object, difference_text, frames, mark, parameter_rows, value_text};
+use crate::export::compare::{LIMITS, difference_text, frames, mark, object, parameter_rows, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::scene::Value;
@@ -73,15 +73,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::document(&Object { runs: &runs, settings: &settings }, command);
-    terminal::result(arguments.common.output.json, object, || {
+    let told = || json::document(&object(&runs, &settings), command);
+    terminal::result(arguments.common.output.json, told, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
     if let Some(folder) = folder {
-        let bar = Bar::frames(frames(&runs, Options::default().frames));
-        let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
+        let bar = Bar::points(frames(&runs, Options::default().frames), 0);
+        let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
         let out = arguments.common.figures.folder(folder, command);
         let paths = files::comparison(&out, &runs, &settings, arguments.all, &control)?;
         drop(bar);

@@ -10,7 +10,7 @@ use crate::analysis::validity::{Excess, beside_headline, of_outcome};
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Object, Row, figure, floats};
+use crate::export::fall::{Row, figure, floats, object};
 use crate::export::files::Files;
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
@@ -42,7 +42,7 @@ pub(super) fn run(
 ) -> Result<Option<Exit>, CliError> {
     let Dropped { scene, problem, common, fidelity, cycles, tolerance } = *asked;
     let mut rows: Vec<Row> = Vec::new();
-    let (ended, wall_s) = Bar::share().timed(|bar| {
+    let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: crate::fall::Cycle| {
             let row = Row::from(cycle);
             let share = row.cycle as f64 / cycles as f64;
@@ -53,8 +53,7 @@ pub(super) fn run(
     });
     let Some(ended) = ended? else { return Ok(None) };
     let validity = of_outcome(problem, ended.outcome.as_ref(), &[]);
-    let object = Object { scene, fidelity, ended: &ended, validity: &validity, rows: &rows, wall_s };
-    let floats = floats(&ended);
+    let (floats, object) = (floats(&ended), object(scene, fidelity, &ended, &validity, &rows, wall_s));
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats, &validity);
     terminal::result(common.output.json, || json::document(&object, command), || human);

@@ -10,7 +10,7 @@ use crate::analysis::fit::{
 };
 use crate::control::Cancel;
 use crate::digits::{duration, percent, short, signed, significant, with_error};
-use crate::export::fit::{Object, OptimumObject};
+use crate::export::fit as export;
 use crate::export::{files, json};
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
@@ -139,27 +139,28 @@ impl Call<'_> {
     fn fit(&self, measured: &Measured) -> Result<Exit, CliError> {
         let model = Model::new(self.scene, &self.arguments.vary, self.settings)?.under(measured)?;
         let starts = usize::from(self.arguments.starts);
-        let (fitted, wall_s) = Bar::share().timed(|bar| {
+        let (fitted, wall_s) = Bar::solve("").timed(|bar| {
             fit(&model, measured, starts, self.cancel, &|points, chi_squared| {
                 bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
             })
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
-        let object = Object { preset: &self.scene.name, fitted: &fitted, measured };
+        let (preset, problem) = (&self.scene.name, Problem::try_from(&fitted.scene)?);
+        let object = || json::document(&export::object(preset, &fitted, measured), self.command);
         let json = self.arguments.common.output.json;
-        terminal::result(json, || json::document(&object, self.command), || text(self.scene, &fitted, measured));
+        terminal::result(json, object, || text(self.scene, &fitted, measured));
         fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::fitted(&out, &Problem::try_from(&fitted.scene)?, &object)?);
+            terminal::wrote(folder, &files::fitted(&out, &problem, preset, &fitted, measured)?);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
 
     fn optimum(&self, goal: &Goal) -> Result<Exit, CliError> {
         let name = goal.quantity.name();
-        let (found, wall_s) = Bar::share().timed(|bar| {
+        let (found, wall_s) = Bar::solve("").timed(|bar| {
             let told = |points: usize, best: f64| {
                 bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
             };
@@ -168,14 +169,15 @@ impl Call<'_> {
         });
         let Some(found) = found? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&found.scene)?;
-        let object = OptimumObject { preset: &self.scene.name, found: &found };
+        let preset = &self.scene.name;
+        let object = || json::document(&export::optimum(preset, &found), self.command);
         let json = self.arguments.common.output.json;
-        terminal::result(json, || json::document(&object, self.command), || optimum_text(self.scene, &problem, &found));
+        terminal::result(json, object, || optimum_text(self.scene, &problem, &found));
         found.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::optimum(&out, &problem, &object)?);
+            terminal::wrote(folder, &files::optimum(&out, &problem, preset, &found)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -186,13 +188,8 @@ fn cancelled() -> Exit {
     Exit::Other
 }
 
-/// `9.5 nm`.
-pub(super) fn with_unit(number: String, parameter: &Parameter) -> String {
-    format!("{number} {}", parameter.unit).trim_end().to_owned()
-}
-
 fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
-    with_unit(format!("{} … {}", short(from, 5), short(to, 5)), parameter)
+    parameter.with_unit(format!("{} … {}", short(from, 5), short(to, 5)))
 }
 
 fn at_bound(at: Option<Bound>) -> &'static str {
@@ -217,7 +214,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         };
         columns.row([
             parameter.key.to_owned(),
-            with_unit(value, parameter),
+            parameter.with_unit(value),
             short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
@@ -319,7 +316,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
         let parameter = line.unknown.parameter;
         columns.row([
             parameter.key.to_owned(),
-            with_unit(significant(line.value, 4), parameter),
+            parameter.with_unit(significant(line.value, 4)),
             bounds((line.unknown.from, line.unknown.to), parameter),
             bounds(line.flat, parameter),
             at_bound(line.at).to_owned(),

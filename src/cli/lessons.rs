@@ -8,7 +8,6 @@ use crate::atomic::{Staged, write_file};
 use crate::export::figure::{Piece, sheets_to_pdf};
 use crate::export::files::ExportError;
 use crate::gui::state::lessons::window_names;
-use crate::lessons::record::RecordError;
 use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
@@ -77,7 +76,7 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
     let cancel = cancel_on_interrupt();
     let mut failed = !faults.is_empty();
     for lesson in &lessons {
-        let bar = Bar::rows(lesson.steps.len());
+        let bar = Bar::points(lesson.steps.len(), 0);
         let findings = trial::lesson(lesson, &mut |step| bar.point_done(&lesson.steps[step].title), &cancel);
         drop(bar);
         if cancel.is_cancelled() {
@@ -125,8 +124,8 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
 }
 
 fn summary(records: &[PathBuf], out: &Path) -> Result<Exit, CliError> {
-    let class: Result<Vec<_>, RecordError> = records.iter().map(|path| record::read(path)).collect();
-    let page = record::summary(&class.map_err(|fault| CliError::Input(fault.to_string()))?);
+    let class: Result<Vec<_>, String> = records.iter().map(|path| record::read(path)).collect();
+    let page = record::summary(&class.map_err(CliError::Input)?);
     write_file(out, |file| file.write_all(page.as_bytes()))?;
     terminal::note(&out.display().to_string());
     Ok(Exit::Solved)

@@ -10,7 +10,7 @@ use crate::export::json;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
 use crate::scene::{Scene, SceneError};
 use clap::Args;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Lists the built-in presets, or prints one as a file to start your own from
@@ -52,23 +52,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 }
 
 /// A preset as JSON.
-#[derive(Serialize)]
-struct Object<'a> {
-    preset: &'a str,
-    name: &'a str,
-    about: &'a str,
-    scene: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    group: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    toml: Option<&'a str>,
-}
-
-impl<'a> Object<'a> {
-    fn new(preset: &'a str, scene: &'a Scene, toml: Option<&'a str>) -> Self {
-        let group = BUILT_IN.iter().find(|built_in| built_in.name == preset).map(|built_in| built_in.group);
-        Self { preset, name: &scene.name, about: &scene.about, scene: scene.scene(), group, toml }
+fn object(preset: &str, scene: &Scene, toml: Option<&str>) -> Value {
+    let mut object = json!({ "preset": preset, "name": scene.name, "about": scene.about, "scene": scene.scene() });
+    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == preset) {
+        object["group"] = built_in.group.into();
     }
+    toml.into_iter().for_each(|toml| object["toml"] = toml.into());
+    object
 }
 
 fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
@@ -84,7 +74,7 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
         write_file(path, |out| out.write_all(toml.as_bytes()))?;
         terminal::note(&format!("wrote {}", path.display()));
     } else if arguments.json {
-        terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
+        terminal::data(&json::text(&object(preset, &scene, Some(&toml))));
     } else {
         terminal::data(&toml);
     }
@@ -95,7 +85,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     let read = |built_in: &'static BuiltIn| Ok((built_in, built_in.scene()?));
     let scenes = BUILT_IN.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
     if as_json {
-        let objects: Vec<_> = scenes.iter().map(|(preset, scene)| Object::new(preset.name, scene, None)).collect();
+        let objects: Vec<_> = scenes.iter().map(|(preset, scene)| object(preset.name, scene, None)).collect();
         terminal::data(&json::text(&objects));
         return Ok(());
     }

@@ -23,14 +23,9 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// For one solve, whose forces are in `unit`.
+    /// For one solve, whose forces are in `unit`; or for other work of which a share is done.
     pub(super) fn solve(unit: &'static str) -> Self {
         Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", unit)
-    }
-
-    /// For a number of rows.
-    pub(super) fn rows(rows: usize) -> Self {
-        Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
     }
 
     /// For a number of points, of which some are done; with the time left.
@@ -54,11 +49,6 @@ impl Bar {
         self.bar.set_message(reached.to_owned());
     }
 
-    /// For work of which a share is done; with the time left.
-    pub(super) fn share() -> Self {
-        Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", "")
-    }
-
     /// This much is done, 0 to 1.
     pub(super) fn share_done(&self, share: f64, what: &str) {
         self.bar.set_position((PARTS as f64 * share) as u64);
@@ -69,11 +59,6 @@ impl Bar {
     fn left(&self, share: f64) -> String {
         let left = self.started.elapsed().as_secs_f64() * (1.0 - share) / share;
         if left.is_finite() { format!("{} left, ", duration(left)) } else { String::new() }
-    }
-
-    /// For a number of pictures.
-    pub(super) fn frames(frames: usize) -> Self {
-        Self::new(frames as u64, "{spinner} {bar:20} {pos}/{len} frames, {eta} left", "")
     }
 
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
@@ -94,12 +79,6 @@ impl Bar {
     pub(super) fn timed<T>(self, work: impl FnOnce(&Self) -> T) -> (T, f64) {
         let done = work(&self);
         (done, self.started.elapsed().as_secs_f64())
-    }
-
-    /// One more row is done.
-    pub(super) fn row_done(&self, row: &str) {
-        self.bar.set_message(row.to_owned());
-        self.bar.inc(1);
     }
 
     /// The rounds so far.

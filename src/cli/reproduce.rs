@@ -11,7 +11,7 @@ use crate::control::Cancel;
 use crate::digits::{duration, with_error};
 use crate::export::animation::{Options, cycle, frames};
 use crate::export::files::{self, ExportError, Files};
-use crate::export::reproduce::{Object, RowObject, figures, report};
+use crate::export::reproduce::{RowObject, figures, object, report};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let all = solved?;
     let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
-    terminal::result(arguments.json, || json::document(&Object(&all), command), || text(&all));
+    terminal::result(arguments.json, || json::document(&object(&all), command), || text(&all));
     terminal::wrote(&arguments.out, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
@@ -89,15 +89,15 @@ fn write(
         all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
     {
         let options = Options { width: 860, ..Options::default() };
-        let bar = Bar::frames(frames(&solution.recording, options.frames));
-        let movie = cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel)?;
+        let bar = Bar::points(frames(&solution.recording, options.frames), 0);
+        let movie = cycle(&both.problem, solution, &options, &|| bar.point_done("frames"), cancel)?;
         gif = Some(files::gif(&movie, &folder.join("cycle.gif"), cancel)?);
     }
     let out = arguments.figures.folder(folder, command);
     let mut files = Files::new(&out)?;
     files.text("report.html", &report(all, gif.as_deref(), command))?;
     files.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
-    files.json("figures.json", &Object(all))?;
+    files.json("figures.json", &object(all))?;
     for (number, figure) in figures(all) {
         check()?;
         files.figure(&format!("fig{number}"), &figure)?;

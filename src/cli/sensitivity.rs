@@ -2,7 +2,6 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::fit::with_unit;
 use super::options::{CommonOptions, pair, whole};
 use super::progress::Bar;
 use super::terminal;
@@ -96,7 +95,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let draws = arguments.monte_carlo.unwrap_or(0) as usize;
 
     let started = Instant::now();
-    let bar = Bar::share();
+    let bar = Bar::solve("");
     let counted = std::sync::atomic::AtomicUsize::new(0);
     let told = |all: usize, what: &str| {
         let done = counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
@@ -120,7 +119,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::warning(&warning);
     }
     let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
-    terminal::result(arguments.common.output.json, || json::document(&found, command), || text(&found));
+    terminal::result(arguments.common.output.json, || json::document(&found.object(), command), || text(&found));
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let out = arguments.common.figures.folder(folder, command);
@@ -220,7 +219,7 @@ fn uncertain(found: &Found<'_>) -> String {
     let problem = sensitivity.problem();
     let given = found.uncertainties.iter().map(|(parameter, at, given)| {
         let deviation = significant(given.deviation(at), 3);
-        format!("{} = {} ({})", parameter.key, with_unit(at.to_string(), parameter), with_unit(deviation, parameter))
+        format!("{} = {} ({})", parameter.key, parameter.with_unit(at), parameter.with_unit(deviation))
     });
     let given: Vec<String> = given.collect();
     let mut text = paragraph(&format!("Uncertain parameters (standard deviation): {}", given.join(", ")), "\n", "");

@@ -128,7 +128,7 @@ fn one(
     }
     let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
-    result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
+    result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }

@@ -9,7 +9,7 @@ use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
 use crate::digits::duration;
 use crate::export::files::Files;
-use crate::export::stability::{CellObject, Object, detail, figure};
+use crate::export::stability::{CellObject, detail, figure, object};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
@@ -75,8 +75,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
     let complete = cells.len() == total;
     if complete {
-        let object = || Object::new(&scene.name, settings.fidelity, &cells);
-        terminal::result(arguments.common.output.json, || json::document(&object(), command), || human);
+        let told = || json::document(&object(&scene.name, settings.fidelity, &cells), command);
+        terminal::result(arguments.common.output.json, told, || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));

@@ -8,18 +8,18 @@ use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
-use crate::analysis::validity::beside_headline;
+use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::startup::{Object, Row, figure, place, steady, validity, warnings, write_csv};
+use crate::export::startup::{Row, figure, object, place, steady, validity, warnings, write_csv};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
-use crate::scene::show_text;
+use crate::scene::{Scene, show_text};
 use crate::solution::{Accuracy, Status, StoppedBy};
 use crate::solve::Method;
-use crate::startup::{self, Cycle};
+use crate::startup::{self, Cycle, Startup};
 use clap::Args;
 
 const EXAMPLES: &str = "\
@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
     let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
-    let (ended, wall_s) = Bar::share().timed(|bar| {
+    let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = Row::of(&problem, &cycle);
             let main = significant(row.main().value, 4);
@@ -114,17 +114,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let ended = ended?;
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
-    let object = Object {
-        scene: &scene,
-        problem: &problem,
-        settings: &settings,
-        ended: &ended,
-        validity: &validity,
-        rows: &rows,
-        wall_s,
-    };
+    let object = object((&scene, &problem), &settings, &ended, &validity, &rows, wall_s);
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
-    let human = text(&object, steady);
+    let human = text((&scene, &problem), &rows, (&ended, &validity), steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
@@ -147,8 +139,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 /// Cycles shown to people at the beginning, and as powers of two after that.
 const SHOWN: usize = 8;
 
-fn text(object: &Object<'_>, steady: Option<Estimate>) -> String {
-    let Object { scene, problem, ended, validity, rows, .. } = *object;
+fn text(
+    (scene, problem): (&Scene, &Problem),
+    rows: &[Row],
+    (ended, validity): (&Startup, &[Excess]),
+    steady: Option<Estimate>,
+) -> String {
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
         Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {

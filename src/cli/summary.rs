@@ -302,7 +302,7 @@ fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
     columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), &regime::knudsen(problem, outcome)]);
 }
 
-/// Where the model is out of its depth; nothing if it is not.
+/// Limits of the model that are exceeded; empty if none.
 pub(super) fn limits(validity: &[Excess]) -> String {
     let mut text = String::new();
     for (i, excess) in validity.iter().enumerate() {

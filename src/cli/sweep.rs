@@ -197,7 +197,7 @@ struct Folder<'a> {
     sweep: &'a Sweep,
     part: Option<Part>,
     command: &'a [String],
-    /// Only dropping takes it.
+    /// `None` only while being dropped.
     lock: Option<Lock>,
     /// The folder was made by us, and is removed if nothing comes into it.
     made: bool,
@@ -281,7 +281,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
         let keys = keys.iter().map(ToString::to_string);
         keys.chain(quantities.iter().map(|quantity| quantity.label(sweep.problem()))).collect::<Vec<_>>()
     };
-    // Where the model is out of its depth; nothing if it nowhere is.
+    // Limits of the model that are exceeded; empty if none.
     let limits = if rows.iter().any(|row| !row.outside.is_empty()) { LIMITS } else { "" };
     columns.row(labels(&shown).into_iter().chain([limits.to_owned()]));
     for row in rows {

@@ -50,8 +50,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, method)?;
 
-    let (solved, wall_s) = Bar::rows(published().len())
-        .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.row_done(&row.published.row)));
+    let (solved, wall_s) = Bar::points(published().len(), 0)
+        .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.point_done(&row.published.row)));
     let rows = solved?;
 
     let exit = exit(&rows);

@@ -50,7 +50,7 @@ pub(super) fn ended() -> Result<(), CliError> {
     }
 }
 
-/// Text without what a terminal would obey.
+/// Text with control characters escaped.
 fn lines(text: &str) -> String {
     text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

@@ -11,7 +11,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::digits::{duration, parse_duration, percent, significant};
 use crate::export::files::Files;
-use crate::export::tradeoff::{Object, figure, settings};
+use crate::export::tradeoff::{figure, object, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
 use crate::problem::Problem;
@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let folder = arguments.output.folder()?;
     let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
     let cancel = cancel_on_interrupt();
-    let bar = Bar::share();
+    let bar = Bar::solve("");
     let started = Instant::now();
     let clock = || started.elapsed().as_secs_f64();
     let runs = measure(&problem, candidates(&problem), &effort, &clock, &cancel, &mut |runs, share| {
@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let budget = arguments.budget.map(|time| Target::Budget(time.as_secs_f64()));
     let targets = [arguments.accuracy.map(Target::Accuracy), budget];
     let targets: Vec<Target> = targets.into_iter().flatten().collect();
-    let object = Object { preset: &scene.name, tradeoff: &tradeoff, targets: &targets };
+    let object = object(&scene.name, &tradeoff, &targets);
     let alone = arguments.scene.command(&arguments.preset) + &arguments.memory.option();
     let advice: String = targets.iter().map(|target| advice(&tradeoff, *target, &alone)).collect();
     terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);

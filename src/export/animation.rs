@@ -174,10 +174,7 @@ fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
 
 /// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
 pub fn frames(recording: &Recording, most: usize) -> usize {
-    let steps = recording.frames;
-    let stride = (steps.div_ceil(most.max(1)).max(1)..=steps).find(|stride| steps.is_multiple_of(*stride));
-    let even = stride.map_or(0, |stride| steps / stride);
-    if 2 * even >= most.min(steps) { even } else { most.min(steps) }
+    figures::compare::common_frames(std::iter::once(recording), most)
 }
 
 /// `slowed down 91 000 times`

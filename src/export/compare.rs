@@ -21,10 +21,11 @@ use crate::digits::{change, raised, significant, with_error};
 use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
-use crate::scene::Value;
+use crate::scene;
 use crate::solution::{Outcome, Performance, Status, StoppedBy};
 use crate::solve::{Method, Settings};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// `converged`, `not converged`, `cancelled` or `failed: …`.
@@ -49,75 +50,42 @@ pub fn mark(run: &ComparedRun) -> String {
 pub const TIME_UP: &str = "time was up";
 
 /// The object of `--json`: runs of which the first is what the others differ from, and the keys in which their scenes differ.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// One for each preset.
-    pub runs: &'a [ComparedRun],
-    /// How they were solved.
-    pub settings: &'a Settings,
-}
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { runs, settings } = *self;
-        let rows = results(runs);
-        let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
-        let runs_of = runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) });
-        let differing = parameter_rows(runs).into_iter().filter(ParameterRow::differs).map(ParameterObject);
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("method", settings.method.name())?;
+pub fn object(runs: &[ComparedRun], settings: &Settings) -> Value {
+    let rows = results(runs);
+    let differing = parameter_rows(runs).into_iter().filter(ParameterRow::differs).map(|row| {
+        let ParameterRow { parameter, values } = row;
+        json!({ "key": parameter.key, "unit": parameter.unit, "values": values })
+    });
+    json!({
+        "method": settings.method.name(),
         // The paper's method has no fidelity.
-        let fidelity = (settings.method == Method::Auto).then(|| settings.fidelity.to_string());
-        map.serialize_entry("fidelity", &fidelity)?;
-        map.serialize_entry("runs", &runs_of.collect::<Vec<_>>())?;
-        map.serialize_entry("differing", &differing.collect::<Vec<_>>())?;
-        map.end()
-    }
+        "fidelity": (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
+        "runs": runs.iter().enumerate().map(|(i, run)| run_object(run, i, &rows)).collect::<Vec<_>>(),
+        "differing": differing.collect::<Vec<_>>(),
+    })
 }
 
-/// A key, its unit, and its value in every run, null where there is none.
-struct ParameterObject(ParameterRow);
-
-impl Serialize for ParameterObject {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let ParameterRow { parameter, values } = &self.0;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("key", parameter.key)?;
-        map.serialize_entry("unit", parameter.unit)?;
-        map.serialize_entry("values", values)?;
-        map.end()
+/// A run by its place: the names of `solve --json`, as far as a scene has them.
+fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
+    let mut object = json!({
+        "label": run.label,
+        "preset": run.problem.name,
+        "scene": run.scene.scene(),
+        "status": status(run),
+        "converged": run.converged(),
+        "force_unit": force_unit(&run.problem),
+    });
+    for (name, value) in estimates::named(Quantity::of(&run.problem), &run.numbers()) {
+        object[name] = value;
     }
-}
-
-/// One run: the names of `solve --json`, as far as a scene has them.
-struct RunObject<'a> {
-    run: &'a ComparedRun,
-    differences: Vec<(Quantity, ResultCell)>,
-}
-
-impl Serialize for RunObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("label", &self.run.label)?;
-        map.serialize_entry("preset", &self.run.problem.name)?;
-        map.serialize_entry("scene", self.run.scene.scene())?;
-        map.serialize_entry("status", &status(self.run))?;
-        map.serialize_entry("converged", &self.run.converged())?;
-        map.serialize_entry("force_unit", force_unit(&self.run.problem))?;
-        estimates::add_numbers(&mut map, Quantity::of(&self.run.problem), &self.run.numbers())?;
-        let differences: serde_json::Map<String, serde_json::Value> = self
-            .differences
-            .iter()
-            .filter_map(|(quantity, cell)| Some((quantity.name().to_owned(), cell.difference_percent?.value.into())))
-            .collect();
-        map.serialize_entry("difference_percent", &differences)?;
-        let solution = self.run.solved.as_ref().ok();
-        map.serialize_entry("why", &solution.map(|solution| sentences(&solution.model)))?;
-        map.serialize_entry("validity", &solution.map(|solution| outside(&self.run.problem, Some(solution))))?;
-        map.serialize_entry("warnings", &solution.map(|solution| &solution.warnings))?;
-        map.serialize_entry("scene_toml", &self.run.scene.to_toml())?;
-        map.end()
-    }
+    let difference = |row: &ResultRow| Some((row.quantity.name(), row.cells[place].difference_percent?.value));
+    object["difference_percent"] = json!(rows.iter().filter_map(difference).collect::<BTreeMap<_, _>>());
+    let solution = run.solved.as_ref().ok();
+    object["why"] = solution.map(|solution| sentences(&solution.model)).into();
+    object["validity"] = json!(solution.map(|solution| outside(&run.problem, Some(solution))));
+    object["warnings"] = json!(solution.map(|solution| &solution.warnings));
+    object["scene_toml"] = run.scene.to_toml().into();
+    object
 }
 
 /// The parameters of the runs' scenes.
@@ -172,7 +140,7 @@ pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         let values = row.values.iter().map(|value| match value {
             None => String::new(),
-            Some(Value::Text(text)) => csv_words(text).into_owned(),
+            Some(scene::Value::Text(text)) => csv_words(text).into_owned(),
             Some(value) => value.to_string(),
         });
         let first = [row.parameter.key.to_owned(), row.parameter.unit.to_owned()];
@@ -406,7 +374,7 @@ pub fn report(
     page.finish(&provenance(runs).line())
 }
 
-/// Where the model is out of its depth; nothing if it is not.
+/// Limits of the model that are exceeded; empty if none.
 pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
     if !validity.is_empty() {
         page.warning("Outside the limits of the model:");

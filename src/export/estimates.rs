@@ -2,36 +2,25 @@
 
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::estimate::Estimate;
-use serde::ser::SerializeMap;
+use serde_json::Value;
 
 /// Adds an estimate to an object under two names, as `power_w` and `power_error_w`: its value, and its estimated numerical error,
 /// absolute. What is not known is null.
-pub(super) fn add<M: SerializeMap>(
-    map: &mut M,
-    name: &str,
-    unit: &str,
-    found: Option<Estimate>,
-) -> Result<(), M::Error> {
-    let Estimate { value, error } = found.unwrap_or(Estimate { value: f64::NAN, error: f64::NAN });
-    map.serialize_entry(&format!("{name}{unit}"), &value)?;
-    map.serialize_entry(&format!("{name}_error{unit}"), &error)
+pub(super) fn add(object: &mut Value, name: &str, unit: &str, found: Option<Estimate>) {
+    object[format!("{name}{unit}")] = found.map(|found| found.value).into();
+    object[format!("{name}_error{unit}")] = found.map(|found| found.error).into();
 }
 
-/// Adds numbers of a solve under their names, counts as whole numbers. What is not known is null.
-pub(super) fn add_numbers<M: SerializeMap>(
-    map: &mut M,
+/// Numbers of a solve with their names, counts as whole numbers. What is not known is null.
+pub(super) fn named(
     quantities: impl IntoIterator<Item = Quantity>,
     numbers: &Numbers,
-) -> Result<(), M::Error> {
-    for quantity in quantities {
+) -> impl Iterator<Item = (&'static str, Value)> {
+    quantities.into_iter().map(|quantity| {
         let value = numbers.get(quantity);
-        if quantity.is_count() {
-            map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
-        } else {
-            map.serialize_entry(quantity.name(), &value)?;
-        }
-    }
-    Ok(())
+        let value = if quantity.is_count() { value.map(|count| count as u64).into() } else { value.into() };
+        (quantity.name(), value)
+    })
 }
 
 /// A number that is one; what is not is null in JSON and empty in CSV.

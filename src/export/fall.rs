@@ -1,6 +1,5 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
-use super::estimates;
 use crate::analysis::validity::Excess;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
@@ -10,7 +9,7 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Status;
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 
 /// The plate at the end of a cycle of the vibration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,38 +41,29 @@ impl From<Cycle> for Row {
     }
 }
 
-/// The object of `--json`: a fall that ended, and its cycles. What is not known is null.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// How exactly it was solved.
-    pub fidelity: Fidelity,
-    /// How it ended.
-    pub ended: &'a Fall,
-    /// The limits of the model that it exceeds.
-    pub validity: &'a [Excess],
-    /// One for each cycle.
-    pub rows: &'a [Row],
-    /// Wall time \[s\] by the caller's clock, the periodic solve included.
-    pub wall_s: f64,
-}
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, fidelity, ended, validity, rows, wall_s } = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", &scene.name)?;
-        map.serialize_entry("scene", scene.scene())?;
-        map.serialize_entry("fidelity", &fidelity.to_string())?;
-        map.serialize_entry("converged", &(ended.status == Status::Converged))?;
-        estimates::add(&mut map, "mean_gap", "_um", floats(ended))?;
-        map.serialize_entry("wall_s", wall_s)?;
-        map.serialize_entry("rows", rows)?;
-        map.serialize_entry("validity", validity)?;
-        map.serialize_entry("warnings", &ended.floats.as_ref().err().into_iter().collect::<Vec<_>>())?;
-        map.end()
-    }
+/// The object of `--json`: a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
+/// known is null.
+pub fn object(
+    scene: &Scene,
+    fidelity: Fidelity,
+    ended: &Fall,
+    validity: &[Excess],
+    rows: &[Row],
+    wall_s: f64,
+) -> Value {
+    let floats = floats(ended);
+    json!({
+        "preset": scene.name,
+        "scene": scene.scene(),
+        "fidelity": fidelity.to_string(),
+        "converged": ended.status == Status::Converged,
+        "mean_gap_um": floats.map(|found| found.value),
+        "mean_gap_error_um": floats.map(|found| found.error),
+        "wall_s": wall_s,
+        "rows": rows,
+        "validity": validity,
+        "warnings": ended.floats.as_ref().err().into_iter().collect::<Vec<_>>(),
+    })
 }
 
 /// The mean gap \[µm\] at which it floats; `None` if it does not.

@@ -8,6 +8,7 @@ use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
+use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -274,7 +275,7 @@ pub fn comparison(
     files.text("report.html", &report(runs, settings, all, &movies, folder.command))?;
     files.add("compare.csv", |out| compare::write_csv(runs, out))?;
     files.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
-    files.json("compare.json", &compare::Object { runs, settings })?;
+    files.json("compare.json", &compare::object(runs, settings))?;
     for (name, gif) in &movies {
         files.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
     }
@@ -318,10 +319,15 @@ pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row]) -> Result<Vec<Pat
 }
 
 /// What `squeezefilm fit --out` writes into a folder of a fit to measurements; `problem`: with the values found.
-pub fn fitted(folder: &Folder<'_>, problem: &Problem, fit: &fit::Object<'_>) -> Result<Vec<PathBuf>, WriteError> {
-    let fit::Object { fitted, measured, .. } = *fit;
+pub fn fitted(
+    folder: &Folder<'_>,
+    problem: &Problem,
+    preset: &str,
+    fitted: &Fitted,
+    measured: &Measured,
+) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
-    files.json("fit.json", fit)?;
+    files.json("fit.json", &fit::object(preset, fitted, measured))?;
     files.add("fit.csv", |out| fit::write_csv(fitted, measured, out))?;
     for (name, figure) in fit::figures(problem, fitted, measured) {
         files.figure(name, &figure)?;
@@ -334,13 +340,14 @@ pub fn fitted(folder: &Folder<'_>, problem: &Problem, fit: &fit::Object<'_>) -> 
 pub fn optimum(
     folder: &Folder<'_>,
     problem: &Problem,
-    optimum: &fit::OptimumObject<'_>,
+    preset: &str,
+    found: &Optimum,
 ) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
-    files.json("fit.json", optimum)?;
-    files.add("optimum.csv", |out| fit::write_optimum_csv(optimum.found, out))?;
-    files.figure("optimum", &fit::optimum_figure(problem, optimum.found))?;
-    files.text("fitted.toml", &optimum.found.scene.to_toml())?;
+    files.json("fit.json", &fit::optimum(preset, found))?;
+    files.add("optimum.csv", |out| fit::write_optimum_csv(found, out))?;
+    files.figure("optimum", &fit::optimum_figure(problem, found))?;
+    files.text("fitted.toml", &found.scene.to_toml())?;
     files.commit()
 }
 
@@ -348,7 +355,7 @@ pub fn optimum(
 pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::Found<'_>) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
-    files.json("sensitivity.json", found)?;
+    files.json("sensitivity.json", &found.object())?;
     files.figure("sensitivity", &found.tornado())?;
     if let Some(histogram) = found.histogram() {
         files.add("monte-carlo.csv", |out| found.write_draws(out))?;

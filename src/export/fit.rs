@@ -13,61 +13,42 @@ use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::show_text;
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-/// The object of `fit --json`: a fit, and the measurements beside what is computed. Its numbers are those of [`Fitted`]; what is not known is
-/// null.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// Name of the scene that was fitted.
-    pub preset: &'a str,
-    /// The fit.
-    pub fitted: &'a Fitted,
-    /// What it was fitted to.
-    pub measured: &'a Measured,
+/// The object of `fit --json`: a fit of the scene `preset`, and the measurements beside what is computed. Its numbers are those of [`Fitted`];
+/// what is not known is null.
+pub fn object(preset: &str, fitted: &Fitted, measured: &Measured) -> Value {
+    json!({
+        "preset": preset,
+        "data": measured.name,
+        "converged": fitted.converged,
+        "unknowns": fitted.unknowns.iter().map(unknown).collect::<Vec<_>>(),
+        "chi_squared": fitted.chi_squared,
+        "degrees_of_freedom": fitted.degrees_of_freedom,
+        "errors_known": fitted.errors_known,
+        "error_scale": fitted.error_scale,
+        "numerical_error": fitted.numerical_error,
+        "covariance": fitted.covariance,
+        "correlation": fitted.correlation,
+        "minima": fitted.minima,
+        "rows": rows(fitted, measured),
+        "solves": fitted.solves,
+        "warnings": fitted.warnings,
+    })
 }
 
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { preset, fitted, measured } = *self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", preset)?;
-        map.serialize_entry("data", &measured.name)?;
-        map.serialize_entry("converged", &fitted.converged)?;
-        map.serialize_entry("unknowns", &fitted.unknowns.iter().map(UnknownObject).collect::<Vec<_>>())?;
-        map.serialize_entry("chi_squared", &fitted.chi_squared)?;
-        map.serialize_entry("degrees_of_freedom", &fitted.degrees_of_freedom)?;
-        map.serialize_entry("errors_known", &fitted.errors_known)?;
-        map.serialize_entry("error_scale", &fitted.error_scale)?;
-        map.serialize_entry("numerical_error", &fitted.numerical_error)?;
-        map.serialize_entry("covariance", &fitted.covariance)?;
-        map.serialize_entry("correlation", &fitted.correlation)?;
-        map.serialize_entry("minima", &fitted.minima)?;
-        map.serialize_entry("rows", &rows(fitted, measured))?;
-        map.serialize_entry("solves", &fitted.solves)?;
-        map.serialize_entry("warnings", &fitted.warnings)?;
-        map.end()
-    }
-}
-
-/// An unknown of a fit.
-struct UnknownObject<'a>(&'a FittedUnknown);
-
-impl Serialize for UnknownObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let FittedUnknown { unknown, value, error, at } = self.0;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("key", unknown.parameter.key)?;
-        map.serialize_entry("value", value)?;
-        map.serialize_entry("standard_error", error)?;
-        map.serialize_entry("start", &unknown.start)?;
-        map.serialize_entry("from", &unknown.from)?;
-        map.serialize_entry("to", &unknown.to)?;
-        map.serialize_entry("at_bound", &at.map(Bound::name))?;
-        map.end()
-    }
+fn unknown(FittedUnknown { unknown, value, error, at }: &FittedUnknown) -> Value {
+    json!({
+        "key": unknown.parameter.key,
+        "value": value,
+        "standard_error": error,
+        "start": unknown.start,
+        "from": unknown.from,
+        "to": unknown.to,
+        "at_bound": at.map(Bound::name),
+    })
 }
 
 /// A measurement: a row of the CSV.
@@ -243,64 +224,41 @@ fn correlation(fitted: &Fitted) -> Panel {
     })
 }
 
-/// The object of `fit --maximise --json`. Its numbers are those of [`Optimum`]; what is not known is null.
-#[derive(Clone, Copy, Debug)]
-pub struct OptimumObject<'a> {
-    /// Name of the scene.
-    pub preset: &'a str,
-    /// The optimum.
-    pub found: &'a Optimum,
-}
-
-impl Serialize for OptimumObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Optimum { goal, value, before, limited, lines, converged, solves, warnings, .. } = self.found;
-        let limits = goal.limits.iter().enumerate().map(|(i, (limit, _))| LimitObject(limit, limited.get(i)));
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", self.preset)?;
-        map.serialize_entry("sought", if goal.greatest { "maximise" } else { "minimise" })?;
-        map.serialize_entry("quantity", goal.quantity.name())?;
-        map.serialize_entry("value", &value.value)?;
-        map.serialize_entry("numerical_error", &value.error)?;
-        map.serialize_entry("before", &before.map(|before| before.value))?;
-        map.serialize_entry("converged", converged)?;
-        map.serialize_entry("unknowns", &lines.iter().map(ScanObject).collect::<Vec<_>>())?;
-        map.serialize_entry("limits", &limits.collect::<Vec<_>>())?;
-        map.serialize_entry("solves", solves)?;
-        map.serialize_entry("warnings", warnings)?;
-        map.end()
-    }
+/// The object of `fit --maximise --json` of the scene `preset`. Its numbers are those of [`Optimum`]; what is not known is null.
+pub fn optimum(preset: &str, found: &Optimum) -> Value {
+    let Optimum { goal, value, before, limited, lines, converged, solves, warnings, .. } = found;
+    json!({
+        "preset": preset,
+        "sought": if goal.greatest { "maximise" } else { "minimise" },
+        "quantity": goal.quantity.name(),
+        "value": value.value,
+        "numerical_error": value.error,
+        "before": before.map(|before| before.value),
+        "converged": converged,
+        "unknowns": lines.iter().map(scan).collect::<Vec<_>>(),
+        "limits": goal.limits.iter().enumerate().map(|(i, (one, _))| limit(one, limited.get(i))).collect::<Vec<_>>(),
+        "solves": solves,
+        "warnings": warnings,
+    })
 }
 
 /// An unknown at an optimum.
-struct ScanObject<'a>(&'a Scan);
-
-impl Serialize for ScanObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Scan { unknown, value, at, flat, .. } = self.0;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("key", unknown.parameter.key)?;
-        map.serialize_entry("value", value)?;
-        map.serialize_entry("from", &unknown.from)?;
-        map.serialize_entry("to", &unknown.to)?;
-        map.serialize_entry("at_bound", &at.map(Bound::name))?;
-        map.serialize_entry("flat_from", &flat.0)?;
-        map.serialize_entry("flat_to", &flat.1)?;
-        map.end()
-    }
+fn scan(Scan { unknown, value, at, flat, .. }: &Scan) -> Value {
+    json!({
+        "key": unknown.parameter.key,
+        "value": value,
+        "from": unknown.from,
+        "to": unknown.to,
+        "at_bound": at.map(Bound::name),
+        "flat_from": flat.0,
+        "flat_to": flat.1,
+    })
 }
 
 /// A limit of an optimum, and what is reached.
-struct LimitObject<'a>(&'a Limit, Option<&'a Estimate>);
-
-impl Serialize for LimitObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("limit", &self.0.to_string())?;
-        map.serialize_entry("value", &self.1.map(|reached| reached.value))?;
-        map.serialize_entry("numerical_error", &self.1.map(|reached| reached.error))?;
-        map.end()
-    }
+fn limit(limit: &Limit, reached: Option<&Estimate>) -> Value {
+    let [value, error] = [reached.map(|reached| reached.value), reached.map(|reached| reached.error)];
+    json!({ "limit": limit.to_string(), "value": value, "numerical_error": error })
 }
 
 /// Lines through an optimum, one for each point.

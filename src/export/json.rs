@@ -1,7 +1,8 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use super::estimates::{self, finite};
-use super::torque::Merit;
+use super::exact;
+use super::torque::merit;
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::Comparison;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
@@ -13,6 +14,7 @@ use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
 use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Value, json};
 
 /// The version of the objects, and of the columns of tables.
 pub const SCHEMA: u32 = 1;
@@ -112,15 +114,17 @@ impl Serialize for Summary {
                 Quantity::FilmLoad => map.serialize_entry("force_unit", self.force_unit)?,
                 Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &self.dry_torque_nm)?,
                 Quantity::MinGap => map.serialize_entry("levitated", &self.levitated)?,
-                Quantity::LoadRatio => map.serialize_entry("floating", &self.floating)?,
+                Quantity::LoadRatio => {
+                    map.serialize_entry("floating", &self.floating.as_ref().map(FloatingObject::object))?
+                }
                 _ => {}
             }
             map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
         }
-        map.serialize_entry("merit", &self.torque.as_ref().map(Merit))?;
-        map.serialize_entry("exact", &self.exact)?;
+        map.serialize_entry("merit", &self.torque.as_ref().map(merit))?;
+        map.serialize_entry("exact", &self.exact.as_ref().map(exact::object))?;
         map.serialize_entry("stats", &StatsObject { wall_s: self.wall_s, counted: self.stats })?;
-        map.serialize_entry("model", &ModelObject(&self.model))?;
+        map.serialize_entry("model", &model_object(&self.model))?;
         map.serialize_entry("validity", &self.validity)?;
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
@@ -165,25 +169,27 @@ impl FloatingObject {
     pub fn natural_frequency(&self) -> Option<Estimate> {
         self.stable.then_some(self.found.natural_frequency)
     }
-}
 
-impl Serialize for FloatingObject {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("load_n", &self.load)?;
-        estimates::add(&mut map, "mean_gap", "_um", Some(self.mean_gap_um()))?;
-        map.serialize_entry("stable", &self.stable)?;
-        estimates::add(&mut map, "stiffness", "_n_per_m", Some(self.found.stiffness))?;
-        estimates::add(&mut map, "natural_frequency", "_hz", self.natural_frequency())?;
+    fn object(&self) -> Value {
+        let mut object = json!({ "load_n": self.load });
+        estimates::add(&mut object, "mean_gap", "_um", Some(self.mean_gap_um()));
+        object["stable"] = self.stable.into();
+        estimates::add(&mut object, "stiffness", "_n_per_m", Some(self.found.stiffness));
+        estimates::add(&mut object, "natural_frequency", "_hz", self.natural_frequency());
         let slow = self.found.slow;
-        estimates::add(&mut map, "damping", "_n_s_per_m", slow.map(|slow| slow.damping))?;
-        estimates::add(&mut map, "damping_ratio", "", slow.map(|slow| slow.damping_ratio))?;
-        estimates::add(&mut map, "creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3))?;
-        estimates::add(&mut map, "swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency))?;
-        estimates::add(&mut map, "swing_decay", "_ms", slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3))?;
-        map.serialize_entry("trapped_mean_gap_um", &self.trapped_mean_gap_um)?;
-        map.serialize_entry("small_load_mean_gap_um", &self.small_load_mean_gap_um)?;
-        map.end()
+        estimates::add(&mut object, "damping", "_n_s_per_m", slow.map(|slow| slow.damping));
+        estimates::add(&mut object, "damping_ratio", "", slow.map(|slow| slow.damping_ratio));
+        estimates::add(&mut object, "creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3));
+        estimates::add(&mut object, "swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency));
+        estimates::add(
+            &mut object,
+            "swing_decay",
+            "_ms",
+            slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3),
+        );
+        object["trapped_mean_gap_um"] = self.trapped_mean_gap_um.into();
+        object["small_load_mean_gap_um"] = self.small_load_mean_gap_um.into();
+        object
     }
 }
 
@@ -196,20 +202,15 @@ struct StatsObject {
 }
 
 /// What was modelled, with a sentence for each decision.
-struct ModelObject<'a>(&'a Model);
-
-impl Serialize for ModelObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(model) = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("fidelity", &model.fidelity)?;
-        map.serialize_entry("method", &model.method)?;
-        map.serialize_entry("teeth_solved", &model.teeth_solved)?;
-        map.serialize_entry("half_width", &model.half_width)?;
-        map.serialize_entry("shear", &model.shear)?;
-        map.serialize_entry("why", &sentences(model))?;
-        map.end()
-    }
+fn model_object(model: &Model) -> Value {
+    json!({
+        "fidelity": model.fidelity,
+        "method": model.method,
+        "teeth_solved": model.teeth_solved,
+        "half_width": model.half_width,
+        "shear": model.shear,
+        "why": sentences(model),
+    })
 }
 
 impl Summary {

@@ -8,11 +8,10 @@ use crate::digits::significant;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
 use crate::solution::Status;
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any. It is the object of `--json`, where what is not
-/// known is null.
+/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<'a> {
     /// Results and derivatives.
@@ -62,80 +61,58 @@ pub struct Row {
     pub why: Option<String>,
 }
 
-impl Serialize for Found<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let sensitivity = self.sensitivity;
-        let outputs: Vec<_> = (0..sensitivity.outputs.len()).map(|output| OutputObject(self, output)).collect();
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", &sensitivity.scene().name)?;
-        map.serialize_entry("scene", sensitivity.scene().scene())?;
-        map.serialize_entry("fidelity", &sensitivity.settings().fidelity.to_string())?;
-        map.serialize_entry("converged", &(sensitivity.status() == Status::Converged))?;
-        map.serialize_entry("outputs", &outputs)?;
-        map.serialize_entry("whole_numbers", &sensitivity.whole())?;
-        map.serialize_entry("monte_carlo", &self.carlo.map(CarloObject))?;
-        map.serialize_entry("warnings", sensitivity.warnings())?;
-        map.end()
-    }
-}
-
-/// One result, by its place: its value, the standard deviation that the uncertain keys make, how the random draws are distributed, and a row
-/// for each key.
-struct OutputObject<'a>(&'a Found<'a>, usize);
-
-impl Serialize for OutputObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(found, output) = *self;
-        let of = found.sensitivity.outputs[output];
-        let propagated = found.propagated(output);
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("name", of.name())?;
-        map.serialize_entry("unit", of.unit(found.sensitivity.problem()))?;
-        map.serialize_entry("value", &found.sensitivity.values[output].value)?;
-        map.serialize_entry("error", &found.sensitivity.values[output].error)?;
-        map.serialize_entry("uncertainty", &propagated.as_ref().map(|found| found.deviation.value))?;
-        map.serialize_entry("uncertainty_error", &propagated.as_ref().map(|found| found.deviation.error))?;
-        map.serialize_entry("uncertainty_without", propagated.as_ref().map_or(&[][..], |found| &found.unknown))?;
-        map.serialize_entry("monte_carlo", &found.carlo.and_then(|carlo| carlo.spread(output)).map(SpreadObject))?;
-        map.serialize_entry("by", &found.rows_of(output))?;
-        map.end()
-    }
-}
-
 /// The random draws: where the random numbers began, and how many draws were solved, failed and were drawn again.
-struct CarloObject<'a>(&'a MonteCarlo);
-
-impl Serialize for CarloObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let MonteCarlo { seed, draws, failures, redrawn } = self.0;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("seed", seed)?;
-        map.serialize_entry("solved", &draws.len())?;
-        map.serialize_entry("failed", &failures.len())?;
-        map.serialize_entry("redrawn", redrawn)?;
-        map.end()
-    }
+fn draws(MonteCarlo { seed, draws, failures, redrawn }: &MonteCarlo) -> Value {
+    json!({ "seed": seed, "solved": draws.len(), "failed": failures.len(), "redrawn": redrawn })
 }
 
 /// How the draws of a result are distributed.
-struct SpreadObject(Spread);
-
-impl Serialize for SpreadObject {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(spread) = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("count", &spread.count)?;
-        map.serialize_entry("mean", &spread.mean)?;
-        map.serialize_entry("mean_error", &spread.mean_error())?;
-        map.serialize_entry("standard_deviation", &spread.deviation)?;
-        for (percent, quantile) in [5, 50, 95].into_iter().zip(spread.quantiles) {
-            map.serialize_entry(&format!("quantile_{percent}"), &quantile)?;
-        }
-        map.end()
-    }
+fn spread(spread: Spread) -> Value {
+    json!({
+        "count": spread.count,
+        "mean": spread.mean,
+        "mean_error": spread.mean_error(),
+        "standard_deviation": spread.deviation,
+        "quantile_5": spread.quantiles[0],
+        "quantile_50": spread.quantiles[1],
+        "quantile_95": spread.quantiles[2],
+    })
 }
 
 impl Found<'_> {
+    /// The object of `--json`. What is not known is null.
+    pub fn object(&self) -> Value {
+        let sensitivity = self.sensitivity;
+        json!({
+            "preset": sensitivity.scene().name,
+            "scene": sensitivity.scene().scene(),
+            "fidelity": sensitivity.settings().fidelity.to_string(),
+            "converged": sensitivity.status() == Status::Converged,
+            "outputs": (0..sensitivity.outputs.len()).map(|output| self.output(output)).collect::<Vec<_>>(),
+            "whole_numbers": sensitivity.whole(),
+            "monte_carlo": self.carlo.map(draws),
+            "warnings": sensitivity.warnings(),
+        })
+    }
+
+    /// One result, by its place: its value, the standard deviation that the uncertain keys make, how the random draws are distributed, and
+    /// a row for each key.
+    fn output(&self, output: usize) -> Value {
+        let of = self.sensitivity.outputs[output];
+        let propagated = self.propagated(output);
+        json!({
+            "name": of.name(),
+            "unit": of.unit(self.sensitivity.problem()),
+            "value": self.sensitivity.values[output].value,
+            "error": self.sensitivity.values[output].error,
+            "uncertainty": propagated.as_ref().map(|found| found.deviation.value),
+            "uncertainty_error": propagated.as_ref().map(|found| found.deviation.error),
+            "uncertainty_without": propagated.as_ref().map_or(&[][..], |found| &found.unknown),
+            "monte_carlo": self.carlo.and_then(|carlo| carlo.spread(output)).map(spread),
+            "by": self.rows_of(output),
+        })
+    }
+
     /// To first order; `None` without an uncertain key.
     pub fn propagated(&self, output: usize) -> Option<Propagated> {
         (!self.uncertainties.is_empty()).then(|| self.sensitivity.propagated(output, self.uncertainties))

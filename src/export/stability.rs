@@ -8,23 +8,12 @@ use crate::fidelity::Fidelity;
 use crate::scene::Parameter;
 use crate::solve::Method;
 use serde::Serialize;
+use serde_json::{Value, json};
 
-/// The object of `--json`.
-#[derive(Clone, Debug, Serialize)]
-pub struct Object<'a> {
-    /// Name of the scene whose parameters are mapped.
-    pub preset: &'a str,
-    /// Fidelity of method auto.
-    pub fidelity: String,
-    /// One for each cell.
-    pub cells: Vec<CellObject>,
-}
-
-impl<'a> Object<'a> {
-    /// The object of a survey.
-    pub fn new(preset: &'a str, fidelity: Fidelity, cells: &[Cell]) -> Self {
-        Self { preset, fidelity: fidelity.to_string(), cells: cells.iter().map(CellObject::new).collect() }
-    }
+/// The object of `--json`: the scene whose parameters are mapped, the fidelity of method auto, and the cells.
+pub fn object(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Value {
+    let cells: Vec<_> = cells.iter().map(CellObject::new).collect();
+    json!({ "preset": preset, "fidelity": fidelity.to_string(), "cells": cells })
 }
 
 /// One cell, a row of the CSV. What is not known is null, or empty.

@@ -11,11 +11,11 @@ use crate::scene::Scene;
 use crate::solution::{Accuracy, Outcome, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
     /// From 1.
     pub cycle: usize,
@@ -52,15 +52,20 @@ pub struct Row {
 impl Row {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
-        let mut row = Self {
+        Self {
             cycle: cycle.number,
             time_us: cycle.number as f64 * cycle.recording.period * 1e6,
             change: cycle.change,
             remaining: finite(cycle.remaining),
-            ..Self::default()
-        };
+            ..Self::of_outcome(problem, &cycle.outcome)
+        }
+    }
+
+    /// The means and extremes of a result.
+    pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
+        let mut row = Self::default();
         let parts = |found: Estimate| [found.value, found.error].map(finite);
-        let (loads, thickness, pressure) = match &cycle.outcome {
+        let (loads, thickness, pressure) = match outcome {
             Outcome::Motor(r) => {
                 [row.alpha, row.alpha_error] = parts(r.alpha);
                 row.contact_load_n = finite(r.contact_load.value);
@@ -93,52 +98,39 @@ impl Row {
     }
 }
 
-/// The object of `--json`: a start-up that ended, and its cycles. What is not known is null.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The same, checked and in SI units.
-    pub problem: &'a Problem,
-    /// How it was solved.
-    pub settings: &'a Settings,
-    /// How it ended.
-    pub ended: &'a Startup,
-    /// The limits of the model that it exceeds.
-    pub validity: &'a [Excess],
-    /// One for each cycle.
-    pub rows: &'a [Row],
-    /// Wall time \[s\] by the caller's clock, the periodic solve included.
-    pub wall_s: f64,
-}
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, problem, settings, ended, validity, rows, wall_s } = self;
-        let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", &scene.name)?;
-        map.serialize_entry("scene", scene.scene())?;
-        map.serialize_entry("fidelity", &settings.fidelity.to_string())?;
-        map.serialize_entry("force_unit", force_unit(problem))?;
-        map.serialize_entry("converged", &(ended.status == Status::Converged))?;
-        map.serialize_entry("remaining", &ended.remaining)?;
-        map.serialize_entry("tolerance", &settings.tolerance)?;
-        map.serialize_entry("accuracy_asked", &(asked > 0.0).then_some(asked))?;
-        map.serialize_entry("accuracy_stated", &stated)?;
-        map.serialize_entry("stopped_by", stopped_by.name())?;
-        map.serialize_entry("steady", &steady.map(|found| found.value))?;
-        map.serialize_entry("steady_error", &steady.map(|found| found.error))?;
-        map.serialize_entry("film_steps", &ended.stats.film_steps)?;
-        map.serialize_entry("contact_solves", &ended.stats.contact_solves)?;
-        map.serialize_entry("coupling_iterations", &ended.stats.coupling_iterations)?;
-        map.serialize_entry("unsettled_steps", &ended.stats.unsettled_steps)?;
-        map.serialize_entry("wall_s", wall_s)?;
-        map.serialize_entry("rows", rows)?;
-        map.serialize_entry("validity", validity)?;
-        map.serialize_entry("warnings", &warnings(ended))?;
-        map.end()
-    }
+/// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
+/// known is null.
+pub fn object(
+    (scene, problem): (&Scene, &Problem),
+    settings: &Settings,
+    ended: &Startup,
+    validity: &[Excess],
+    rows: &[Row],
+    wall_s: f64,
+) -> Value {
+    let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
+    json!({
+        "preset": scene.name,
+        "scene": scene.scene(),
+        "fidelity": settings.fidelity.to_string(),
+        "force_unit": force_unit(problem),
+        "converged": ended.status == Status::Converged,
+        "remaining": ended.remaining,
+        "tolerance": settings.tolerance,
+        "accuracy_asked": (asked > 0.0).then_some(asked),
+        "accuracy_stated": stated,
+        "stopped_by": stopped_by.name(),
+        "steady": steady.map(|found| found.value),
+        "steady_error": steady.map(|found| found.error),
+        "film_steps": ended.stats.film_steps,
+        "contact_solves": ended.stats.contact_solves,
+        "coupling_iterations": ended.stats.coupling_iterations,
+        "unsettled_steps": ended.stats.unsettled_steps,
+        "wall_s": wall_s,
+        "rows": rows,
+        "validity": validity,
+        "warnings": warnings(ended),
+    })
 }
 
 /// The limits of the model that its last cycle exceeds; without one, those that the scene alone does.

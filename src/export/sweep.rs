@@ -17,6 +17,7 @@ use crate::scene::{Scale, show_text};
 use crate::solution::StoppedBy;
 use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// Columns before those of the keys: which sweep, and which of its points.
@@ -87,7 +88,7 @@ impl Serialize for Object<'_> {
         map.serialize_entry("complete", &(rows.len() == sweep.len()))?;
         // As in the first column of the CSV.
         map.serialize_entry("sweep", &sweep.fingerprint())?;
-        map.serialize_entry("axes", &sweep.axes().iter().map(AxisObject).collect::<Vec<_>>())?;
+        map.serialize_entry("axes", &sweep.axes().iter().map(axis_object).collect::<Vec<_>>())?;
         map.serialize_entry("rows", &rows_of.collect::<Vec<_>>())?;
         map.serialize_entry("published", &sweep.published())?;
         map.end()
@@ -95,26 +96,17 @@ impl Serialize for Object<'_> {
 }
 
 /// An axis: its key, the unit, how its values are spaced (`linear`, `log`, or of words `list`), and the values, numbers or words as in `--set`.
-struct AxisObject<'a>(&'a SweepAxis);
-
-impl Serialize for AxisObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(axis) = self;
-        let scale = match axis.scale {
-            _ if !axis.words.is_empty() => "list",
-            Scale::Log => "log",
-            Scale::Linear => "linear",
-        };
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("key", axis.parameter.key)?;
-        map.serialize_entry("unit", axis.parameter.unit)?;
-        map.serialize_entry("scale", scale)?;
-        map.serialize_entry("values", &axis.values.iter().map(|value| json_value(axis, *value)).collect::<Vec<_>>())?;
-        map.end()
-    }
+fn axis_object(axis: &SweepAxis) -> Value {
+    let scale = match axis.scale {
+        _ if !axis.words.is_empty() => "list",
+        Scale::Log => "log",
+        Scale::Linear => "linear",
+    };
+    let values: Vec<Value> = axis.values.iter().map(|value| json_value(axis, *value)).collect();
+    json!({ "key": axis.parameter.key, "unit": axis.parameter.unit, "scale": scale, "values": values })
 }
 
-fn json_value(axis: &SweepAxis, value: f64) -> serde_json::Value {
+fn json_value(axis: &SweepAxis, value: f64) -> Value {
     if axis.words.is_empty() { value.into() } else { axis.text(value).into() }
 }
 
@@ -127,16 +119,15 @@ struct RowObject<'a> {
 
 impl Serialize for RowObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry(FIRST[1], &self.row.point)?;
-        for (axis, value) in self.axes.iter().zip(&self.row.values) {
-            map.serialize_entry(axis.parameter.key, &json_value(axis, *value))?;
-        }
-        map.serialize_entry(STATUS, &self.row.status.to_string())?;
-        map.serialize_entry(STOPPED_BY, &self.row.stopped_by.map(StoppedBy::name))?;
-        map.serialize_entry(VALIDITY, &self.row.outside)?;
-        estimates::add_numbers(&mut map, self.quantities.iter().copied(), &self.row.numbers)?;
-        map.end()
+        let Self { axes, quantities, row } = self;
+        let keys = axes.iter().zip(&row.values).map(|(axis, value)| (axis.parameter.key, json_value(axis, *value)));
+        let how = [
+            (STATUS, row.status.to_string().into()),
+            (STOPPED_BY, row.stopped_by.map(StoppedBy::name).into()),
+            (VALIDITY, json!(row.outside)),
+        ];
+        let numbers = estimates::named(quantities.iter().copied(), &row.numbers);
+        serializer.collect_map([(FIRST[1], row.point.into())].into_iter().chain(keys).chain(how).chain(numbers))
     }
 }
 

@@ -5,54 +5,28 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Family, Point, Target, Tradeoff};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 
 /// The object of `--json`: the settings of a scene, and those that serve what was asked for, if anything.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// Name of the scene.
-    pub preset: &'a str,
-    /// The settings.
-    pub tradeoff: &'a Tradeoff,
-    /// What was asked for.
-    pub targets: &'a [Target],
-}
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { preset, tradeoff, targets } = *self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", preset)?;
-        map.serialize_entry("judged", tradeoff.judged.name())?;
-        let reference = tradeoff.reference.map(|i| &tradeoff.points[i].run.candidate.name);
-        map.serialize_entry("reference", &reference)?;
-        map.serialize_entry("settings", &settings(tradeoff))?;
-        let chosen = targets.iter().map(|target| ChoiceObject { tradeoff, target: *target });
-        map.serialize_entry("chosen", &chosen.collect::<Vec<_>>())?;
-        map.end()
-    }
+pub fn object(preset: &str, tradeoff: &Tradeoff, targets: &[Target]) -> Value {
+    json!({
+        "preset": preset,
+        "judged": tradeoff.judged.name(),
+        "reference": tradeoff.reference.map(|i| &tradeoff.points[i].run.candidate.name),
+        "settings": settings(tradeoff),
+        "chosen": targets.iter().map(|target| choice(tradeoff, *target)).collect::<Vec<_>>(),
+    })
 }
 
 /// What was asked for, a share or a time \[s\], and the setting that serves it with its options on the command line; null if none does.
-struct ChoiceObject<'a> {
-    tradeoff: &'a Tradeoff,
-    target: Target,
-}
-
-impl Serialize for ChoiceObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let chosen = self.tradeoff.choose(self.target).map(|i| &self.tradeoff.points[i].run.candidate);
-        let (wish, value) = match self.target {
-            Target::Accuracy(share) => ("accuracy", share),
-            Target::Budget(seconds) => ("budget_s", seconds),
-        };
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("wish", wish)?;
-        map.serialize_entry("value", &value)?;
-        map.serialize_entry("setting", &chosen.map(|candidate| &candidate.name))?;
-        map.serialize_entry("options", &chosen.map(|candidate| &candidate.options))?;
-        map.end()
-    }
+fn choice(tradeoff: &Tradeoff, target: Target) -> Value {
+    let chosen = tradeoff.choose(target).map(|i| &tradeoff.points[i].run.candidate);
+    let (wish, value) = match target {
+        Target::Accuracy(share) => ("accuracy", share),
+        Target::Budget(seconds) => ("budget_s", seconds),
+    };
+    let [setting, options] = [chosen.map(|candidate| &candidate.name), chosen.map(|candidate| &candidate.options)];
+    json!({ "wish": wish, "value": value, "setting": setting, "options": options })
 }
 
 /// One setting, a row of the CSV. What is not known is null, or empty.

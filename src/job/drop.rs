@@ -5,13 +5,12 @@ use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::fall::{CYCLES, Cycle, Fall, fall};
 use crate::fidelity::Fidelity;
-use crate::solution::Status;
 use crate::startup::Settings;
 use serde::{Deserialize, Serialize};
 
 /// A drop, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Dropping {
+pub struct DropWork {
     /// The plate, with what it floats on.
     pub posed: Posed,
     /// The fidelity of its grids and steps.
@@ -19,21 +18,18 @@ pub struct Dropping {
 }
 
 /// A drop in the background.
-pub type DropTask = TaskOf<Dropping>;
+pub type DropTask = TaskOf<DropWork>;
 
-impl Work for Dropping {
+impl Work for DropWork {
     const NAME: &'static str = "drop";
     type Message = Cycle;
-    /// How the drop ended, or why it failed.
-    type Found = Result<Fall, String>;
+    /// How the drop ended.
+    type Found = Fall;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Found>, String> {
         let mut each = |cycle| tell(cycle);
         let found = fall(&self.posed.problem, self.fidelity, CYCLES, Settings::default().tolerance, &mut each, cancel);
-        found.map_err(|error| error.to_string())?.ok_or_else(|| "there is no plate under a load".to_owned())
-    }
-
-    fn ended() -> Self::Found {
-        Ok(Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()), outcome: None })
+        let ended = found.map_err(|error| error.to_string())?;
+        ended.map(Some).ok_or_else(|| "there is no plate under a load".to_owned())
     }
 }

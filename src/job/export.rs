@@ -14,7 +14,6 @@ use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
-use crate::export::fit::{Object, OptimumObject};
 use crate::export::json::Summary;
 use crate::export::sweep::{figure_of, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
@@ -119,19 +118,16 @@ impl Work for Files {
     const NAME: &'static str = "files";
     /// How many pictures of an animation are drawn, of how many.
     type Message = (usize, usize);
-    /// The paths of the files that were written, or why there are none; `Err(None)` if it was cancelled.
-    type Found = Result<Vec<PathBuf>, Option<String>>;
+    /// The paths of the files that were written.
+    type Found = Vec<PathBuf>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Result<Option<Self::Found>, String> {
         let control = Control { cancel, drawn: &|drawn, all| tell((drawn, all)) };
-        write(&self.path, self.content, &control).map_err(|error| match error {
-            ExportError::Cancelled => None,
-            error => Some(error.to_string()),
-        })
-    }
-
-    fn ended() -> Self::Found {
-        Err(None)
+        match write(&self.path, self.content, &control) {
+            Ok(paths) => Ok(Some(paths)),
+            Err(ExportError::Cancelled) => Ok(None),
+            Err(error) => Err(error.to_string()),
+        }
     }
 }
 
@@ -161,10 +157,8 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Fit(name, posed, found) => {
             let (out, preset, problem) = (folder(path, BESIDE_DATA), name.as_str(), &posed.problem);
             match &*found {
-                fit::Found::Fit(measured, fitted) => {
-                    files::fitted(&out, problem, &Object { preset, fitted, measured })?
-                }
-                fit::Found::Optimum(found) => files::optimum(&out, problem, &OptimumObject { preset, found })?,
+                fit::Found::Fit(measured, fitted) => files::fitted(&out, problem, preset, fitted, measured)?,
+                fit::Found::Optimum(found) => files::optimum(&out, problem, preset, found)?,
             }
         }
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
@@ -193,7 +187,7 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
 fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
     let SolvedScene { scene, problem, fidelity, solution, wall_s, history, .. } = run;
     let solved = Solved { scene, problem, solution, history, torque: None };
-    let merit = || TorqueCurves::of_solve(problem, *fidelity, solution, control.cancel);
+    let merit = || TorqueCurves::of(problem, *fidelity, solution, control.cancel);
     match what {
         OfRun::Data => {
             let mut summary = Summary::new(problem, solution, *wall_s, &[]);

@@ -12,33 +12,29 @@ use std::path::PathBuf;
 
 /// A file of heights, as it is sent to the thread or worker that reads it. In a page its content goes with it, because a worker has no files.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Heights {
+pub struct FaceWork {
     path: PathBuf,
     bytes: Option<Vec<u8>>,
 }
 
-impl Heights {
+impl FaceWork {
     /// The file at this path.
     pub fn new(path: PathBuf) -> Self {
         Self { bytes: handed_over(&path), path }
     }
 }
 
-impl Work for Heights {
+impl Work for FaceWork {
     const NAME: &'static str = "face";
     type Message = ();
-    /// The heights after levelling, with roughness and summits; or why the file has none.
-    type Found = Result<(HeightMap, Texture), String>;
+    /// The heights after levelling, with roughness and summits.
+    type Found = (HeightMap, Texture);
 
-    fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
+    fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
         let Self { path, bytes } = self;
         let bytes = bytes.map_or_else(|| read_bytes(&path, LARGEST), Ok);
         let found = bytes.and_then(text).map_err(|error| error.to_string());
         let found = found.and_then(|text| measured(&text, 1).map_err(|error| error.to_string()));
-        found.map_err(|reason| format!("{}: {reason}", path.display()))
-    }
-
-    fn ended() -> Self::Found {
-        Err("It was ended before it was read.".to_owned())
+        found.map(Some).map_err(|reason| format!("{}: {reason}", path.display()))
     }
 }

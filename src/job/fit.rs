@@ -14,7 +14,7 @@ use std::sync::Arc;
 const STARTS: usize = 16;
 
 /// A search in the background.
-pub type FitTask = TaskOf<Asked>;
+pub type FitTask = TaskOf<FitWork>;
 
 /// What was found.
 #[derive(Debug, Serialize, Deserialize)]
@@ -48,7 +48,7 @@ impl Found {
 /// A search, as it is sent to the thread or worker that does it: for an optimum if there is a goal, or else for agreement with
 /// measurements.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Asked {
+pub struct FitWork {
     /// The scene whose keys are chosen.
     pub scene: Scene,
     /// The measurements, of a fit.
@@ -61,14 +61,13 @@ pub struct Asked {
     pub settings: Settings,
 }
 
-impl Work for Asked {
+impl Work for FitWork {
     const NAME: &'static str = "fit";
     /// How many points were tried, with the least χ² or the best number so far.
     type Message = (usize, f64);
-    /// What was found, or why there is nothing; `None` if it was cancelled.
-    type Found = Result<Option<Found>, String>;
+    type Found = Found;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, f64)) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, f64)) + Sync)) -> Result<Option<Self::Found>, String> {
         let Self { scene, measured, bounds, goal, settings } = self;
         let told = |points: usize, best: f64| tell((points, best));
         let solve = || {
@@ -82,9 +81,5 @@ impl Work for Asked {
             Ok(found.map(|fitted| Found::Fit(measured, fitted)))
         };
         pooled(solve).map_err(|error: AnalysisError| error.to_string())
-    }
-
-    fn ended() -> Self::Found {
-        Ok(None)
     }
 }

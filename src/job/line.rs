@@ -15,7 +15,7 @@ const SPARE: usize = 2;
 #[derive(Debug)]
 pub(super) enum Told<M, R> {
     Message(M),
-    End(R),
+    End(Result<Option<R>, String>),
     /// The worker has failed, with this text, and has ended.
     Failed(String),
 }

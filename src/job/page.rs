@@ -36,20 +36,14 @@ pub(super) struct Step {
 impl Work for Step {
     const NAME: &'static str = "solve";
     type Message = Progress;
-    /// The solution, or the message for the user.
-    type Found = Result<Timed, String>;
+    type Found = Timed;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
-        let found = WARM.with_borrow_mut(|warm| {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Found>, String> {
+        WARM.with_borrow_mut(|warm| {
             let warm = warm.entry(self.fidelity).or_default();
             let effort = (self.fidelity, self.budget);
             solved(&self.posed.problem, effort, Instant::now, warm, cancel, |progress| tell(*progress))
-        });
-        found.unwrap_or_else(Self::ended)
-    }
-
-    fn ended() -> Self::Found {
-        Err("cancelled".to_owned())
+        })
     }
 }
 
@@ -202,12 +196,14 @@ fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as
             running.history.push(progress);
             return this.tell(Event::Progress { number, fidelity, progress });
         }
-        Told::End(Ok(timed)) => {
+        Told::End(Ok(Some(timed))) => {
             let history = std::mem::take(&mut running.history);
             let Request { scene, problem, .. } = &running.request;
             let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
+        // A worker is ended when it is cancelled.
+        Told::End(Ok(None)) => running.left.clear(),
         Told::End(Err(message)) => {
             running.left.clear();
             this.tell(failed(message));

@@ -11,30 +11,25 @@ use serde::{Deserialize, Serialize};
 
 /// A scene to be compared, as it is sent to the thread or worker that solves it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Compared {
+pub struct PinWork {
     /// The scene.
     pub scene: Scene,
     /// The fidelity that it is solved at.
     pub fidelity: Fidelity,
 }
 
-impl Work for Compared {
+impl Work for PinWork {
     const NAME: &'static str = "pin";
     type Message = ();
-    /// `None` if it was cancelled.
-    type Found = Option<ComparedRun>;
+    type Found = ComparedRun;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
         let settings = Settings { fidelity: self.fidelity, ..Settings::default() };
         // Every scene is solved by this method, and a run that was cancelled has nobody who waits for it.
         let solved = runs(&[self.scene], &settings, cancel, &|_| ()).ok().filter(|_| !cancel.is_cancelled());
-        solved?.into_iter().next()
-    }
-
-    fn ended() -> Self::Found {
-        None
+        Ok(solved.and_then(|runs| runs.into_iter().next()))
     }
 }
 
 /// The solve of a scene to be compared.
-pub type PinTask = TaskOf<Compared>;
+pub type PinTask = TaskOf<PinWork>;

@@ -8,24 +8,19 @@ use crate::problem::Scenario;
 use serde::{Deserialize, Serialize};
 
 /// The computation in the background.
-pub type RotorTask = TaskOf<Alone>;
+pub type RotorTask = TaskOf<RotorWork>;
 
 /// A motor, as it is sent to the thread or worker that computes its rotor.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Alone(pub Posed);
+pub struct RotorWork(pub Posed);
 
-impl Work for Alone {
+impl Work for RotorWork {
     const NAME: &'static str = "rotor";
     type Message = ();
-    /// The curves, or why there are none; `None` if it was cancelled.
-    type Found = Option<Result<RotorCurves, String>>;
+    type Found = RotorCurves;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
-        let Scenario::Motor(motor) = &self.0.problem.scenario else { return None };
-        RotorCurves::of(motor, cancel).map_err(|error| error.to_string()).transpose()
-    }
-
-    fn ended() -> Self::Found {
-        None
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+        let Scenario::Motor(motor) = &self.0.problem.scenario else { return Ok(None) };
+        RotorCurves::of(motor, cancel).map_err(|error| error.to_string())
     }
 }

@@ -27,19 +27,14 @@ impl Work for Derivatives {
     const NAME: &'static str = "sensitivity";
     /// The share that is done, 0 to 1.
     type Message = f64;
-    /// The derivatives, or why there are none; `None` if it was cancelled.
-    type Found = Option<Result<Box<Sensitivity>, String>>;
+    type Found = Box<Sensitivity>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Found>, String> {
         let count = AtomicUsize::new(0);
         let solved = |all: usize| tell(one_more(&count, all));
         let none: [&str; 0] = [];
         let found = Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved);
-        found.map(|found| found.map(Box::new)).map_err(|error| error.to_string()).transpose()
-    }
-
-    fn ended() -> Self::Found {
-        None
+        found.map(|found| found.map(Box::new)).map_err(|error| error.to_string())
     }
 }
 
@@ -60,17 +55,12 @@ impl Work for Draws {
     const NAME: &'static str = "monte-carlo";
     /// The share that is done, 0 to 1.
     type Message = f64;
-    /// `None` if it was cancelled.
-    type Found = Option<MonteCarlo>;
+    type Found = MonteCarlo;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Found>, String> {
         let Self { sensitivity, uncertainties, draws, seed } = self;
         let count = AtomicUsize::new(0);
         let solved = || tell(one_more(&count, draws));
-        sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved)
-    }
-
-    fn ended() -> Self::Found {
-        None
+        Ok(sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved))
     }
 }

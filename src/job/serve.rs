@@ -1,17 +1,17 @@
 //! The worker of a page: it receives work with its name, does it, and sends back messages and the result.
 
-use super::drop::Dropping;
+use super::drop::DropWork;
 use super::export::Files;
-use super::face::Heights;
-use super::fit::Asked;
+use super::face::FaceWork;
+use super::fit::FitWork;
 use super::line::{end, message};
 use super::page::Step;
-use super::pin::Compared;
-use super::rotor::Alone;
+use super::pin::PinWork;
+use super::rotor::RotorWork;
 use super::sensitivity::{Derivatives, Draws};
-use super::startup::FromRest;
-use super::sweep::Points;
-use super::torque::Curves;
+use super::startup::StartupWork;
+use super::sweep::SweepWork;
+use super::torque::TorqueWork;
 use super::tradeoff::Measurement;
 use super::work::Work;
 use crate::control::Cancel;
@@ -35,18 +35,18 @@ type Serve = fn(&[u8]);
 /// All kinds of work that a worker can do.
 const WORKS: &[(&str, Serve)] = &[
     (Step::NAME, run::<Step>),
-    (Compared::NAME, run::<Compared>),
-    (Curves::NAME, run::<Curves>),
-    (FromRest::NAME, run::<FromRest>),
-    (Dropping::NAME, run::<Dropping>),
-    (Points::NAME, run::<Points>),
+    (PinWork::NAME, run::<PinWork>),
+    (TorqueWork::NAME, run::<TorqueWork>),
+    (StartupWork::NAME, run::<StartupWork>),
+    (DropWork::NAME, run::<DropWork>),
+    (SweepWork::NAME, run::<SweepWork>),
     (Measurement::NAME, run::<Measurement>),
-    (Alone::NAME, run::<Alone>),
-    (Asked::NAME, run::<Asked>),
+    (RotorWork::NAME, run::<RotorWork>),
+    (FitWork::NAME, run::<FitWork>),
     (Derivatives::NAME, run::<Derivatives>),
     (Draws::NAME, run::<Draws>),
     (Files::NAME, run::<Files>),
-    (Heights::NAME, run::<Heights>),
+    (FaceWork::NAME, run::<FaceWork>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

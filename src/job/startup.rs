@@ -10,29 +10,26 @@ const AHEAD: usize = 4;
 
 /// A start-up, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct FromRest {
+pub struct StartupWork {
     /// The scene that is started.
     pub posed: Posed,
     /// How it is solved.
     pub settings: Settings,
 }
 
-impl Work for FromRest {
+impl Work for StartupWork {
     const NAME: &'static str = "startup";
     const AHEAD: Option<usize> = Some(AHEAD);
     type Message = Cycle;
-    /// How the start-up ended, or why it failed.
-    type Found = Result<Startup, String>;
+    /// How the start-up ended.
+    type Found = Startup;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Found>, String> {
         // Kept are also those that wait to be taken, and the one that the thread holds while it waits for room.
         let settings = Settings { kept: self.settings.kept + AHEAD + 1, ..self.settings };
         startup::startup(&self.posed.problem, &settings, &mut |cycle| tell(cycle), cancel)
+            .map(Some)
             .map_err(|error| error.to_string())
-    }
-
-    fn ended() -> Self::Found {
-        Ok(Startup::cancelled())
     }
 }
 
@@ -45,9 +42,9 @@ mod tests {
     use crate::solution::Status;
     use std::time::Duration;
 
-    fn draft(posed: Posed, cycles: usize) -> TaskOf<FromRest> {
+    fn draft(posed: Posed, cycles: usize) -> TaskOf<StartupWork> {
         let settings = Settings { fidelity: Fidelity::Draft, cycles, ..Settings::default() };
-        Task::of(FromRest { posed, settings }, |_| ()).unwrap()
+        Task::of(StartupWork { posed, settings }, |_| ()).unwrap()
     }
 
     #[test]

@@ -19,24 +19,24 @@ pub enum SweepMessage {
 }
 
 /// A sweep in the background.
-pub type SweepTask = TaskOf<Points>;
+pub type SweepTask = TaskOf<SweepWork>;
 
 /// A sweep, as it is sent to the thread or worker that computes it. The points are built there, unless they are known, and solved.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Points {
-    /// Points to be built, at most 100 000: the scene, the keys that are varied, and how it is solved.
+pub enum SweepWork {
+    /// SweepWork to be built, at most 100 000: the scene, the keys that are varied, and how it is solved.
     New(Scene, Vec<Vary>, Settings),
     /// A sweep whose points are built, and the rows that are solved already.
     Known(Arc<Sweep>, Vec<Row>),
 }
 
-impl Work for Points {
+impl Work for SweepWork {
     const NAME: &'static str = "sweep";
     type Message = SweepMessage;
-    /// All rows in order, or why there are none.
-    type Found = Result<Vec<Row>, String>;
+    /// All rows in order.
+    type Found = Vec<Row>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Result<Option<Self::Found>, String> {
         let (sweep, done) = match self {
             Self::New(scene, vary, settings) => {
                 let sweep = Arc::new(Sweep::new(&scene, &vary, &settings).map_err(|error| error.in_place())?);
@@ -46,10 +46,6 @@ impl Work for Points {
             Self::Known(sweep, done) => (sweep, done),
         };
         let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(Box::new(row.clone()))));
-        Ok(pooled(solve))
-    }
-
-    fn ended() -> Self::Found {
-        Ok(Vec::new())
+        Ok(Some(pooled(solve)))
     }
 }

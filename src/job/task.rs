@@ -19,7 +19,9 @@ pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
 
 /// All messages of a task and its end, for tests.
 #[cfg(test)]
-pub(super) fn to_the_end<M: Send + 'static, R: Send + 'static>(task: &Task<M, R>) -> (Vec<M>, Result<R, String>) {
+pub(super) fn to_the_end<M: Send + 'static, R: Send + 'static>(
+    task: &Task<M, R>,
+) -> (Vec<M>, Result<Option<R>, String>) {
     let mut seen = Vec::new();
     for _ in 0..6000 {
         let News { messages, end } = task.drain();

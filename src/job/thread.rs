@@ -147,13 +147,13 @@ fn refine(
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
         match found {
-            None => return,
-            Some(Ok(timed)) => {
+            Ok(None) => return,
+            Ok(Some(timed)) => {
                 let Request { scene, problem, .. } = request;
                 let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
                 tell(Event::Solved(Arc::new(run)));
             }
-            Some(Err(message)) => {
+            Err(message) => {
                 tell(Event::Failed { number, message });
                 return;
             }

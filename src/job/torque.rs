@@ -10,25 +10,18 @@ use std::sync::Arc;
 
 /// The run whose curves are computed, as it is sent to the thread or worker that does it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Curves(pub Arc<SolvedScene>);
+pub struct TorqueWork(pub Arc<SolvedScene>);
 
 /// The computation in the background.
-pub type TorqueTask = TaskOf<Curves>;
+pub type TorqueTask = TaskOf<TorqueWork>;
 
-impl Work for Curves {
+impl Work for TorqueWork {
     const NAME: &'static str = "torque";
     type Message = ();
-    /// The curves, or why there are none; `None` if it was cancelled.
-    type Found = Option<Result<TorqueCurves, String>>;
+    type Found = TorqueCurves;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
         let SolvedScene { problem, fidelity, solution, .. } = &*self.0;
-        TorqueCurves::of_solve(problem, *fidelity, solution, cancel)
-            .map_err(|error| format!("without film, {error}"))
-            .transpose()
-    }
-
-    fn ended() -> Self::Found {
-        None
+        TorqueCurves::of(problem, *fidelity, solution, cancel).map_err(|error| format!("without film, {error}"))
     }
 }

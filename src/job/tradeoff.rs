@@ -33,15 +33,11 @@ impl Work for Measurement {
     /// All settings with what was measured of them.
     type Found = Vec<MeasuredSetting>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Found>, String> {
         let started = (self.now)();
         let clock = || (self.now)().duration_since(started).as_secs_f64();
         let mut each = |runs: &[MeasuredSetting], share| tell((runs.to_vec(), share));
-        measure(&self.posed.problem, self.candidates, &self.effort, &clock, cancel, &mut each)
-    }
-
-    fn ended() -> Self::Found {
-        Vec::new()
+        Ok(Some(measure(&self.posed.problem, self.candidates, &self.effort, &clock, cancel, &mut each)))
     }
 }
 
@@ -65,7 +61,7 @@ mod tests {
     #[test]
     fn it_measures_and_says_when_it_has_ended() {
         let (told, end) = to_the_end(&start(Fidelity::Draft, 3));
-        let runs = end.unwrap();
+        let runs = end.unwrap().unwrap();
         assert_eq!((runs[0].times.len(), told.last().unwrap().1), (3, 1.0));
         assert_eq!(runs[0].status, RunStatus::Converged);
     }

@@ -6,7 +6,7 @@ use crate::scene::{Scene, SceneError};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// Work, with all data that it needs.
+/// A background job with all its data, so that it can be sent to a thread or a web worker.
 pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     /// Its name, by which a worker knows it.
     const NAME: &'static str;
@@ -17,11 +17,8 @@ pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     /// The result.
     type Found: Serialize + DeserializeOwned + Send + 'static;
 
-    /// Does the work. It checks `cancel`, and sends messages through `tell`.
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Self::Found;
-
-    /// The result if the work is ended before it has found anything.
-    fn ended() -> Self::Found;
+    /// Does the work. It checks `cancel`, and sends messages through `tell`. `None` if it was cancelled before it found anything.
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Result<Option<Self::Found>, String>;
 }
 
 /// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
@@ -34,8 +31,8 @@ impl<F: Fn(bool) + Send + Sync + 'static> Wake for F {}
 pub struct News<M, R> {
     /// Messages, in order.
     pub messages: Vec<M>,
-    /// The result of the work, or the text of its panic; `None` while more may come.
-    pub end: Option<Result<R, String>>,
+    /// The result of the work, none if it was cancelled, or why it failed; `None` while more may come.
+    pub end: Option<Result<Option<R>, String>>,
 }
 
 /// A scene and the problem that it poses. As bytes it is the scene's file.
@@ -78,10 +75,10 @@ pub(super) mod tests {
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
     use crate::job::SolvedScene;
-    use crate::job::face::Heights;
-    use crate::job::pin::Compared;
-    use crate::job::sweep::Points;
-    use crate::job::torque::Curves;
+    use crate::job::face::FaceWork;
+    use crate::job::pin::PinWork;
+    use crate::job::sweep::SweepWork;
+    use crate::job::torque::TorqueWork;
     use crate::scene::presets;
     use crate::solution::Stats;
     use crate::solve::{Settings, solve};
@@ -135,14 +132,14 @@ pub(super) mod tests {
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, false, 0.5);
         let run = SolvedScene::of(1, posed.scene.clone(), &posed.problem, Fidelity::Draft, timed, Vec::new());
-        both(Curves(Arc::new(run)));
-        both(Compared { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
+        both(TorqueWork(Arc::new(run)));
+        both(PinWork { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
         let face = tempfile::NamedTempFile::new().unwrap();
         let row = |y: usize| (0..20).map(|x| format!("{}", (x * y + x * x) % 7)).collect::<Vec<_>>().join(",");
         let heights = (0..20).map(row).collect::<Vec<_>>().join("\n");
         std::fs::write(&face, format!("# dx_um = 0.5\n# dy_um = 0.5\n# height = nm\n{heights}\n")).unwrap();
-        both(Heights::new(face.path().to_owned()));
-        both(Points::New(posed.scene.clone(), vec!["film.min_spacing_nm=100:300:3".parse().unwrap()], draft()));
+        both(FaceWork::new(face.path().to_owned()));
+        both(SweepWork::New(posed.scene.clone(), vec!["film.min_spacing_nm=100:300:3".parse().unwrap()], draft()));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A lesson as data: its steps, questions and tasks.
 
 use super::check::{Check, Name};
-use super::text::{Block, Inline};
+use super::text::{Block, Inline, plain};
 use crate::scene::{Parameter, Scene};
 use serde::{Deserialize, Serialize};
 
@@ -166,6 +166,25 @@ impl Answer {
                 (number - value).abs() <= within * value.abs() * (1.0 + 1e-9)
             }
             _ => false,
+        }
+    }
+
+    /// The right answer.
+    pub fn right(&self) -> Prediction {
+        match self {
+            Self::Choice { right, .. } => Prediction::Choice(*right),
+            Self::Number { value, .. } => Prediction::Number(*value),
+        }
+    }
+
+    /// An answer in words.
+    pub fn words(&self, given: Prediction) -> String {
+        match (self, given) {
+            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => {
+                choices.get(choice).map(|choice| plain(&choice.text)).unwrap_or_default()
+            }
+            (Self::Number { unit, .. }, Prediction::Number(number)) => format!("{number} {unit}").trim().to_owned(),
+            _ => String::new(),
         }
     }
 

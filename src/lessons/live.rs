@@ -4,10 +4,11 @@
 use crate::analysis::exact::{self, Harmonic};
 use crate::analysis::quantity::numbers;
 use crate::analysis::torque::TorqueCurves;
+use crate::export::startup::Row;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
 use crate::scene::Belongs;
-use crate::solution::{Outcome, PlateResult};
+use crate::solution::PlateResult;
 
 numbers! {
     /// One number of a tab. In the table below, the last entry is the name of the tab.
@@ -69,17 +70,12 @@ impl Readings {
         self.set(Live::HeldPeak, peak.max(mean_pressure * 1e-3));
     }
 
-    /// Takes the numbers of a cycle of a start-up: its number, the change that is still to come, and its result.
-    pub fn read_cycle(&mut self, number: usize, remaining: f64, outcome: &Outcome, scenario: &Scenario) {
-        self.set(Live::Cycles, number as f64);
-        self.set(Live::Remaining, remaining);
-        match (outcome, scenario) {
-            (Outcome::Motor(result), _) => self.set(Live::StartAlpha, result.alpha.value),
-            (Outcome::Plate(result), Scenario::Plate(plate)) => {
-                self.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load.value, plate));
-            }
-            _ => {}
-        }
+    /// Takes the numbers of a cycle of a start-up.
+    pub fn read_cycle(&mut self, row: &Row) {
+        self.set(Live::Cycles, row.cycle as f64);
+        self.set(Live::Remaining, row.remaining.unwrap_or(f64::INFINITY));
+        row.alpha.into_iter().for_each(|alpha| self.set(Live::StartAlpha, alpha));
+        row.load_ratio.into_iter().for_each(|ratio| self.set(Live::StartLoadRatio, ratio));
     }
 
     /// Takes the numbers of a motor's curves over speed.

@@ -1,14 +1,13 @@
 //! The record of a student's answers as a file, CSV or JSON lines with the verbs of xAPI, and a summary of the records of a class.
 
-use super::lesson::{Answer, Kind, Lesson, Prediction, Question};
-use super::text::plain;
+use super::lesson::{Kind, Lesson, Prediction};
 use super::work::{Stage, StepWork};
 use crate::export::html::{Kind as Cell, Page, Table};
 use crate::input::read_text;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Largest record read \[MB\].
 const LARGEST: u64 = 4;
@@ -60,7 +59,14 @@ pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
         if let (Some(question), Some(given), true) = (&step.question, work.prediction, work.committed) {
             let right = question.answer.is_right(given);
             let kind = if question.kind == Kind::Calculate { "calculation" } else { "prediction" };
-            add(kind, "answered", words(question, given), Some(right), work.wrong + usize::from(right), times.question);
+            add(
+                kind,
+                "answered",
+                question.answer.words(given),
+                Some(right),
+                work.wrong + usize::from(right),
+                times.question,
+            );
         }
         if let (Some(_), true) = (&step.task, work.fulfilled) {
             let response = format!("{} hints", work.hints);
@@ -68,7 +74,7 @@ pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
         }
         if let (Some(observe), Some(choice)) = (&step.observe, work.observed) {
             let right = work.misread == 0;
-            let response = words(observe, Prediction::Choice(choice));
+            let response = observe.answer.words(Prediction::Choice(choice));
             add("observation", "answered", response, Some(right), work.misread + 1, times.observation);
         }
         if work.left {
@@ -91,16 +97,6 @@ fn iso_8601(seconds: u64) -> String {
     let (month, next) = if since_march < 10 { (since_march + 3, 0) } else { (since_march - 9, 1) };
     let (hour, minute, second) = (of_day / 3600, of_day / 60 % 60, of_day % 60);
     format!("{:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z", 400 * era + year + next)
-}
-
-fn words(question: &Question, given: Prediction) -> String {
-    match (&question.answer, given) {
-        (Answer::Choice { choices, .. }, Prediction::Choice(choice)) => {
-            choices.get(choice).map(|choice| plain(&choice.text)).unwrap_or_default()
-        }
-        (Answer::Number { unit, .. }, Prediction::Number(number)) => format!("{number} {unit}").trim().to_owned(),
-        _ => String::new(),
-    }
 }
 
 /// The records of `student` as statements of xAPI, one on each line.
@@ -127,22 +123,12 @@ pub fn statements(student: &str, records: &[Record]) -> String {
     records.iter().map(line).collect()
 }
 
-/// A record that cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: {why}", path.display())]
-pub struct RecordError {
-    /// Its path.
-    pub path: PathBuf,
-    /// Why.
-    pub why: String,
-}
-
 /// Reads a record as CSV.
 ///
 /// # Errors
-/// [`RecordError`], with the line.
-pub fn read(path: &Path) -> Result<Vec<Record>, RecordError> {
-    let fault = |why| RecordError { path: path.to_owned(), why };
+/// The path and why it cannot be read, with the line.
+pub fn read(path: &Path) -> Result<Vec<Record>, String> {
+    let fault = |why: String| format!("{}: {why}", path.display());
     let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?;
     let rows: Result<Vec<Record>, csv::Error> = csv::Reader::from_reader(text.as_bytes()).deserialize().collect();
     rows.map_err(|error| fault(format!("is not a record of answers as the window saves it (CSV): {error}")))
@@ -268,7 +254,7 @@ mod tests {
         assert_eq!(read(&path).unwrap(), records);
         assert!(!super::statements("anna", &records).contains("timestamp"));
         std::fs::write(&path, "lesson,step\n1,x\n").unwrap();
-        assert!(read(&path).unwrap_err().to_string().contains("is not a record of answers"));
+        assert!(read(&path).unwrap_err().contains("is not a record of answers"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::text::readings;
 use crate::analysis::quantity::Numbers;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::{Cancel, Progress};
+use crate::export::startup::Row;
 use crate::fidelity::Fidelity;
 use crate::hold::{Hold, leak_time};
 use crate::plan::Plan;
@@ -168,7 +169,7 @@ impl Tried {
                 live.read_held(plate.mean_gap, plate.gas.ambient_pressure);
             }
             Scenario::Motor(_) if wanted.iter().any(|live| live.tab() == Live::Stall.tab()) => {
-                let curves = TorqueCurves::of_solve(&problem, FIDELITY, &solution, cancel);
+                let curves = TorqueCurves::of(&problem, FIDELITY, &solution, cancel);
                 if let Some(curves) = curves.map_err(|error| error.to_string())? {
                     live.read_torque(&curves);
                 }
@@ -296,15 +297,14 @@ fn start_up(run: &Tried, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), Str
     // A cycle may be computed again on finer grids: it then replaces the earlier one.
     let mut cycles = BTreeMap::new();
     let mut each = |cycle: startup::Cycle| {
-        cycles.insert(cycle.number, (cycle.remaining, cycle.outcome));
+        cycles.insert(cycle.number, Row::of(&run.problem, &cycle));
     };
     startup(&run.problem, &settings, &mut each, cancel).map_err(|error| error.to_string())?;
-    let scenario = &run.problem.scenario;
-    for (number, (remaining, outcome)) in cycles {
+    for row in cycles.values() {
         let mut live = run.live;
-        live.read_cycle(number, remaining, &outcome, scenario);
-        if number == 1 {
-            look.began.read_cycle(number, remaining, &outcome, scenario);
+        live.read_cycle(row);
+        if row.cycle == 1 {
+            look.began.read_cycle(row);
         }
         look.at(&live);
     }

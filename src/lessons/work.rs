@@ -1,7 +1,6 @@
 //! A student's work in a lesson, step by step: answers, tasks, and steps that were skipped. It is kept when the window is closed.
 
-use super::lesson::{Answer, Kind, Prediction, Question, Step};
-use super::text::plain;
+use super::lesson::{Kind, Prediction, Question, Step};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -190,13 +189,5 @@ impl Score {
     pub fn points(&self) -> [usize; 2] {
         let parts = [self.predictions, self.calculations, self.observations, self.tasks];
         parts.into_iter().fold([0, 0], |[points, all], [good, of]| [points + good, all + of])
-    }
-}
-
-/// The right answer in words, for the summary at the end of a lesson.
-pub fn answer_words(question: &Question) -> String {
-    match &question.answer {
-        Answer::Choice { choices, right } => choices.get(*right).map(|choice| plain(&choice.text)).unwrap_or_default(),
-        Answer::Number { value, unit, .. } => format!("{value} {unit}").trim().to_owned(),
     }
 }

@@ -189,7 +189,7 @@ pub enum What {
         nearest: Option<String>,
     },
     /// A number outside its range.
-    #[error("{} = {value} is out of range: allowed {range}{}", parameter.key, with_unit(parameter))]
+    #[error("{} = {value} is out of range: allowed {}{}", parameter.key, parameter.with_unit(range), parameter.or_none())]
     OutOfRange {
         /// The key.
         parameter: &'static Parameter,
@@ -261,14 +261,6 @@ pub(super) fn check_count(
 ) -> Result<(), What> {
     let message = || format!("{key} has {count} {what}: allowed {} to {}", allowed.start(), allowed.end());
     if allowed.contains(&count) { Ok(()) } else { Err(What::Rule { key, message: message() }) }
-}
-
-fn with_unit(parameter: &Parameter) -> String {
-    let mut tail = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
-    if let Some(meaning) = parameter.absent {
-        tail.push_str(&format!(", or none ({meaning})"));
-    }
-    tail
 }
 
 /// `"a", "b" or "c"`.

@@ -7,7 +7,7 @@ use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
 use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
-use super::section::{PART, PARTS, SUPPORT, SUPPORTS};
+use super::section::{PART, SUPPORT, parts};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
@@ -35,132 +35,145 @@ const LEFT_OPEN: &str = "left to the fidelity";
 #[rustfmt::skip]
 pub static PARAMETERS: &[Parameter] = &[
     text("name", "Untitled", "Name shown with every result"),
-    text("about", "", "Description of the scene in one line"),
+    text("about", "", "Description of the scene in one line").named("What this scene is"),
 
     number("motor.contact_radius_mm", "mm", Motor, (1.0, 500.0), (5.0, 100.0), Log, 29.0,
         "Radius at which the teeth touch the rotor"),
-    whole("motor.waves", Motor, (1, 100), 7, "Wavelengths round the ring"),
-    number("motor.load_per_wave_n", "N", Motor, (0.01, 100.0), (0.1, 20.0), Log, 2.45, "Axial load on one wavelength"),
+    whole("motor.waves", Motor, (1, 100), 7, "Wavelengths round the ring").named("Waves round the ring"),
+    number("motor.load_per_wave_n", "N", Motor, (0.01, 100.0), (0.1, 20.0), Log, 2.45, "Axial load on one wavelength").named("Load on one wave"),
     number("motor.load_n", "N", Motor, (0.01, 10000.0), (1.0, 200.0), Log, 17.15, "Axial load on the whole ring")
-        .absent("the load on one wavelength is given").instead_of("motor.load_per_wave_n"),
+        .absent("the load on one wavelength is given", "Load on the whole ring").instead_of("motor.load_per_wave_n").named("Load on the ring"),
     number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
-        "Friction coefficient where tooth and rotor touch"),
+        "Friction coefficient where tooth and rotor touch").named("Dry friction coefficient"),
     number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
         "Speed of the rotor; a positive one is towards +x, against the wave"),
     number("motor.rotor_speed_mm_per_s", "mm/s", Motor, (-600e3, 600e3), (-1000.0, 1000.0), Linear, 0.0,
         "Speed of the rotor's surface at the contact radius, with the sign of the speed in rpm")
-        .absent("the speed in rpm is given").instead_of("motor.rotor_speed_rpm"),
+        .absent("the speed in rpm is given", "Speed in mm/s").instead_of("motor.rotor_speed_rpm").named("Surface speed of the rotor"),
 
     number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
     number("stator.normal_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.3,
         "Amplitude of the travelling wave, normal to the face"),
     number("stator.tangential_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.0,
         "Amplitude of the tooth tops along the ring"),
-    whole("stator.teeth_per_wave", Motor, (1, 64), 9, "Teeth in one wavelength"),
+    whole("stator.teeth_per_wave", Motor, (1, 64), 9, "Teeth in one wavelength").named("Teeth on one wave"),
     number("stator.tooth_width_mm", "mm", Motor, (1e-6, 3142.0), (0.1, 5.0), Linear, 1.7353,
         "Width of a tooth along the ring; from 1 % to 100 % of the tooth pitch"),
     number("stator.tooth_share", "", Motor, (0.01, 1.0), (0.1, 1.0), Linear, 0.6, "Width of a tooth as a share of the tooth pitch")
-        .absent("the width of a tooth is given").instead_of("stator.tooth_width_mm"),
+        .absent("the width of a tooth is given", "Tooth width as a share of the pitch").instead_of("stator.tooth_width_mm")
+        .named("Share of the pitch"),
     number("stator.tooth_radius_m", "m", Motor, (0.01, 1e6), (1.0, 100.0), Log, 6.5,
-        "Radius of a crowned tooth top").absent("flat teeth"),
+        "Radius of a crowned tooth top").absent("flat teeth", "Crowned teeth"),
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
     choice("rotor.model", Motor, &["beam", "section", "ring", "table", "green"], "beam",
-        "Description of the rotor's compliance"),
+        "Description of the rotor's compliance").named("Compliance model"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
         "Length over which the deflection under a point load dies out").when(BENDING),
     number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
         "Elastic modulus of the rim that bends").when(SECTION),
-    number("rotor.thickness_mm", "mm", Motor, (0.01, 100.0), (0.2, 10.0), Log, 1.0, "Axial thickness of the rim that bends").when(SECTION),
-    number("rotor.width_mm", "mm", Motor, (0.01, 200.0), (0.5, 30.0), Log, 2.0, "Radial width of the rim that bends").when(SECTION),
+    number("rotor.thickness_mm", "mm", Motor, (0.01, 100.0), (0.2, 10.0), Log, 1.0, "Axial thickness of the rim that bends").when(SECTION)
+        .named("Thickness of the rim"),
+    number("rotor.width_mm", "mm", Motor, (0.01, 200.0), (0.5, 30.0), Log, 2.0, "Radial width of the rim that bends").when(SECTION)
+        .named("Width of the rim"),
     number("rotor.point_compliance_um_per_n", "µm/N", Motor, (1e-3, 100.0), (0.05, 10.0), Log, 0.64,
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
     Parameter::new("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
-        "CSV file of the compliance, relative to the preset's folder").when(TABLE),
-    Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE),
+        "CSV file of the compliance, relative to the preset's folder").when(TABLE).named("Compliance from a CSV file"),
+    Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE)
+        .named("Compliance table"),
     Parameter::new("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
-        "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS),
-    Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of the distance from a unit force and the deflection there").when(GREENS),
-    Parameter::new("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
-        "Rectangles that make up the ring's cross-section; the stator touches the lowest").when(RING),
-    Parameter::new("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
-        "Boxes of the cross-section in which the ring is held").when(RING),
+        "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS).named("Deflection from a CSV file"),
+    Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of the distance from a unit force and the deflection there").when(GREENS)
+        .named("Deflection table"),
+    Parameter::new("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: parts },
+        "Rectangles that make up the ring's cross-section; the stator touches the lowest").when(RING).named("Parts"),
+    Parameter::new("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: Vec::new },
+        "Boxes of the cross-section in which the ring is held").when(RING).named("Supports"),
 
     choice("plate.shape", Plate, &["rectangle", "disc", "ring"], "rectangle", "Outline of the plate"),
     number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x").when(RECTANGLE),
     number("plate.width_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0,
-        "Width of the plate along y").absent("infinitely wide strip, forces per metre of width").when(RECTANGLE),
+        "Width of the plate along y").absent("infinitely wide strip, forces per metre of width", "Finite width").when(RECTANGLE),
     number("plate.radius_mm", "mm", Plate, (0.001, 500.0), (0.1, 50.0), Log, 10.0, "Radius of the plate").when(ROUND),
     number("plate.inner_radius_mm", "mm", Plate, (0.0005, 499.0), (0.05, 45.0), Log, 5.0,
-        "Radius of the hole, in which the gas is at ambient pressure").when(RING_PLATE),
+        "Radius of the hole, in which the gas is at ambient pressure").when(RING_PLATE).named("Radius of the hole"),
     number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
     number("plate.load_n", "N", Plate, (1e-6, 1e6), (0.01, 100.0), Log, 1.0,
         "Load on a plate that floats; of a strip, load on a metre of its width")
-        .absent("the mean gap or the mass is given").instead_of("plate.mean_gap_um"),
+        .absent("the mean gap or the mass is given", "Floats under a load").instead_of("plate.mean_gap_um"),
     number("plate.mass_g", "g", Plate, (1e-4, 1e8), (1.0, 10e3), Log, 100.0,
         "Mass of a plate that floats under its weight; of a strip, mass of a metre of its width")
-        .absent("the mean gap or the load is given").instead_of("plate.mean_gap_um"),
+        .absent("the mean gap or the load is given", "Floats under its weight").instead_of("plate.mean_gap_um"),
     number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
         "Amplitude of the vibration; where the mean gap is given, it is smaller than that"),
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
-        "Spacing that roughness leaves where the faces touch; a plate whose gap is given does not use it").when(HARD),
+        "Spacing that roughness leaves where the faces touch; a plate whose gap is given does not use it").when(HARD).named("Minimum spacing H_m"),
     choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
         "The gas. Its viscosity and mean free path follow from it; of a custom gas they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
     number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude at which the standard atmosphere has the ambient pressure")
-        .absent("the pressure is given").when(NAMED).instead_of("film.ambient_pressure_kpa"),
+        .absent("the pressure is given", "Pressure of an altitude").when(NAMED).instead_of("film.ambient_pressure_kpa"),
     number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
         "Mean free path of the gas at the ambient pressure").when(CUSTOM),
-    choice("film.slip", Any, Slip::NAMES, "first-order", "The law by which the gas slips at the walls"),
+    choice("film.slip", Any, Slip::NAMES, "first-order", "The law by which the gas slips at the walls").named("Slip at the walls"),
     number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
-        "Share of the molecules that the walls reflect diffusely; they reflect the others specularly").when(BOLTZMANN),
-    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); a plate does not use it"),
+        "Share of the molecules that the walls reflect diffusely; they reflect the others specularly").when(BOLTZMANN)
+        .named("Accommodation coefficient"),
+    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); a plate does not use it")
+        .named("Sliding drags gas along"),
 
     choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
-        "Contact of the faces: a hard stop at the minimum spacing, or elastic asperities"),
+        "Contact of the faces: a hard stop at the minimum spacing, or elastic asperities").named("Faces meet on"),
     choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
         "Contact law: asperities of one face against a plane, or of both faces").when(ASPERITIES),
-    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "Distribution of the heights of the summits").when(ASPERITIES),
+    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
+        .named("Heights of summits"),
     Parameter::new("surface.heights_csv", Motor,
         CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
         "CSV file of the measured heights of both faces, relative to the preset's folder: roughness, summits and lay follow where they are not given")
-        .when(ROUGH),
+        .when(ROUGH).named("Measured heights from a CSV file"),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
-        "Standard deviation of the heights of both faces together").when(ROUGH),
-    number("surface.summit_radius_um", "µm", Motor, (0.1, 1e4), (1.0, 1000.0), Log, 50.0, "Radius of a summit").when(ASPERITIES),
-    number("surface.summit_density_per_mm2", "1/mm²", Motor, (1.0, 1e7), (100.0, 1e6), Log, 1e4, "Number of summits per area").when(ASPERITIES),
+        "Standard deviation of the heights of both faces together").when(ROUGH).named("Rms roughness σ"),
+    number("surface.summit_radius_um", "µm", Motor, (0.1, 1e4), (1.0, 1000.0), Log, 50.0, "Radius of a summit").when(ASPERITIES)
+        .named("Radius of a summit"),
+    number("surface.summit_density_per_mm2", "1/mm²", Motor, (1.0, 1e7), (100.0, 1e6), Log, 1e4, "Number of summits per area").when(ASPERITIES)
+        .named("Density of summits"),
     number("surface.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 60.0,
-        "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES),
-    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "Flow factors, by which roughness changes the flow of the gas"),
+        "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES).named("Contact modulus"),
+    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "Flow factors, by which roughness changes the flow of the gas")
+        .named("Flow between rough faces"),
     number("surface.lay", "", Motor, (0.112, 9.0), (0.112, 9.0), Log, 1.0,
         "Length of the asperities along the wave over their length across it").when(ROUGH_FLOW),
     number("surface.stator_share", "", Motor, (0.0, 1.0), (0.0, 1.0), Linear, 0.5,
-        "Share of the stator in the variance of the heights of both faces").when(ROUGH_FLOW),
+        "Share of the stator in the variance of the heights of both faces").when(ROUGH_FLOW).named("Stator's share of the roughness"),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
-        "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN),
-    whole("numerics.film_nodes_across", Any, (3, 501), 21, "Film nodes across the full width, both ends counted").absent(LEFT_OPEN),
+        "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN, "Set film nodes along"),
+    whole("numerics.film_nodes_across", Any, (3, 501), 21, "Film nodes across the full width, both ends counted").absent(LEFT_OPEN, "Set film nodes across"),
     whole("numerics.contact_nodes", IdleOnPlate, (19, 5001), 361,
-        "Contact nodes on one wavelength for --method paper, both ends counted").absent(LEFT_OPEN),
-    whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle").absent(LEFT_OPEN),
+        "Contact nodes on one wavelength for --method paper, both ends counted").absent(LEFT_OPEN, "Set contact nodes"),
+    whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle").absent(LEFT_OPEN, "Set steps in a cycle")
+        .named("Steps in a cycle"),
     number("numerics.tolerance", "", Any, (1e-9, 1e-2), (1e-7, 1e-2), Log, 1e-4,
-        "Relative change of the trapped gas at which the cycle counts as repeating").absent(LEFT_OPEN),
+        "Relative change of the trapped gas at which the cycle counts as repeating").absent(LEFT_OPEN, "Set tolerance of a cycle")
+        .named("Tolerance of a cycle"),
     choice("numerics.wedge", IdleOnPlate, Wedge::NAMES, "auto",
-        "Wedge term of sliding: solved (on), left out (off), or as the scene needs (auto)"),
+        "Wedge term of sliding: solved (on), left out (off), or as the scene needs (auto)").named("Wedge term"),
     choice("numerics.teeth", IdleOnPlate, Teeth::NAMES, "auto",
-        "Teeth whose film is solved: one, as the others lag behind it, or all; the result is the same"),
+        "Teeth whose film is solved: one, as the others lag behind it, or all; the result is the same").named("Teeth solved"),
     choice("numerics.width", IdleOnPlate, Width::NAMES, "auto",
-        "Width of the film that is solved: half, as it is symmetric, or all; the result is the same"),
+        "Width of the film that is solved: half, as it is symmetric, or all; the result is the same").named("Width solved"),
     choice("numerics.flow", IdleOnPlate, Flow::NAMES, "auto",
-        "Directions in which the gas flows: both, or only across or along a tooth"),
+        "Directions in which the gas flows: both, or only across or along a tooth").named("Flow of the film"),
     choice("numerics.time", IdleOnPlate, Time::NAMES, "auto",
-        "The film over time: solved step by step, or trapped gas that has no time to flow"),
+        "The film over time: solved step by step, or trapped gas that has no time to flow").named("Leakage in time"),
 ];
 
 impl Parameter {
@@ -198,8 +211,8 @@ impl Parameter {
         Self { instead_of: Some(key), ..self }
     }
 
-    const fn absent(self, meaning: &'static str) -> Self {
-        Self { absent: Some(meaning), ..self }
+    const fn absent(self, meaning: &'static str, switch: &'static str) -> Self {
+        Self { absent: Some(meaning), switch, ..self }
     }
 }
 

@@ -46,7 +46,7 @@ mod write;
 pub use error::{Fault, SCHEMA, SceneError, What};
 pub use keys::{PARAMETERS, markdown};
 pub(crate) use nearest::nearest;
-pub use parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
+pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;
 pub(crate) use value::{escaped, show_text};
 pub use values::{Kind, Scene};

@@ -209,8 +209,7 @@ impl Draft<'_> {
     }
 
     fn assume_text(&mut self, key: &'static str, value: String, why: &str) {
-        let unit = Parameter::find(key).map_or("", |parameter| parameter.unit);
-        let shown = format!("{value} {unit}").trim_end().to_owned();
+        let shown = Parameter::find(key).map_or_else(|| value.clone(), |parameter| parameter.with_unit(&value));
         self.assumed.push(Assumption { key, value: shown, why: why.to_owned() });
         self.pairs.push((key, value));
     }

@@ -42,7 +42,7 @@ pub enum Scale {
 }
 
 /// The type of a key's value, with the range and the default.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum ParameterKind {
     /// A number.
     Number {
@@ -97,27 +97,9 @@ pub enum ParameterKind {
         columns: &'static [Parameter],
         /// Fewest tables.
         fewest: usize,
-        /// The value of an absent key: a cell for each column.
-        default: &'static [&'static [Cell]],
+        /// The value of an absent key: a value for each column of each table.
+        default: fn() -> Vec<Vec<Value>>,
     },
-}
-
-/// One value of an array of tables that is the default of a key.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// A number, in the unit of its column.
-    Number(f64),
-    /// Text, or the name of a choice.
-    Text(&'static str),
-}
-
-impl From<&Cell> for Value {
-    fn from(cell: &Cell) -> Self {
-        match cell {
-            Cell::Number(number) => Self::Number(*number),
-            Cell::Text(text) => Self::Text((*text).to_owned()),
-        }
-    }
 }
 
 /// The scenes that a key belongs to.
@@ -136,8 +118,8 @@ pub enum Belongs {
 /// A key that chooses a model, and those of its values with which a scene has the key in question.
 pub(super) type Model = (&'static str, &'static [&'static str]);
 
-/// One key of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One key of a scene. Two are equal if their keys are.
+#[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// Dotted key, as in `--set`: `film.min_spacing_nm`.
     pub key: &'static str,
@@ -151,10 +133,20 @@ pub struct Parameter {
     pub instead_of: Option<&'static str>,
     /// For an optional key: the meaning of its absence. `None` if an absent key has its default.
     pub absent: Option<&'static str>,
+    /// For an optional key: what its checkbox says. Otherwise empty.
+    pub switch: &'static str,
+    /// Its name, if its key says too little.
+    pub name: Option<&'static str>,
     /// Type, range and default.
     pub kind: ParameterKind,
     /// Its meaning in one line.
     pub about: &'static str,
+}
+
+impl PartialEq for Parameter {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
 }
 
 /// The units of the field: the ending of a key, the unit as it is shown, and its conversion to SI (`rpm` to turns per second). An ending
@@ -191,7 +183,11 @@ enum Per {
 impl Parameter {
     /// A parameter that every model has, and that replaces no other; its value is a pure number or none.
     pub(super) const fn new(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Self {
-        Self { key, unit: "", belongs, when: &[], instead_of: None, absent: None, kind, about }
+        Self { key, unit: "", belongs, when: &[], instead_of: None, absent: None, switch: "", name: None, kind, about }
+    }
+
+    pub(super) const fn named(self, name: &'static str) -> Self {
+        Self { name: Some(name), ..self }
     }
 
     /// The TOML table the key is in; empty for the keys above all tables.
@@ -208,6 +204,11 @@ impl Parameter {
     pub fn words(&self) -> String {
         let stem = UNITS.iter().find_map(|(ending, ..)| self.leaf().strip_suffix(ending));
         stem.filter(|_| !self.unit.is_empty()).unwrap_or(self.leaf()).replace(['_', '.'], " ")
+    }
+
+    /// `9.5 nm`: a number of this key, with its unit.
+    pub fn with_unit(&self, number: impl fmt::Display) -> String {
+        format!("{number} {}", self.unit).trim_end().to_owned()
     }
 
     /// A value of this key in SI.
@@ -240,25 +241,26 @@ impl Parameter {
             ParameterKind::Flag { default } => Value::Flag(default),
             ParameterKind::Choice { default, .. } | ParameterKind::Text { default } => Value::Text(default.to_owned()),
             ParameterKind::Rows { .. } => Value::Rows(Vec::new()),
-            ParameterKind::Records { default, .. } => {
-                Value::Records(default.iter().map(|record| record.iter().map(Value::from).collect()).collect())
-            }
+            ParameterKind::Records { default, .. } => Value::Records(default()),
             ParameterKind::CsvPath { .. } => return None,
         })
     }
 
     /// What the key accepts, in words: `a number from 5 to 10000 nm`; of an optional key also that it may be absent.
     pub fn accepts(&self) -> String {
-        let meaning = self.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"));
-        self.accepts_if_given() + &meaning
+        self.accepts_if_given() + &self.or_none()
+    }
+
+    /// What the absence of an optional key means.
+    pub(super) fn or_none(&self) -> String {
+        self.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"))
     }
 
     /// What the key accepts if it is given, in words.
     pub(super) fn accepts_if_given(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         match self.kind {
-            ParameterKind::Number { range, .. } => format!("a number from {range}{unit}"),
-            ParameterKind::Whole { min, max, .. } => format!("a whole number from {min} to {max}{unit}"),
+            ParameterKind::Number { range, .. } => format!("a number from {}", self.with_unit(range)),
+            ParameterKind::Whole { min, max, .. } => format!("a whole number from {min} to {}", self.with_unit(max)),
             ParameterKind::Flag { .. } => "true or false".to_owned(),
             ParameterKind::Choice { options, .. } => {
                 let quoted: Vec<_> = options.iter().map(|option| format!("\"{option}\"")).collect();

@@ -23,7 +23,8 @@
 //! Radii are measured from the ring's axis. Heights grow away from the stator, which touches the lowest faces of the ring; their zero is
 //! arbitrary.
 
-use super::parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::value::Value;
 use crate::rotor::ring::MATERIALS;
 
 /// The names of the materials.
@@ -49,53 +50,47 @@ pub(super) static PART: [Parameter; 6] = [
         ParameterKind::Text { default: "" },
         "The name that messages and drawings use",
     ),
-    length("r_inner_mm", 0.05, "Inner radius"),
-    length("r_outer_mm", 0.05, "Outer radius"),
-    length("z_bottom_mm", -1000.0, "Height of its lower face"),
-    length("z_top_mm", -1000.0, "Height of its upper face"),
+    length("r_inner_mm", 0.05, "Inner radius").named("Inner radius"),
+    length("r_outer_mm", 0.05, "Outer radius").named("Outer radius"),
+    length("z_bottom_mm", -1000.0, "Height of its lower face").named("Bottom"),
+    length("z_top_mm", -1000.0, "Height of its upper face").named("Top"),
     Parameter::new(
         "material",
         Belongs::Motor,
         ParameterKind::Choice { options: &NAMES, default: "aluminium" },
         "What it is made of",
-    ),
+    )
+    .named("Material"),
 ];
 
 /// The keys of a support.
 pub(super) static SUPPORT: [Parameter; 5] = [
-    length("r_inner_mm", 0.0, "Inner radius of the box"),
-    length("r_outer_mm", 0.0, "Outer radius of the box"),
-    length("z_bottom_mm", -1000.0, "Height of its lower edge"),
-    length("z_top_mm", -1000.0, "Height of its upper edge"),
+    length("r_inner_mm", 0.0, "Inner radius of the box").named("Inner radius"),
+    length("r_outer_mm", 0.0, "Outer radius of the box").named("Outer radius"),
+    length("z_bottom_mm", -1000.0, "Height of its lower edge").named("Bottom"),
+    length("z_top_mm", -1000.0, "Height of its upper edge").named("Top"),
     Parameter::new(
         "fixed",
         Belongs::Motor,
         ParameterKind::Choice { options: &FIXED, default: "axial" },
         "Directions in which what lies in the box cannot move",
-    ),
+    )
+    .named("Fixed"),
 ];
 
 /// The default parts: a section plausible for the rotor of a camera lens. It is an aluminium ring with a rim on a thin flange, and a plastic
 /// lining on the rim. Flange and lining are chosen so that the compliance is close to that of the beam fitted to Table I (docs/theory.md,
 /// section 4).
-pub(super) const PARTS: &[&[Cell]] = &[
-    &part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
-    &part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
-    &part("flange", [26.9, 28.3, 0.75, 1.2], "aluminium"),
-    &part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
-];
-
-/// The default supports: none, because the loads on the ring balance each other.
-pub(super) const SUPPORTS: &[&[Cell]] = &[];
-
-const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], material: &'static str) -> [Cell; 6] {
-    [
-        Cell::Text(name),
-        Cell::Number(inner),
-        Cell::Number(outer),
-        Cell::Number(bottom),
-        Cell::Number(top),
-        Cell::Text(material),
+pub(super) fn parts() -> Vec<Vec<Value>> {
+    let part = |name: &str, lengths: [f64; 4], material: &str| {
+        let [name, material] = [name, material].map(|text| Value::Text(text.to_owned()));
+        [&[name], &lengths.map(Value::Number)[..], &[material]].concat()
+    };
+    vec![
+        part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
+        part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
+        part("flange", [26.9, 28.3, 0.75, 1.2], "aluminium"),
+        part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
     ]
 }
 

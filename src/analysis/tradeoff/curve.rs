@@ -131,7 +131,7 @@ fn front(costs: &[Option<(f64, f64)>]) -> Vec<bool> {
 }
 
 /// Of ascending values, linear between them; NaN of none.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * sorted.len().saturating_sub(1) as f64;
     let (low, high) = (place.floor() as usize, place.ceil() as usize);
     match (sorted.get(low), sorted.get(high)) {

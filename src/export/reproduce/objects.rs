@@ -4,7 +4,7 @@ use super::statements::statements;
 use crate::analysis::reproduce::{Both, Point, Reproduction, Row};
 use crate::export::estimates::{self, finite};
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde_json::{Value, json};
 
 /// A row of Table I. What was not computed is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,30 +60,19 @@ impl RowObject {
 
 /// The object of `--json`: Table I, Fig. 10, what the text says and what came of it, and how many solves did not converge. What was not
 /// computed is null.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a>(pub &'a Reproduction);
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(all) = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("fidelity", &all.settings.fidelity.to_string())?;
-        map.serialize_entry("table1", &all.rows.iter().map(RowObject::new).collect::<Vec<_>>())?;
-        map.serialize_entry("fig10", &all.frequencies.iter().map(PointObject).collect::<Vec<_>>())?;
-        map.serialize_entry("statements", &statements(all))?;
-        map.serialize_entry("unsolved", &all.unsolved())?;
-        map.end()
-    }
+pub fn object(all: &Reproduction) -> Value {
+    json!({
+        "fidelity": all.settings.fidelity.to_string(),
+        "table1": all.rows.iter().map(RowObject::new).collect::<Vec<_>>(),
+        "fig10": all.frequencies.iter().map(point).collect::<Vec<_>>(),
+        "statements": statements(all),
+        "unsolved": all.unsolved(),
+    })
 }
 
 /// A point of Fig. 10: α with its estimated numerical error, converged.
-struct PointObject<'a>(&'a Point);
-
-impl Serialize for PointObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("frequency_khz", &self.0.frequency_khz)?;
-        estimates::add(&mut map, "alpha", "", self.0.solved.as_ref().ok().map(|result| result.alpha))?;
-        map.end()
-    }
+fn point(point: &Point) -> Value {
+    let mut object = json!({ "frequency_khz": point.frequency_khz });
+    estimates::add(&mut object, "alpha", "", point.solved.as_ref().ok().map(|result| result.alpha));
+    object
 }

@@ -42,17 +42,6 @@ pub fn times(factor: f64) -> String {
     format!("×{rounded:.decimals$}")
 }
 
-/// `value` to a number of significant digits, `round` deciding which way.
-pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let exponent = value.abs().log10().floor() as i32 - digits + 1;
-    let scaled = round(value / 10f64.powi(exponent));
-    // Through text, so that no stray bits are left.
-    format!("{scaled}e{exponent}").parse().unwrap_or(value)
-}
-
 /// A value with its error, an exponent raised. What is far below its error is 0.
 pub fn uncertain(found: Estimate) -> String {
     let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
@@ -133,14 +122,6 @@ mod tests {
         assert_eq!(ends([9.997, 10.0]), ["9.997", "10.000"]);
         assert_eq!(ends([-100.02, -99.96]), ["−100.02", "−99.96"]);
         assert_eq!(ends([101.325, 101.3251]), ["101", "101"]);
-    }
-
-    #[test]
-    fn digits_leave_no_stray_bits() {
-        assert_eq!(to_digits(0.300_000_000_4, 4, f64::round), 0.3);
-        assert_eq!(to_digits(2.892_143_8, 4, f64::floor), 2.892);
-        assert_eq!(to_digits(-123_456.0, 4, f64::round), -123_500.0);
-        assert_eq!(to_digits(1.0499e-10, 4, f64::round), 1.05e-10);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::recording::Recording;
 #[derive(Debug, Default)]
 pub struct Curve {
     values: Vec<f64>,
-    /// After the last value comes not the first: it stands until the cycle ends.
+    /// Not periodic: the last value holds to the end of the cycle.
     once: bool,
 }
 

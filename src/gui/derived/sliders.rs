@@ -1,12 +1,12 @@
 //! Ranges of the sliders, and the values that they set.
 
-use super::format::to_digits;
+use crate::digits::rounded;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene};
 
 /// A whole number whose range spans more than this ratio gets a logarithmic slider.
 const LOG_RATIO: f64 = 50.0;
 /// Significant digits that a slider sets.
-const SLIDER_DIGITS: i32 = 4;
+const SLIDER_DIGITS: usize = 4;
 /// Distance that a slider keeps from an end that is itself not allowed, relative.
 const OPEN_END: f64 = 1e-3;
 
@@ -27,17 +27,9 @@ pub fn slider_range(scene: &Scene, parameter: &Parameter) -> (Range, bool) {
     (range, logarithmic && range.min > 0.0)
 }
 
-/// `value` to a few digits, towards the inside of the range.
+/// `value` to a few digits, within the range.
 pub fn inside(value: f64, range: Range) -> f64 {
-    let value = value.clamp(range.min, range.max);
-    let nearest = to_digits(value, SLIDER_DIGITS, f64::round);
-    if nearest > range.max {
-        to_digits(value, SLIDER_DIGITS, f64::floor).clamp(range.min, range.max)
-    } else if nearest < range.min {
-        to_digits(value, SLIDER_DIGITS, f64::ceil).clamp(range.min, range.max)
-    } else {
-        nearest
-    }
+    rounded(value, SLIDER_DIGITS).clamp(range.min, range.max)
 }
 
 #[cfg(test)]

@@ -6,75 +6,6 @@ use crate::scene::{PARAMETERS, Parameter, Scene, Value};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Names of the parameters whose keys say too little themselves, by key.
-const LABELS: &[(&str, &str)] = &[
-    ("about", "What this scene is"),
-    ("motor.waves", "Waves round the ring"),
-    ("motor.load_per_wave_n", "Load on one wave"),
-    ("motor.load_n", "Load on the ring"),
-    ("motor.dry_friction", "Dry friction coefficient"),
-    ("motor.rotor_speed_mm_per_s", "Surface speed of the rotor"),
-    ("stator.teeth_per_wave", "Teeth on one wave"),
-    ("stator.tooth_share", "Share of the pitch"),
-    ("rotor.model", "Compliance model"),
-    ("rotor.thickness_mm", "Thickness of the rim"),
-    ("rotor.width_mm", "Width of the rim"),
-    ("rotor.compliance_csv", "Compliance from a CSV file"),
-    ("rotor.compliance", "Compliance table"),
-    ("rotor.green_csv", "Deflection from a CSV file"),
-    ("rotor.green", "Deflection table"),
-    ("rotor.part", "Parts"),
-    ("rotor.support", "Supports"),
-    ("plate.inner_radius_mm", "Radius of the hole"),
-    ("film.min_spacing_nm", "Minimum spacing H_m"),
-    ("film.slip", "Slip at the walls"),
-    ("film.accommodation", "Accommodation coefficient"),
-    ("film.shear", "Sliding drags gas along"),
-    ("surface.model", "Faces meet on"),
-    ("surface.summit_heights", "Heights of summits"),
-    ("surface.heights_csv", "Measured heights from a CSV file"),
-    ("surface.rms_nm", "Rms roughness σ"),
-    ("surface.summit_radius_um", "Radius of a summit"),
-    ("surface.summit_density_per_mm2", "Density of summits"),
-    ("surface.elastic_modulus_gpa", "Contact modulus"),
-    ("surface.flow_factors", "Flow between rough faces"),
-    ("surface.stator_share", "Stator's share of the roughness"),
-    ("numerics.steps_per_cycle", "Steps in a cycle"),
-    ("numerics.tolerance", "Tolerance of a cycle"),
-    ("numerics.wedge", "Wedge term"),
-    ("numerics.teeth", "Teeth solved"),
-    ("numerics.width", "Width solved"),
-    ("numerics.flow", "Flow of the film"),
-    ("numerics.time", "Leakage in time"),
-];
-
-/// Names of the columns of arrays of tables, by key; a name is one everywhere.
-const COLUMNS: &[(&str, &str)] = &[
-    ("r_inner_mm", "Inner radius"),
-    ("r_outer_mm", "Outer radius"),
-    ("z_bottom_mm", "Bottom"),
-    ("z_top_mm", "Top"),
-    ("material", "Material"),
-    ("fixed", "Fixed"),
-];
-
-/// What the checkbox of an optional parameter says, by key.
-const SWITCHES: &[(&str, &str)] = &[
-    ("stator.tooth_radius_m", "Crowned teeth"),
-    ("motor.load_n", "Load on the whole ring"),
-    ("motor.rotor_speed_mm_per_s", "Speed in mm/s"),
-    ("stator.tooth_share", "Tooth width as a share of the pitch"),
-    ("plate.width_mm", "Finite width"),
-    ("plate.load_n", "Floats under a load"),
-    ("plate.mass_g", "Floats under its weight"),
-    ("film.altitude_m", "Pressure of an altitude"),
-    ("numerics.film_nodes_along", "Set film nodes along"),
-    ("numerics.film_nodes_across", "Set film nodes across"),
-    ("numerics.contact_nodes", "Set contact nodes"),
-    ("numerics.steps_per_cycle", "Set steps in a cycle"),
-    ("numerics.tolerance", "Set tolerance of a cycle"),
-];
-
 /// Plain words for the names of choices that say too little themselves, by key and name.
 const CHOICES: &[(&str, &str, &str)] = &[
     ("rotor.model", "beam", "Beam on a foundation"),
@@ -111,21 +42,11 @@ const AUTO: &str = "Automatic";
 /// What the scene says for it.
 const AUTO_NAME: &str = "auto";
 
-fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'static str> {
-    table.iter().find(|(found, _)| *found == key).map(|(_, words)| *words)
-}
-
-/// The name of a parameter: that of the table, or its key in words with a capital letter.
+/// The name of a parameter: its own, or its key in words with a capital letter.
 pub fn label(parameter: &Parameter) -> &'static str {
     static WORDS: LazyLock<BTreeMap<&str, String>> =
         LazyLock::new(|| PARAMETERS.iter().map(|of| (of.key, capitalised(&of.words()))).collect());
-    let named = find(LABELS, parameter.key).or_else(|| find(COLUMNS, parameter.key));
-    named.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
-}
-
-/// What the checkbox of an optional parameter says.
-pub fn switch(parameter: &Parameter) -> &'static str {
-    find(SWITCHES, parameter.key).unwrap_or_else(|| label(parameter))
+    parameter.name.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
 }
 
 /// Plain words for one name of a choice: those of the table, or the name itself with a capital letter.
@@ -176,11 +97,10 @@ pub fn unused(scene: &Scene, parameter: &Parameter) -> Option<&'static str> {
 
 /// The explanation shown when the pointer rests on a parameter: meaning, range, default, key.
 pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>) -> String {
-    let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
     let mut text = parameter.about.to_owned();
     if let Some(range) = scene.range(parameter.key) {
         let bound = |value: f64| Value::Number(rounded(value, 5));
-        text.push_str(&format!("\n{} to {}{unit}", bound(range.min), bound(range.max)));
+        text.push_str(&format!("\n{} to {}", bound(range.min), parameter.with_unit(bound(range.max))));
     }
     match (parameter.absent, default) {
         (Some(meaning), _) => text.push_str(&format!("\nDefault {meaning}")),
@@ -188,7 +108,7 @@ pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>
             text.push_str(&format!("\nDefault {}", choice(parameter.key, name)));
         }
         (None, Some(Value::Flag(on))) => text.push_str(if *on { "\nDefault on" } else { "\nDefault off" }),
-        (None, Some(value)) => text.push_str(&format!("\nDefault {value}{unit}")),
+        (None, Some(value)) => text.push_str(&format!("\nDefault {}", parameter.with_unit(value))),
         (None, None) => {}
     }
     text.push_str(&format!("\n{}", parameter.key));
@@ -206,8 +126,8 @@ mod tests {
     fn every_parameter_has_a_label() {
         for parameter in PARAMETERS {
             assert!(label(parameter).starts_with(char::is_uppercase), "{}", parameter.key);
-            assert_ne!(find(LABELS, parameter.key), Some(&*capitalised(&parameter.words())), "{}", parameter.key);
-            assert_eq!(find(SWITCHES, parameter.key).is_some(), parameter.absent.is_some(), "{}", parameter.key);
+            assert_ne!(parameter.name, Some(&*capitalised(&parameter.words())), "{}", parameter.key);
+            assert_eq!(parameter.switch.is_empty(), parameter.absent.is_none(), "{}", parameter.key);
             if let ParameterKind::Choice { options, .. } = parameter.kind {
                 let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));
                 assert_eq!(stale, None, "{}", parameter.key);
@@ -223,9 +143,6 @@ mod tests {
         for (key, option, words) in CHOICES {
             assert_ne!(capitalised(&option.replace('-', " ")), *words, "{key}: {option} needs no words of its own");
         }
-        for (key, _) in LABELS.iter().chain(SWITCHES) {
-            assert!(Parameter::find(key).is_some(), "{key}");
-        }
     }
 
     #[test]
@@ -238,7 +155,8 @@ mod tests {
 
     #[test]
     fn labels_are_sentence_case_without_colons() {
-        for words in LABELS.iter().chain(SWITCHES).map(|(_, words)| *words).chain(CHOICES.iter().map(|c| c.2)) {
+        let named = PARAMETERS.iter().flat_map(|p| p.name.into_iter().chain(p.absent.map(|_| p.switch)));
+        for words in named.chain(CHOICES.iter().map(|c| c.2)) {
             assert!(words.starts_with(char::is_uppercase) && !words.contains(':'), "{words}");
         }
     }

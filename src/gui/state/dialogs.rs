@@ -39,88 +39,70 @@ pub enum Export {
     Answers,
 }
 
+/// A kind of file and its extensions; `None` for a folder.
+pub type Filter = Option<(&'static str, &'static [&'static str])>;
+
+const TABLE: Filter = Some(("Table", &["csv"]));
+const REPORT: Filter = Some(("Report", &["html"]));
+const FIGURE: Filter = Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }));
+
 impl Export {
-    /// What its file is called at first.
-    pub fn file_name(self) -> &'static str {
+    /// Its entry in menus, what its file is called at first, the kind of file, and what is written.
+    #[rustfmt::skip]
+    fn described(self) -> (&'static str, &'static str, Filter, &'static str) {
         match self {
-            Self::Data => "results",
-            Self::Figures => "figures",
-            Self::Fields => "fields.npz",
-            Self::Animation => "cycle.gif",
-            Self::Report | Self::ComparisonReport => "report.html",
-            Self::Comparison => "comparison",
-            Self::SweepTable => "sweep.csv",
-            Self::SweepFigure => "sweep.svg",
-            Self::Sweep => "sweep",
-            Self::TradeoffTable => "tradeoff.csv",
-            Self::TradeoffFigure => "tradeoff.svg",
-            Self::Sensitivity => "sensitivity",
-            Self::Fit => "fit",
-            Self::Answers => "answers.csv",
+            Self::Data => ("All results, into a folder…", "results", None,
+                "Everything about the run on screen: the scene, the numbers as JSON, loads and fields as CSV and NumPy arrays, and all figures"),
+            Self::Figures => ("Figures, into a folder…", "figures", None,
+                "The figures of the run on screen as SVG, PNG and PDF, ready to print"),
+            Self::Fields => ("Fields as NumPy archive…", "fields.npz", Some(("NumPy archive", &["npz"])),
+                "All fields over one cycle as NumPy arrays in one file, .npz"),
+            Self::Animation => ("Animation…", "cycle.gif", Some(("Animation", &["gif", "mp4", "png", "apng"])),
+                "One cycle as moving pictures: a GIF, an animated PNG with all colours, or an MP4 video"),
+            Self::Report => ("Report as HTML…", "report.html", REPORT,
+                "One HTML file with the numbers and figures of this run; it opens without a network"),
+            Self::Comparison => ("Comparison, into a folder…", "comparison", None,
+                "The report, tables, overlaid figures and one cycle in phase of the pinned runs"),
+            Self::ComparisonReport => ("Comparison as HTML…", "report.html", REPORT,
+                "One HTML file with what differs between the pinned runs; it opens without a network"),
+            Self::SweepTable => ("Sweep as table…", "sweep.csv", TABLE, "A row for each point, with every result and its error"),
+            Self::SweepFigure => ("Sweep as figure…", "sweep.svg", FIGURE, "The sweep as it is drawn here, with the published points"),
+            Self::Sweep => ("Sweep, into a folder…", "sweep", None, "The scene, the table as CSV and JSON, and the figure of the sweep"),
+            Self::TradeoffTable => ("Trade-off as table…", "tradeoff.csv", TABLE, "A row for each setting, with its time and its error"),
+            Self::TradeoffFigure => ("Trade-off as figure…", "tradeoff.svg", FIGURE,
+                "Error against solve time of all settings, as it is drawn here"),
+            Self::Sensitivity => ("Sensitivities, into a folder…", "sensitivity", None,
+                "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"),
+            Self::Fit => ("Fit, into a folder…", "fit", None,
+                "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"),
+            Self::Answers => ("Save my answers…", "answers.csv", Some(("Record", &["csv", "jsonl"])),
+                "What you answered and did in lessons, to hand in: nothing leaves this computer by itself"),
         }
+    }
+
+    /// Its entry in menus.
+    pub fn entry(self) -> &'static str {
+        self.described().0
     }
 
     /// What is asked.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Data => "Export all results into a folder",
-            Self::Figures => "Export the figures as SVG, PNG and PDF into a folder",
-            Self::Fields => "Export the fields as a NumPy archive",
-            Self::Animation => "Export the animation as GIF, MP4 or animated PNG",
-            Self::Report => "Export a report of this run as HTML",
-            Self::Comparison => "Export the comparison into a folder",
-            Self::ComparisonReport => "Export a report of the pinned runs as HTML",
-            Self::Sweep => "Export the sweep into a folder",
-            Self::Sensitivity => "Export the sensitivities into a folder",
-            Self::Fit => "Export what was fitted into a folder",
-            Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
-            Self::Answers => "Save my answers as CSV or as JSON lines",
-            Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
-        }
+        self.entry().trim_end_matches('…')
+    }
+
+    /// What its file is called at first.
+    pub fn file_name(self) -> &'static str {
+        self.described().1
+    }
+
+    /// Kind of file and its extensions; `None` for a folder.
+    pub fn filter(self) -> Filter {
+        self.described().2
     }
 
     /// What is written, for whoever has to choose.
     pub fn about(self) -> &'static str {
-        match self {
-            Self::Data => {
-                "Everything about the run on screen: the scene, the numbers as JSON, loads and fields as CSV and NumPy arrays, and all figures"
-            }
-            Self::Figures => "The figures of the run on screen as SVG, PNG and PDF, ready to print",
-            Self::Fields => "All fields over one cycle as NumPy arrays in one file, .npz",
-            Self::Animation => "One cycle as moving pictures: a GIF, an animated PNG with all colours, or an MP4 video",
-            Self::Report => "One HTML file with the numbers and figures of this run; it opens without a network",
-            Self::Comparison => "The report, tables, overlaid figures and one cycle in phase of the pinned runs",
-            Self::ComparisonReport => {
-                "One HTML file with what differs between the pinned runs; it opens without a network"
-            }
-            Self::Sweep => "The scene, the table as CSV and JSON, and the figure of the sweep",
-            Self::SweepTable => "A row for each point, with every result and its error",
-            Self::SweepFigure => "The sweep as it is drawn here, with the published points",
-            Self::TradeoffTable => "A row for each setting, with its time and its error",
-            Self::TradeoffFigure => "Error against solve time of all settings, as it is drawn here",
-            Self::Fit => {
-                "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"
-            }
-            Self::Sensitivity => {
-                "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"
-            }
-            Self::Answers => "What you answered and did in lessons, to hand in: nothing leaves this computer by itself",
-        }
-    }
-
-    /// Kind of file and its extensions; `None` for a folder.
-    pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
-        match self {
-            Self::Data | Self::Figures | Self::Comparison | Self::Sweep | Self::Sensitivity | Self::Fit => None,
-            Self::Fields => Some(("NumPy archive", &["npz"])),
-            Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
-            Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
-            Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
-            Self::Answers => Some(("Record", &["csv", "jsonl"])),
-            Self::SweepFigure | Self::TradeoffFigure => {
-                Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }))
-            }
-        }
+        self.described().3
     }
 
     /// `path` with the extension of a format that this is written in: without one it gets the usual one.
@@ -199,13 +181,13 @@ impl Purpose {
     }
 
     /// Kind of file and its extensions; `None` for a folder.
-    pub fn filter(&self) -> Option<(&'static str, &'static [&'static str])> {
+    pub fn filter(&self) -> Filter {
         match self {
             Self::Open | Self::Save(_) => Some(("Preset", &["toml"])),
             Self::Picture(_) => Some(("Picture", &["png"])),
             Self::Export(export) => export.filter(),
             Self::Lessons => None,
-            Self::Measurements => Some(("Table", &["csv"])),
+            Self::Measurements => TABLE,
             Self::Heights => Some(("Heights", &["csv", "txt"])),
         }
     }

@@ -7,12 +7,13 @@ use crate::fidelity::Fidelity;
 use crate::job::drop::DropTask;
 use crate::job::task::News;
 use crate::scene::Scene;
+use crate::solution::Status;
 
 /// A drop, under way or ended.
 #[derive(Debug)]
 pub struct Dropped {
     /// It tells each cycle, and returns how it ended.
-    pub work: Background<Cycle, Result<Fall, String>>,
+    pub work: Background<Cycle, Fall>,
     scene: Scene,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
@@ -33,7 +34,9 @@ impl Dropped {
         let News { messages, end } = self.work.news();
         self.cycles.extend(messages);
         if let Some(end) = end {
-            self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+            let cancelled =
+                || Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()), outcome: None };
+            self.ended = Some(end.map(|ended| ended.unwrap_or_else(cancelled)));
         }
         if self.stale(scene) {
             self.work.cancel();

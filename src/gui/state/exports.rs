@@ -1,8 +1,10 @@
 //! An export under way, or what the last one wrote.
 
+use super::background::Background;
 use super::dialogs::Export;
-use crate::job::export::ExportTask;
+use crate::job::export::{ExportTask, Files};
 use crate::job::task::News;
+use crate::job::work::Work;
 use crate::platform::Instant;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -12,13 +14,12 @@ use std::time::Duration;
 pub struct RunningExport {
     /// What is written.
     pub export: Export,
-    task: ExportTask,
+    /// It tells how many pictures of an animation are drawn.
+    pub work: Background<<Files as Work>::Message, <Files as Work>::Found>,
     /// When it began.
     pub started: Instant,
     /// How many pictures are drawn, of how many.
     pub drawn: (usize, usize),
-    /// Whether it was told to end.
-    pub cancelled: bool,
 }
 
 /// All that the window knows of exports.
@@ -41,15 +42,12 @@ impl ExportState {
     /// One has begun.
     pub fn begin(&mut self, export: Export, task: ExportTask, started: Instant) {
         self.written = None;
-        self.running = Some(RunningExport { export, task, started, drawn: (0, 0), cancelled: false });
+        self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
     }
 
     /// Asks the one under way to end; nothing is written.
     pub fn cancel(&mut self) {
-        if let Some(running) = &mut self.running {
-            running.task.cancel();
-            running.cancelled = true;
-        }
+        self.running.iter_mut().for_each(|running| running.work.cancel());
     }
 
     /// What was written last, as long as that is told.
@@ -71,21 +69,14 @@ impl ExportState {
     pub fn drain(&mut self, now: Instant) -> Option<String> {
         self.written.take_if(|(_, since)| now.saturating_duration_since(*since) > TOLD);
         let running = self.running.as_mut()?;
-        let News { messages, end } = running.task.drain();
+        let News { messages, end } = running.work.news();
         for (drawn, all) in messages {
             // Several threads count: the last to tell need not have counted last.
             running.drawn = (drawn.max(running.drawn.0), all);
         }
         let end = end?;
         self.running = None;
-        match end {
-            Ok(Ok(paths)) => {
-                self.wrote(paths, now);
-                None
-            }
-            Ok(Err(reason)) => reason,
-            Err(panic) => Some(format!("The export failed; nothing was written: {panic}")),
-        }
+        end.map(|paths| paths.into_iter().for_each(|paths| self.wrote(paths, now))).err()
     }
 }
 

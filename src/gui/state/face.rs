@@ -20,14 +20,14 @@ pub struct Face {
     pub told: Object,
 }
 
-/// Reads a face: its heights and what they come to, or why it is none.
-pub type FaceTask = Task<(), Result<(HeightMap, Texture), String>>;
+/// Reads a face: its heights and what they come to.
+pub type FaceTask = Task<(), (HeightMap, Texture)>;
 
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]
 pub struct FaceState {
     /// What reads a file.
-    pub work: Background<(), Result<(HeightMap, Texture), String>>,
+    pub work: Background<(), (HeightMap, Texture)>,
     /// Name of that file.
     name: String,
     /// The face.
@@ -42,16 +42,12 @@ impl FaceState {
 
     /// Takes what was read since the last time; why it was not is to be shown.
     pub fn drain(&mut self) -> Option<String> {
-        match self.work.news().end? {
-            Ok(Ok((map, texture))) => {
-                let name = self.name.clone();
-                let pair = Pair::of(&texture, &texture);
-                let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
-                self.found = Some(Arc::new(Face { name, map, pair, told }));
-            }
-            Ok(Err(why)) => return Some(why),
-            Err(panic) => return Some(format!("The heights cannot be read: {panic}")),
-        }
-        None
+        let found = self.work.news().end?.map(|found| {
+            let (map, texture) = found?;
+            let (name, pair) = (self.name.clone(), Pair::of(&texture, &texture));
+            let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
+            Some(Arc::new(Face { name, map, pair, told }))
+        });
+        found.map(|face| self.found = face.or(self.found.take())).err()
     }
 }

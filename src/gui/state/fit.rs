@@ -5,12 +5,12 @@ use super::document::solved_alike;
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
-use crate::job::fit::Asked;
+use crate::job::fit::FitWork;
 pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
 use crate::job::work::Work;
 use crate::problem::Problem;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
+use crate::scene::{Parameter, ParameterKind, Scene};
 use std::sync::Arc;
 
 /// What is chosen at first: the first that a scene has.
@@ -54,7 +54,7 @@ pub struct FitState {
     /// What is wrong with the limits.
     goal_fault: Option<String>,
     /// The search: it tells how many points were tried, and the best so far.
-    pub work: Background<<Asked as Work>::Message, <Asked as Work>::Found>,
+    pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
     /// The scene that it is of.
     asked: Option<Scene>,
     /// How many points were tried, and the least χ² or the best number so far.
@@ -204,10 +204,9 @@ impl FitState {
         let News { messages, end } = self.work.news();
         self.told = messages.into_iter().last().or(self.told);
         match end {
-            Some(Ok(Ok(Some(found)))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
-            None | Some(Ok(Ok(None))) => {}
-            Some(Ok(Err(why))) => self.failure = Some(why),
-            Some(Err(panic)) => self.failure = Some(format!("it failed: {panic}")),
+            Some(Ok(Some(found))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
+            None | Some(Ok(None)) => {}
+            Some(Err(why)) => self.failure = Some(why),
         }
     }
 
@@ -226,10 +225,8 @@ pub fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
 
 /// What a line of the form says.
 fn bounds(scene: &Scene, axis: &AxisForm) -> Result<Bounds, String> {
-    let parameter = Parameter::find(axis.key).ok_or_else(|| format!("{} is not known", axis.key))?;
-    let (from, to) = (quantity_text::read(parameter, &axis.from)?, quantity_text::read(parameter, &axis.to)?);
-    let scale = Some(if axis.log { Scale::Log } else { Scale::Linear });
-    let bounds = Bounds { key: axis.key.to_owned(), from, to, scale };
+    let (from, to, scale) = axis.ends()?;
+    let bounds = Bounds { key: axis.key.to_owned(), from, to, scale: Some(scale) };
     Unknown::new(scene, &bounds).map_err(|error| error.to_string())?;
     Ok(bounds)
 }

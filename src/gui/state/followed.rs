@@ -7,7 +7,7 @@ use crate::job::task::Task;
 #[derive(Debug)]
 pub struct Followed<K, F, T> {
     pub(super) asked: Option<K>,
-    pub(super) work: Background<(), Option<Result<F, String>>>,
+    pub(super) work: Background<(), F>,
     pub(super) known: Option<(K, Result<T, String>)>,
 }
 
@@ -19,22 +19,16 @@ impl<K, F, T> Default for Followed<K, F, T> {
 
 impl<K: Clone, F: Into<T> + Send + 'static, T> Followed<K, F, T> {
     /// `task` computes that of `of`. What was found before stays until then.
-    pub(super) fn follow(&mut self, of: K, task: std::io::Result<Task<(), Option<Result<F, String>>>>) {
-        self.asked = Some(of.clone());
-        match task {
-            Ok(task) => self.work = task.into(),
-            Err(error) => self.known = Some((of, Err(format!("no thread can be started: {error}")))),
-        }
+    pub(super) fn follow(&mut self, of: K, task: Option<Task<(), F>>) {
+        self.asked = Some(of);
+        task.into_iter().for_each(|task| self.work = task.into());
     }
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
         if let (Some(end), Some(of)) = (self.work.news().end, self.asked.clone()) {
-            match end {
-                Ok(Some(found)) => self.known = Some((of, found.map(Into::into))),
-                Ok(None) => {}
-                Err(panic) => self.known = Some((of, Err(format!("it failed: {panic}")))),
-            }
+            let found = end.transpose().map(|found| (of, found.map(Into::into)));
+            self.known = found.or(self.known.take());
         }
     }
 

@@ -54,9 +54,7 @@ impl OffTabs {
         if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {
             let points = &startup.points;
             for (readings, point) in [(&mut self.start, points.first()), (&mut self.now, points.last())] {
-                if let Some(point) = point {
-                    readings.read_cycle(point.number, point.remaining, &point.outcome, &run.problem.scenario);
-                }
+                point.into_iter().for_each(|row| readings.read_cycle(row));
             }
         }
         match (&run.problem.scenario, seen.torque.of(run)) {

@@ -7,6 +7,7 @@
 use super::view::Tab;
 use crate::scene::presets::BUILT_IN;
 use crate::scene::{Scene, SceneError};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use std::fmt::Write as _;
 
 /// What a link leads to.
@@ -78,7 +79,7 @@ impl Link {
     /// [`LinkError`] names the part that is wrong, and what is allowed.
     pub fn read(address: &str) -> Result<Self, LinkError> {
         let text = address.split_once('#').map_or(address, |(_, text)| text);
-        let mut parts = text.split('&').map(decoded);
+        let mut parts = text.split('&').map(|part| percent_decode_str(part).decode_utf8_lossy().into_owned());
         let first = parts.next().unwrap_or_default();
         if let Some(lesson) = first.strip_prefix("lesson=") {
             let mut link = (counted("lesson", lesson)?, 1);
@@ -123,7 +124,7 @@ impl Link {
         });
         for parameter in scene.changed(&original).filter(|parameter| scene.get(parameter.key).is_some()) {
             if let Some(value) = scene.given_text(parameter) {
-                let _ = write!(text, "&{}={}", parameter.key, encoded(&value));
+                let _ = write!(text, "&{}={}", parameter.key, utf8_percent_encode(&value, CODED));
             }
         }
         for parameter in gone {
@@ -147,37 +148,10 @@ fn counted(key: &'static str, found: &str) -> Result<usize, LinkError> {
     number.ok_or_else(|| LinkError::Number { key, found: found.to_owned() })
 }
 
-/// `text` with everything but letters, digits and a few signs written as `%` and two digits.
-fn encoded(text: &str) -> String {
-    text.bytes().fold(String::new(), |mut address, byte| {
-        if byte.is_ascii_alphanumeric() || b"-._~:,;()+*/=".contains(&byte) {
-            address.push(char::from(byte));
-        } else {
-            let _ = write!(address, "%{byte:02X}");
-        }
-        address
-    })
-}
-
-/// The text that was encoded; what is no code stands for itself.
-fn decoded(text: &str) -> String {
-    let bytes = text.as_bytes();
-    let digit = |at: usize| bytes.get(at).and_then(|byte| char::from(*byte).to_digit(16));
-    let (mut found, mut at) = (Vec::new(), 0);
-    while at < bytes.len() {
-        match (bytes[at], digit(at + 1), digit(at + 2)) {
-            (b'%', Some(high), Some(low)) => {
-                found.push((16 * high + low) as u8);
-                at += 3;
-            }
-            (byte, ..) => {
-                found.push(byte);
-                at += 1;
-            }
-        }
-    }
-    String::from_utf8_lossy(&found).into_owned()
-}
+/// What is written as `%` and two digits: everything but letters, digits and a few signs.
+#[rustfmt::skip]
+const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b':').remove(b',').remove(b';')
+    .remove(b'(').remove(b')').remove(b'+').remove(b'*').remove(b'/').remove(b'=');
 
 #[cfg(test)]
 mod tests {
@@ -246,7 +220,7 @@ mod tests {
             let told = Link::read(link).unwrap_err().to_string();
             assert!(told.contains(words), "{link}: {told}");
         }
-        assert_eq!(decoded("%25a%2"), "%a%2");
-        assert_eq!(decoded(&encoded("µ & #=%")), "µ & #=%");
+        assert_eq!(percent_decode_str("%25a%2").decode_utf8_lossy(), "%a%2");
+        assert_eq!(utf8_percent_encode("µ & #=%", CODED).to_string(), "%C2%B5%20%26%20%23=%25");
     }
 }

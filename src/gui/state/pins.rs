@@ -260,7 +260,7 @@ impl Pins {
             match end {
                 Ok(Some(run)) => solved.push((waiting.id, stored, run)),
                 Ok(None) => failed = Some(Note::Failure(format!("{} could not be solved", waiting.name))),
-                Err(panic) => failed = Some(Note::Failure(format!("{} could not be solved: {panic}", waiting.name))),
+                Err(why) => failed = Some(Note::Failure(format!("{} could not be solved: {why}", waiting.name))),
             }
             false
         });

@@ -17,7 +17,7 @@ impl RotorState {
     }
 
     /// `task` computes that of `motor`.
-    pub fn begin(&mut self, motor: &Motor, task: std::io::Result<RotorTask>) {
+    pub fn begin(&mut self, motor: &Motor, task: Option<RotorTask>) {
         self.follow((motor.rotor.clone(), motor.wave()), task);
     }
 

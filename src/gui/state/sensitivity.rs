@@ -46,32 +46,25 @@ impl SensitivityState {
     }
 
     /// `task` computes the derivatives. What was found before stays until it has.
-    pub fn begin(&mut self, task: std::io::Result<TaskOf<Derivatives>>) {
-        (self.share, self.failure, self.drawing) = (0.0, None, Background::default());
-        match task {
-            Ok(task) => self.derivatives = task.into(),
-            Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
-        }
+    pub fn begin(&mut self, task: TaskOf<Derivatives>) {
+        (self.share, self.failure) = (0.0, None);
+        (self.derivatives, self.drawing) = (task.into(), Background::default());
     }
 
     /// `task` solves random scenes.
-    pub fn begin_drawing(&mut self, task: std::io::Result<TaskOf<Draws>>) {
-        (self.share, self.failure) = (0.0, None);
-        match task {
-            Ok(task) => self.drawing = task.into(),
-            Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
-        }
+    pub fn begin_drawing(&mut self, task: TaskOf<Draws>) {
+        (self.share, self.failure, self.drawing) = (0.0, None, task.into());
     }
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
         let derivatives = self.derivatives.news();
         match derivatives.end {
-            Some(Ok(Some(Ok(found)))) => {
+            Some(Ok(Some(found))) => {
                 (self.found, self.carlo) = (Some(found.into()), None);
                 self.judge();
             }
-            Some(Ok(Some(Err(why))) | Err(why)) => self.failure = Some(why),
+            Some(Err(why)) => self.failure = Some(why),
             None | Some(Ok(None)) => {}
         }
         let drawing = self.drawing.news();

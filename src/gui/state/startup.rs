@@ -2,10 +2,11 @@
 
 use super::background::Background;
 use super::document::solved_alike;
+use crate::export::startup::{Row, place};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
-use crate::job::startup::FromRest;
+use crate::job::startup::StartupWork;
 use crate::job::task::{News, TaskOf};
 use crate::problem::Problem;
 use crate::recording::Recording;
@@ -19,17 +20,6 @@ use std::sync::Arc;
 const MOST_BYTES: usize = 64 << 20;
 /// Runs from here on are cycles of a start-up: no number of the solver's.
 const FIRST_NUMBER: u64 = 1 << 40;
-
-/// One cycle's numbers.
-#[derive(Clone, Copy, Debug)]
-pub struct Point {
-    /// From 1.
-    pub number: usize,
-    /// Means and extremes over the cycle.
-    pub outcome: Outcome,
-    /// By how much ln Z may still change until the cycle repeats; infinite at first.
-    pub remaining: f64,
-}
 
 /// Keeps the `run` of cycle `number`. Of more than `most` bytes stay the first, the newest, and those between that show most of the way.
 fn keep(runs: &mut BTreeMap<usize, Arc<SolvedScene>>, number: usize, run: Arc<SolvedScene>, most: usize) {
@@ -55,7 +45,7 @@ fn bytes(recording: &Recording) -> usize {
 #[derive(Debug)]
 pub struct StartupState {
     /// It tells each cycle, and returns how it ended.
-    pub work: Background<Cycle, Result<Startup, String>>,
+    pub work: Background<Cycle, Startup>,
     /// The scene that was started.
     pub scene: Scene,
     /// What it poses.
@@ -65,7 +55,7 @@ pub struct StartupState {
     /// Its number in this window.
     pub count: u64,
     /// All cycles, in order.
-    pub points: Vec<Point>,
+    pub points: Vec<Row>,
     /// Runs that are kept, by the number of their cycle.
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
@@ -79,7 +69,7 @@ pub struct StartupState {
 
 impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
-    pub fn new(task: TaskOf<FromRest>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
+    pub fn new(task: TaskOf<StartupWork>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
         Self {
             work: task.into(),
             scene,
@@ -100,7 +90,7 @@ impl StartupState {
         let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
         if let Some(end) = end {
-            self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+            self.ended = Some(end.map(|ended| ended.unwrap_or_else(Startup::cancelled)));
         }
         if self.stale(scene) {
             self.work.cancel();
@@ -108,15 +98,9 @@ impl StartupState {
     }
 
     fn take(&mut self, cycle: Cycle) {
-        let Cycle { number, outcome, remaining, recording, .. } = cycle;
-        let point = Point { number, outcome, remaining };
-        let newest = number > self.points.len();
-        if newest {
-            self.points.push(point);
-        } else {
-            // The same cycle on finer grids.
-            self.points[number - 1] = point;
-        }
+        let newest = cycle.number > self.points.len();
+        place(&mut self.points, cycle.number, Row::of(&self.problem, &cycle));
+        let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;

@@ -3,8 +3,8 @@
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, Values, Vary};
 use crate::analysis::table1::Published;
+use crate::digits::rounded;
 use crate::fidelity::Fidelity;
-use crate::gui::derived::format::to_digits;
 use crate::gui::derived::sliders::slider_range;
 use crate::gui::derived::words::unused;
 use crate::job::sweep::{SweepMessage, SweepTask};
@@ -25,7 +25,7 @@ const SIDE: usize = 12;
 /// A default range reaches from a part of the present value to this many times the value.
 const REACH: f64 = 4.0;
 /// Significant digits of its ends.
-const DIGITS: i32 = 2;
+const DIGITS: usize = 2;
 /// An end that the scene refuses comes nearer to the present value in this many steps.
 const STEPS: u32 = 24;
 
@@ -77,19 +77,21 @@ impl AxisForm {
         form
     }
 
+    /// Its ends, and the spacing between them; or what is wrong with an end.
+    pub fn ends(&self) -> Result<(f64, f64, Scale), String> {
+        let parameter = Parameter::find(self.key).ok_or_else(|| format!("{} is not known", self.key))?;
+        let scale = if self.log { Scale::Log } else { Scale::Linear };
+        Ok((quantity_text::read(parameter, &self.from)?, quantity_text::read(parameter, &self.to)?, scale))
+    }
+
     /// What it says, if it says something.
     ///
     /// # Errors
     /// What is wrong with it, in a sentence that tells what is allowed.
     pub fn vary(&self, scene: &Scene) -> Result<Vary, String> {
-        let number = |text: &str| match Parameter::find(self.key) {
-            Some(parameter) => quantity_text::read(parameter, text),
-            None => Err(format!("{} is not known", self.key)),
-        };
-        let (from, to) = (number(&self.from)?, number(&self.to)?);
+        let (from, to, scale) = self.ends()?;
         let counted = self.count.trim().parse::<usize>();
         let count = counted.map_err(|_| format!("{} values: allowed 2 to {MOST_VALUES}", self.count.trim()))?;
-        let scale = if self.log { Scale::Log } else { Scale::Linear };
         let vary = Vary { key: self.key.to_owned(), values: Values::Range { from, to, count, scale } };
         Axis::new(scene, &vary).map_err(|error| error.in_place())?;
         Ok(vary)
@@ -104,7 +106,7 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
     };
     for step in 0..STEPS {
         let value = end + (present - end) * f64::from(step) / f64::from(STEPS);
-        let short = if whole { value.round() } else { to_digits(value, DIGITS, f64::round) };
+        let short = if whole { value.round() } else { rounded(value, DIGITS) };
         if let Some(found) = [short, value].into_iter().find(|value| fits(*value)) {
             return found;
         }
@@ -351,17 +353,13 @@ impl SweepState {
         let building = self.building();
         self.task = None;
         match (end, &mut self.swept) {
-            (Ok(Err(refusal)), _) => self.refusal = Some(refusal),
-            (Ok(Ok(rows)), Some(swept)) if !building => {
+            (Ok(rows), Some(swept)) if !building => {
                 swept.running = false;
-                // A worker that was ended returns none.
-                if rows.len() >= swept.rows.len() {
-                    swept.rows = rows;
-                }
+                rows.into_iter().for_each(|rows| swept.rows = rows);
             }
-            (Ok(Ok(_)), _) => {}
-            (Err(panic), Some(swept)) if !building => (swept.failure, swept.running) = (Some(panic), false),
-            (Err(panic), _) => self.refusal = Some(panic),
+            (Ok(_), _) => {}
+            (Err(why), Some(swept)) if !building => (swept.failure, swept.running) = (Some(why), false),
+            (Err(why), _) => self.refusal = Some(why),
         }
     }
 

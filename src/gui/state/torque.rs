@@ -18,7 +18,7 @@ impl TorqueState {
     }
 
     /// `task` computes those of `run`.
-    pub fn begin(&mut self, run: &Arc<SolvedScene>, task: std::io::Result<TorqueTask>) {
+    pub fn begin(&mut self, run: &Arc<SolvedScene>, task: Option<TorqueTask>) {
         self.follow(Arc::clone(run), task);
     }
 

@@ -45,10 +45,9 @@ impl TradeoffState {
             (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
         }
         match end {
-            Some(Ok(runs)) if !runs.is_empty() => self.tradeoff = Tradeoff::of(&runs),
-            // It goes on, or is a worker that was ended, which returns none.
-            None | Some(Ok(_)) => {}
-            Some(Err(panic)) => self.failure = Some(panic),
+            Some(Ok(Some(runs))) => self.tradeoff = Tradeoff::of(&runs),
+            None | Some(Ok(None)) => {}
+            Some(Err(why)) => self.failure = Some(why),
         }
     }
 
@@ -98,7 +97,7 @@ mod tests {
             std::thread::sleep(std::time::Duration::from_millis(10));
         }
         assert!(!state.work.running());
-        assert_eq!(state.failure.as_deref(), Some("out of luck"));
+        assert_eq!(state.failure.as_deref(), Some("it failed: out of luck"));
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub(super) fn next(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> 
     ui.add(button)
 }
 
-/// The button that fills a tab: lit while there is nothing to see in it.
+/// The start button of a tab, highlighted while the tab is empty.
 pub(super) fn first(ui: &mut Ui, text: &str, (empty, good): (bool, bool), cx: &DrawContext<'_>) -> Response {
     match empty && good {
         true => next(ui, text, true, cx),

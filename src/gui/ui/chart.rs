@@ -44,7 +44,7 @@ fn framed<'a, R>(
     [x, y]: [[f64; 2]; 2],
     add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
 ) -> PlotResponse<R> {
-    // What is new is as after a double click: the ranges are followed until something is zoomed.
+    // A new chart starts with automatic ranges, as after a double click.
     let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
     let ([left, right], [bottom, top]) = (widened(x), widened(y));
     plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {

@@ -73,7 +73,7 @@ impl<'a> DrawContext<'a> {
         self.say(ui, text, self.colours.quiet);
     }
 
-    /// What stands in a tab that has nothing to show yet, a paragraph each.
+    /// Placeholder text of an empty tab.
     pub fn introduce(&self, ui: &mut Ui, paragraphs: &[&str]) {
         ui.add_space(8.0);
         for paragraph in paragraphs {

@@ -4,7 +4,7 @@ use super::updater::Updater;
 use crate::digits::rounded;
 use crate::gui::command::FaceCommand;
 use crate::gui::state::view::Tab;
-use crate::job::face::Heights;
+use crate::job::face::FaceWork;
 use crate::scene::Kind;
 use crate::scene::heights::keys_of;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ impl Updater {
         }
         self.state.view.tab = Tab::Rotor;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if let Some(task) = self.start_work("The heights cannot be read", Heights::new(path), Duration::ZERO) {
+        if let Some(task) = self.start_work("The heights cannot be read", FaceWork::new(path), Duration::ZERO) {
             self.state.face.begin(name, task);
         }
     }

@@ -5,7 +5,7 @@ use crate::analysis::fit::{LARGEST_TABLE, Measured};
 use crate::gui::command::FitCommand;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
-use crate::job::fit::Asked;
+use crate::job::fit::FitWork;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::PathBuf;
@@ -63,7 +63,7 @@ impl Updater {
         }
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
         let asked = scene.clone();
-        let work = Asked { scene, measured, bounds, goal, settings };
+        let work = FitWork { scene, measured, bounds, goal, settings };
         if let Some(task) = self.start_work("The fit cannot be started", work, REDRAW) {
             self.state.fit.begin(asked, task);
         }

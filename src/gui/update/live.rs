@@ -8,12 +8,11 @@ use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
-use crate::job::drop::Dropping;
+use crate::job::drop::DropWork;
 use crate::job::hold::{HeldPlate, slowed};
-use crate::job::rotor::Alone;
-use crate::job::startup::FromRest;
-use crate::job::task::Task;
-use crate::job::torque::Curves;
+use crate::job::rotor::RotorWork;
+use crate::job::startup::StartupWork;
+use crate::job::torque::TorqueWork;
 use crate::job::work::Posed;
 use crate::problem::{Problem, Scenario};
 use crate::startup;
@@ -43,7 +42,7 @@ impl Updater {
     pub fn follow_torque(&mut self) {
         let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
         if self.state.torque.lacks(&run) {
-            let task = Task::of(Curves(Arc::clone(&run)), self.wake(Duration::ZERO));
+            let task = self.start_work("Torque cannot be computed", TorqueWork(Arc::clone(&run)), Duration::ZERO);
             self.state.torque.begin(&run, task);
         }
     }
@@ -56,7 +55,7 @@ impl Updater {
         let Scenario::Motor(motor) = &problem.scenario else { return };
         if self.state.rotor.lacks(motor) {
             let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-            let task = Task::of(Alone(posed), self.wake(Duration::ZERO));
+            let task = self.start_work("The rotor cannot be computed", RotorWork(posed), Duration::ZERO);
             self.state.rotor.begin(motor, task);
         }
     }
@@ -130,7 +129,7 @@ impl Updater {
         let scene = self.state.document.scene().clone();
         if scene.floats() {
             let posed = Posed { scene: scene.clone(), problem };
-            let work = Dropping { posed, fidelity };
+            let work = DropWork { posed, fidelity };
             if let Some(task) = self.start_work("The plate cannot be dropped", work, Duration::ZERO) {
                 self.state.dropped = Some(Dropped::new(task, scene, fidelity));
             }
@@ -140,7 +139,7 @@ impl Updater {
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
         let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-        let work = FromRest { posed, settings };
+        let work = StartupWork { posed, settings };
         if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {
             self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count));
         }

@@ -30,9 +30,8 @@ impl Updater {
         writing.retain(|task| {
             match task.drain().end {
                 None => return true,
-                Some(Ok(Ok(paths))) => state.exports.wrote(paths, now),
-                Some(Ok(Err(Some(error))) | Err(error)) => state.fail(error),
-                Some(Ok(Err(None))) => {}
+                Some(Ok(paths)) => paths.into_iter().for_each(|paths| state.exports.wrote(paths, now)),
+                Some(Err(error)) => state.fail(error),
             }
             false
         });

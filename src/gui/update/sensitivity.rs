@@ -4,21 +4,20 @@ use super::updater::{REDRAW, Updater};
 use crate::gui::command::SensitivityCommand;
 use crate::gui::state::sensitivity::SEED;
 use crate::job::sensitivity::{Derivatives, Draws};
-use crate::job::task::Task;
 use crate::solve::Settings;
 use std::sync::Arc;
 
 impl Updater {
     /// Does what is asked about what the results depend on.
     pub(super) fn sensitivity(&mut self, command: SensitivityCommand) {
-        let wake = self.wake(REDRAW);
         let document = &self.state.document;
         let (scene, fidelity) = (document.scene().clone(), document.target());
         let state = &mut self.state.sensitivity;
         match command {
             SensitivityCommand::Start => {
                 let settings = Settings { fidelity, ..Settings::default() };
-                state.begin(Task::of(Derivatives { scene, settings }, wake));
+                let task = self.start_work("It cannot be computed", Derivatives { scene, settings }, REDRAW);
+                task.into_iter().for_each(|task| self.state.sensitivity.begin(task));
             }
             SensitivityCommand::Cancel => state.cancel(),
             SensitivityCommand::Look(output) => state.output = output,
@@ -30,7 +29,8 @@ impl Updater {
                 };
                 let (sensitivity, uncertainties) = (Arc::clone(found), uncertainties.clone());
                 let draws = Draws { sensitivity, uncertainties, draws: state.draws(), seed: SEED };
-                state.begin_drawing(Task::of(draws, wake));
+                let task = self.start_work("Random scenes cannot be solved", draws, REDRAW);
+                task.into_iter().for_each(|task| self.state.sensitivity.begin_drawing(task));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::updater::{REDRAW, Updater};
 use crate::gui::command::SweepCommand;
-use crate::job::sweep::Points;
+use crate::job::sweep::SweepWork;
 use crate::solve::Settings;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ impl Updater {
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running) {
-                    self.begin_sweep(Points::Known(Arc::clone(&swept.sweep), swept.rows.to_vec()));
+                    self.begin_sweep(SweepWork::Known(Arc::clone(&swept.sweep), swept.rows.to_vec()));
                 }
             }
             SweepCommand::Open(point) => {
@@ -39,11 +39,11 @@ impl Updater {
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        self.begin_sweep(Points::New(swept, vary, settings));
+        self.begin_sweep(SweepWork::New(swept, vary, settings));
     }
 
-    fn begin_sweep(&mut self, points: Points) {
-        let goes_on = matches!(points, Points::Known(..));
+    fn begin_sweep(&mut self, points: SweepWork) {
+        let goes_on = matches!(points, SweepWork::Known(..));
         if let Some(task) = self.start_work("The sweep cannot be started", points, REDRAW) {
             self.state.sweep.begin(task, goes_on, self.now());
         }

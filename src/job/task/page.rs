@@ -11,8 +11,6 @@ pub struct Task<M, R> {
     /// `None` once the worker has nothing to do any more.
     line: Rc<RefCell<Option<Line>>>,
     told: Rc<RefCell<News<M, R>>>,
-    /// The result if the worker is ended.
-    ended: fn() -> R,
 }
 
 impl<M: 'static, R: 'static> Task<M, R> {
@@ -26,11 +24,11 @@ impl<M: 'static, R: 'static> Task<M, R> {
             match news {
                 Told::Message(message) => told.messages.push(message),
                 Told::End(found) => {
-                    told.end = Some(Ok(found));
+                    told.end = Some(found);
                     used.borrow_mut().take().into_iter().for_each(Line::give_back);
                 }
                 Told::Failed(text) => {
-                    told.end = Some(Err(text));
+                    told.end = Some(Err(format!("it failed: {text}")));
                     *used.borrow_mut() = None;
                 }
             }
@@ -39,7 +37,7 @@ impl<M: 'static, R: 'static> Task<M, R> {
             wake(ended);
         };
         line.borrow().as_ref().map_or(Ok(()), |line| line.ask(&work, listen))?;
-        Ok(Self { line, told, ended: W::ended })
+        Ok(Self { line, told })
     }
 
     /// What it has sent since the last time.
@@ -55,7 +53,7 @@ impl<M, R> Task<M, R> {
         let worker = self.line.borrow_mut().take();
         if let Some(worker) = worker {
             drop(worker);
-            self.told.borrow_mut().end = Some(Ok((self.ended)()));
+            self.told.borrow_mut().end = Some(Ok(None));
         }
     }
 }

@@ -19,7 +19,7 @@ pub struct Task<M, R> {
 #[derive(Debug)]
 enum Event<M, R> {
     Message(M),
-    End(Result<R, String>),
+    End(Result<Option<R>, String>),
 }
 
 /// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
@@ -37,7 +37,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
         name: &str,
         ahead: Option<usize>,
         wake: impl Wake,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
+        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> Result<Option<R>, String> + Send + 'static,
     ) -> std::io::Result<Self> {
         let (send, events): (Line<M, R>, _) = match ahead {
             Some(most) => {
@@ -57,7 +57,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
                 wake(false);
             };
             let end = caught(|| work(&theirs, &tell));
-            send(Event::End(end));
+            send(Event::End(end.unwrap_or_else(|panic| Err(format!("it failed: {panic}")))));
             wake(true);
         })?;
         Ok(Self { cancel, events: Some(events), thread: Some(thread) })
@@ -114,7 +114,7 @@ mod tests {
             panic!("on purpose, {}", 2);
         })
         .unwrap();
-        assert_eq!(to_the_end(&task), (vec![1], Err("on purpose, 2".to_owned())));
+        assert_eq!(to_the_end(&task), (vec![1], Err("it failed: on purpose, 2".to_owned())));
         for _ in 0..1000 {
             if woken.load(Ordering::Relaxed) {
                 return;
@@ -136,7 +136,7 @@ mod tests {
                         std::thread::sleep(Duration::from_millis(1));
                     }
                     tell("cancelled");
-                    3
+                    Ok(Some(3))
                 },
             )
             .unwrap()
@@ -144,7 +144,7 @@ mod tests {
         let task = endless();
         assert!(task.drain().end.is_none());
         task.cancel();
-        assert_eq!(to_the_end(&task), (vec!["cancelled"], Ok(3)));
+        assert_eq!(to_the_end(&task), (vec!["cancelled"], Ok(Some(3))));
         drop(endless());
     }
 
@@ -159,11 +159,12 @@ mod tests {
             move |cancel, tell| {
                 for i in 0.. {
                     if cancel.is_cancelled() {
-                        return;
+                        break;
                     }
                     tell(i);
                     theirs.store(i + 1, Ordering::Relaxed);
                 }
+                Ok(None)
             },
         )
         .unwrap();

@@ -22,7 +22,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             } else {
                 ui.spinner();
             }
-            ui.label(if running.cancelled { "Ending…" } else { running.export.title() });
+            ui.label(if running.work.cancelled { "Ending…" } else { running.export.title() });
         });
         ui.ctx().request_repaint_after(Duration::from_secs(1));
     } else if let Some(paths) = exports.written() {

@@ -8,7 +8,7 @@ use crate::gui::ui::rich::Look;
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::{button, keys};
 use crate::lessons::text::readings;
-use crate::lessons::work::{Score, Stage, StepWork, answer_words};
+use crate::lessons::work::{Score, Stage, StepWork};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
@@ -195,7 +195,9 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
             if readings(&question.ask).next().is_none() {
                 lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
             }
-            ui.add(egui::Label::new(RichText::new(answer_words(question)).size(look.size)).wrap());
+            ui.add(
+                egui::Label::new(RichText::new(question.answer.words(question.answer.right())).size(look.size)).wrap(),
+            );
         }
     }
     ui.add_space(12.0);

@@ -4,7 +4,7 @@ use crate::gui::command::LessonCommand;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
-use crate::lessons::work::{Stage, StepWork, answer_words};
+use crate::lessons::work::{Stage, StepWork};
 use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
 use crate::scene::quantity_text;
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
@@ -127,7 +127,11 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
             (true, Kind::Calculate) if task => {
                 match work.prediction.is_some_and(|given| question.answer.is_right(given)) {
                     true => cx.say(ui, "✔ Right", cx.colours.good),
-                    false => cx.say(ui, format!("The answer is {}", answer_words(question)), cx.colours.contact),
+                    false => cx.say(
+                        ui,
+                        format!("The answer is {}", question.answer.words(question.answer.right())),
+                        cx.colours.contact,
+                    ),
                 }
             }
             _ => {}
@@ -267,7 +271,7 @@ fn explain(ui: &mut Ui, question: &Question, then: &[Block], work: &StepWork, cx
                 }
             }
             Answer::Number { .. } => {
-                ui.label(RichText::new(answer_words(question)).size(look.size).color(colour));
+                ui.label(RichText::new(question.answer.words(question.answer.right())).size(look.size).color(colour));
             }
         }
         blocks(ui, &question.why, look, true, cx);

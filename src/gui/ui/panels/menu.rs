@@ -74,48 +74,32 @@ fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &Dra
     }
 }
 
-/// What can be exported, in groups: of the run on screen, of the pinned runs, of the sweep, of the trade-off, of the sensitivities, of a fit.
-const EXPORTS: &[&[(&str, Export)]] = &[RUN, COMPARISON, SWEEP, TRADEOFF, SENSITIVITY, FIT];
-
-const RUN: &[(&str, Export)] = &[
-    ("All results, into a folder…", Export::Data),
-    ("Figures, into a folder…", Export::Figures),
-    ("Fields as NumPy archive…", Export::Fields),
-    ("Animation…", Export::Animation),
-    ("Report as HTML…", Export::Report),
+/// What can be exported, in groups.
+const EXPORTS: &[&[Export]] = &[
+    &[Export::Data, Export::Figures, Export::Fields, Export::Animation, Export::Report],
+    COMPARISON,
+    SWEEP,
+    &[Export::TradeoffTable, Export::TradeoffFigure],
+    &[Export::Sensitivity],
+    FIT,
 ];
-
 /// What can be exported of the pinned runs.
-pub const COMPARISON: &[(&str, Export)] =
-    &[("Comparison, into a folder…", Export::Comparison), ("Comparison as HTML…", Export::ComparisonReport)];
-
+pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport];
 /// What can be exported of the sweep.
-pub const SWEEP: &[(&str, Export)] = &[
-    ("Sweep, into a folder…", Export::Sweep),
-    ("Sweep as table…", Export::SweepTable),
-    ("Sweep as figure…", Export::SweepFigure),
-];
-
-const TRADEOFF: &[(&str, Export)] =
-    &[("Trade-off as table…", Export::TradeoffTable), ("Trade-off as figure…", Export::TradeoffFigure)];
-
-const SENSITIVITY: &[(&str, Export)] = &[("Sensitivities, into a folder…", Export::Sensitivity)];
-
+pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
 /// What can be exported of a fit.
-pub const FIT: &[(&str, Export)] = &[("Fit, into a folder…", Export::Fit)];
+pub const FIT: &[Export] = &[Export::Fit];
 
 /// A button with a menu of exports.
-pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], cx: &DrawContext<'_>) {
+pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) {
     let button = menu(ui, "Export ▾", &mut |ui| {
-        for (text, export) in group {
-            export_item(ui, text, *export, true, cx);
-        }
+        group.iter().for_each(|export| export_item(ui, *export, true, cx));
     });
     button.hint("Writes this to files, as the command line does");
 }
 
-fn export_item(ui: &mut egui::Ui, text: &str, export: Export, enabled: bool, cx: &DrawContext<'_>) {
-    let entry = ui.add_enabled(enabled, Button::new(text));
+fn export_item(ui: &mut egui::Ui, export: Export, enabled: bool, cx: &DrawContext<'_>) {
+    let entry = ui.add_enabled(enabled, Button::new(export.entry()));
     if beside(ui.max_rect(), entry, export.about()).clicked() {
         cx.push(Command::Ask(Purpose::Export(export)));
         ui.close();
@@ -127,9 +111,7 @@ fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if i > 0 {
             ui.separator();
         }
-        for (text, export) in *group {
-            export_item(ui, text, *export, cx.state.can_export(*export), cx);
-        }
+        group.iter().for_each(|export| export_item(ui, *export, cx.state.can_export(*export), cx));
     }
 }
 
@@ -183,7 +165,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
         item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
     }
-    export_item(ui, "Save my answers…", Export::Answers, cx.state.can_export(Export::Answers), cx);
+    export_item(ui, Export::Answers, cx.state.can_export(Export::Answers), cx);
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }

@@ -5,7 +5,7 @@ use super::records;
 use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
-use crate::gui::derived::words::{self, choice, field_name, label, switch};
+use crate::gui::derived::words::{self, choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
@@ -233,7 +233,7 @@ impl Panel<'_> {
         let explanation = self.explanation(parameter);
         // The checkbox above mostly says it already.
         let said =
-            parameter.absent.is_some() && switch(parameter).to_lowercase().contains(&label(parameter).to_lowercase());
+            parameter.absent.is_some() && parameter.switch.to_lowercase().contains(&label(parameter).to_lowercase());
         let name = if said { None } else { Some(self.label_row(ui, parameter)) };
         ui.horizontal(|ui| {
             let em = ui.text_style_height(&TextStyle::Body);
@@ -301,7 +301,7 @@ impl Panel<'_> {
     fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
         let mut on = present;
         let explanation = self.explanation(parameter);
-        let checkbox = ui.checkbox(&mut on, switch(parameter));
+        let checkbox = ui.checkbox(&mut on, parameter.switch);
         if beside(ui.clip_rect(), checkbox, &explanation).changed() {
             self.cx.push(match (on, parameter.kind) {
                 (true, ParameterKind::Number { default, .. }) => {
@@ -415,8 +415,7 @@ impl Panel<'_> {
         match value {
             Value::Text(name) => choice(parameter.key, name).to_owned(),
             Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
-            value if parameter.unit.is_empty() => value.to_string(),
-            value => format!("{value} {}", parameter.unit),
+            value => parameter.with_unit(value),
         }
     }
 }

@@ -157,7 +157,7 @@ impl Shown<'_> {
     }
 }
 
-/// Where the model is out of its depth; nothing if it is not.
+/// Limits of the model that are exceeded; empty if none.
 fn limits(ui: &mut egui::Ui, validity: &[Excess], cx: &DrawContext<'_>) {
     if validity.is_empty() {
         return;

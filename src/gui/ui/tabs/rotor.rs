@@ -12,11 +12,12 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::paint::Axes;
 use crate::gui::ui::scroll::scrolled;
 use crate::problem::{Problem, Scenario};
 use crate::scene::edges::{lengths, reach, with_edge};
 use crate::scene::{Parameter, Value};
-use eframe::egui::{self, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, CursorIcon, Rect, Sense, Stroke, TextStyle, Ui, vec2};
 use egui_plot::LineStyle;
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
@@ -159,19 +160,6 @@ fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>
     cx.note(ui, text);
 }
 
-/// The window onto the section: millimetres to points, one scale for both.
-#[derive(Clone, Copy)]
-struct Scale {
-    origin: Pos2,
-    points: f64,
-}
-
-impl Scale {
-    fn at(self, r: f64, z: f64) -> Pos2 {
-        pos2(self.origin.x + (self.points * r) as f32, self.origin.y - (self.points * z) as f32)
-    }
-}
-
 fn section(
     ui: &mut Ui,
     parts: &[Vec<Value>],
@@ -193,7 +181,12 @@ fn section(
     let points = (f64::from(0.86 * rect.width()) / wide).min(f64::from(0.8 * rect.height()) / tall);
     let middle = (0.5 * (left + right), 0.5 * (bottom + top));
     let origin = rect.center() - vec2((points * middle.0) as f32, -(points * middle.1) as f32);
-    let scale = Scale { origin, points };
+    let [x, y] = [(rect.width(), middle.0), (rect.height(), middle.1)].map(|(size, middle)| {
+        let half = 0.5 * f64::from(size) / points;
+        [middle - half, middle + half]
+    });
+    // Millimetres, with one scale for both.
+    let scale = Axes { rect, x, y };
     let painter = ui.painter().with_clip_rect(rect);
     let outline = Stroke::new(1.5, cx.colours.rotor);
     let fill = cx.colours.canvas.lerp_to_gamma(cx.colours.rotor, 0.35);
@@ -264,7 +257,7 @@ fn label(which: usize) -> &'static str {
 }
 
 /// The mesh as it is, and magnified as the load bends it.
-fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, tall]: [f64; 2], cx: &DrawContext<'_>) {
+fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, tall]: [f64; 2], cx: &DrawContext<'_>) {
     let node = |i: usize, moved: Option<(&[[f64; 2]], f64)>| {
         let [r, z] = bent.mesh.nodes[i];
         let [u, w] = moved.map_or([0.0; 2], |(moved, factor)| moved[i].map(|u| factor * u));
@@ -302,7 +295,7 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, 
 }
 
 /// Where it is held.
-fn supports(painter: &egui::Painter, scale: Scale, cx: &DrawContext<'_>) {
+fn supports(painter: &egui::Painter, scale: Axes, cx: &DrawContext<'_>) {
     let Some(Value::Records(supports)) = cx.state.document.scene().get("rotor.support") else { return };
     for [inner, outer, low, high] in supports.iter().filter_map(|support| lengths(support)) {
         let area = Rect::from_two_pos(scale.at(inner, low), scale.at(outer, high)).expand(2.0);

@@ -100,8 +100,8 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
         let text = format!("Of “{}” before the scene changed; start again", startup.scene.name);
         cx.say(ui, text, cx.colours.alarm);
     }
-    if let Some(point) = startup.points.get(startup.chosen().wrapping_sub(1)) {
-        let text = format!("Shown is {}", views::history::words(point, &startup.problem.scenario));
+    if let Some(row) = startup.points.get(startup.chosen().wrapping_sub(1)) {
+        let text = format!("Shown is {}", views::history::words(row));
         ui.add(egui::Label::new(text).wrap());
     }
 }
@@ -109,7 +109,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
 /// How far it is, in words.
 fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) -> (String, egui::Color32) {
     let cycles = startup.points.len();
-    let remaining = startup.points.last().map_or(f64::INFINITY, |point| point.remaining);
+    let remaining = startup.points.last().and_then(|row| row.remaining).unwrap_or(f64::INFINITY);
     let open = if remaining.is_finite() {
         format!("not yet repeating, trapped gas may still change by {:.1} %", 100.0 * remaining)
     } else {

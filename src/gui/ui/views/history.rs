@@ -1,16 +1,16 @@
 //! A start-up's numbers against the number of the cycle, with the periodic solve's that they converge to.
 
 use crate::estimate::Estimate;
+use crate::export::startup::Row;
 use crate::gui::command::StartupCommand;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
-use crate::gui::state::startup::{Point, StartupState};
+use crate::gui::state::startup::StartupState;
 use crate::gui::ui::chart::{Inset, between, dots, dragged, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
-use crate::solution::{Outcome, PlateResult};
 use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Ui, pos2, vec2};
 use egui_plot::{Axis, LineStyle, Span};
 
@@ -25,22 +25,16 @@ struct Quantity {
     titles: [&'static str; 3],
     /// What the glossary explains it under.
     word: &'static str,
-    unit: f64,
     /// Known with an error.
     extrapolated: bool,
-    of: fn(&Outcome, &Scenario) -> Estimate,
+    of: fn(&Row) -> Estimate,
 }
 
 const ALPHA: Quantity = Quantity {
     titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
     word: "α",
-    unit: 1.0,
     extrapolated: true,
-    of: |outcome, scenario| match (outcome, scenario) {
-        (Outcome::Motor(result), _) => result.alpha,
-        (Outcome::Plate(result), Scenario::Plate(plate)) => result.film_load * PlateResult::ratio(1.0, plate),
-        (Outcome::Plate(result), Scenario::Motor(_)) => result.film_load,
-    },
+    of: Row::main,
 };
 const RATIO: Quantity = Quantity {
     titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle", "Load ratio"],
@@ -50,22 +44,14 @@ const RATIO: Quantity = Quantity {
 const THICKNESS: Quantity = Quantity {
     titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
     word: "Least film thickness",
-    unit: 1e-6,
     extrapolated: false,
-    of: |outcome, _| match outcome {
-        Outcome::Motor(result) => result.min_film_thickness,
-        Outcome::Plate(result) => result.min_film_thickness,
-    },
+    of: |row| Estimate::exact(row.min_gap_nm * 1e-3),
 };
 const PRESSURE: Quantity = Quantity {
     titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
     word: "Highest pressure",
-    unit: 1e3,
     extrapolated: false,
-    of: |outcome, _| match outcome {
-        Outcome::Motor(result) => result.max_pressure,
-        Outcome::Plate(result) => result.max_pressure,
-    },
+    of: |row| Estimate::exact(row.max_pressure_kpa),
 };
 const OF_MOTOR: &[(Quantity, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
 /// Without room for three: what is left out is in the words above.
@@ -109,17 +95,13 @@ fn plot(
     periodic: Option<&SolvedScene>,
     cx: &DrawContext<'_>,
 ) {
-    let scenario = &startup.problem.scenario;
     let points = &startup.points;
-    let of = |outcome: &Outcome| {
-        let found = (quantity.of)(outcome, scenario) * (1.0 / quantity.unit);
-        (found.value, if quantity.extrapolated { found.error } else { 0.0 })
-    };
     // Extremes are those of one grid, without an error: compared with those of another they would mislead.
     let aim = periodic
         .filter(|run| quantity.extrapolated || run.fidelity == startup.fidelity)
-        .map(|run| of(&run.solution.outcome));
-    let [low, high] = span(points.iter().map(|point| of(&point.outcome).0).chain(aim.map(|aim| aim.0)));
+        .map(|run| (quantity.of)(&Row::of_outcome(&startup.problem, &run.solution.outcome)));
+    let found: Vec<Estimate> = points.iter().map(quantity.of).collect();
+    let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
     let margin = 0.12 * (high - low);
     let (film, good) = (style.palette.film, style.palette.good);
     // One curve needs no legend.
@@ -134,16 +116,14 @@ fn plot(
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let chosen = startup.chosen() as f64;
     let shown = inset.show(ui, style, |plot| {
-        if let Some((aim, error)) = aim {
+        if let Some(Estimate { value: aim, error }) = aim {
             let band = Span::new("", aim - reach(error)..=aim + reach(error)).axis(Axis::Y);
             plot.span(band.fill(good.gamma_multiply(0.25)));
             plot.hline(level(aim, good, 1.5));
         }
-        let at = |point: &Point| [point.number as f64, of(&point.outcome).0];
-        let curve: Vec<[f64; 2]> = points.iter().map(at).collect();
-        let error = |point: &Point| reach(of(&point.outcome).1);
-        let bands: Vec<_> =
-            points.iter().zip(&curve).map(|(point, [x, y])| [*x, y + error(point), y - error(point)]).collect();
+        let curve: Vec<[f64; 2]> = points.iter().zip(&found).map(|(row, of)| [row.cycle as f64, of.value]).collect();
+        let band = |([x, y], of): (&[f64; 2], &Estimate)| [*x, y + reach(of.error), y - reach(of.error)];
+        let bands: Vec<_> = curve.iter().zip(&found).map(band).collect();
         plot.add(between(&bands, film.gamma_multiply(0.25)));
         plot.line(line(&curve, film, 1.6, LineStyle::Solid));
         // A dot where the cycle can be looked at.
@@ -164,19 +144,18 @@ fn plot(
         cx.push(StartupCommand::Choose(cycle(x)));
     }
     let hovered = response.hover_pos().and_then(|place| points.get(cycle(at(place)) - 1));
-    if let Some(point) = hovered {
-        response.on_hover_text_at_pointer(words(point, scenario));
+    if let Some(row) = hovered {
+        response.on_hover_text_at_pointer(words(row));
     }
 }
 
 /// A cycle's numbers in words.
-pub fn words(point: &Point, scenario: &Scenario) -> String {
-    let of = |quantity: &Quantity| (quantity.of)(&point.outcome, scenario);
-    let (cycle, Estimate { value, error }) = (point.number, of(&ALPHA));
-    let (name, thickness) = match scenario {
-        Scenario::Motor(_) => ("α", format!(", least film thickness {} µm", number(of(&THICKNESS).value * 1e6))),
-        Scenario::Plate(_) => ("load ratio", String::new()),
+pub fn words(row: &Row) -> String {
+    let Estimate { value, error } = row.main();
+    let (name, thickness) = match row.alpha {
+        Some(_) => ("α", format!(", least film thickness {} µm", number(row.min_gap_nm * 1e-3))),
+        None => ("load ratio", String::new()),
     };
-    let pressure = number(of(&PRESSURE).value / 1e3);
+    let (cycle, pressure) = (row.cycle, number(row.max_pressure_kpa));
     format!("cycle {cycle}: {name} {value:.4} ± {error:.1e}{thickness}, highest pressure {pressure} kPa absolute")
 }
