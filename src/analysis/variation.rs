@@ -311,7 +311,9 @@ fn slopes(
             let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i])).collect();
             Some(derivative(middle[i], &at?).0)
         });
-        let left_out = (relative + ROUNDING / step) * middle.fine[i].abs();
+        // What a key has nothing to do with is not even rounded.
+        let rounding = if value == 0.0 { 0.0 } else { ROUNDING / step };
+        let left_out = (relative + rounding) * middle.fine[i].abs();
         // A single grid tells nothing of its error.
         let coarse = coarse.unwrap_or(f64::INFINITY);
         Slope { value, coarse, least: 0.0, step_error: (value - longer).abs(), left_out }
@@ -323,8 +325,12 @@ impl Column {
     /// Takes a share of the stated errors of the `numbers` in the middle, as if these changed as the key does, for the least errors by the grids.
     pub fn expect(&mut self, numbers: &[Estimate]) {
         for (slope, number) in self.slopes.iter_mut().flatten().zip(numbers) {
-            // An error that is not known is no measure.
-            slope.least = if number.error.is_finite() { EXPECTED * number.error * STEP / self.step } else { 0.0 };
+            // An error that is not known is no measure, and what a key has nothing to do with has none.
+            slope.least = if number.error.is_finite() && slope.value != 0.0 {
+                EXPECTED * number.error * STEP / self.step
+            } else {
+                0.0
+            };
         }
     }
 

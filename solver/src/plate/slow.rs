@@ -12,7 +12,7 @@
 //!
 //! Where the vibrating film leaks within a cycle c is the mean over the cycle of that of a film that is not compressed. In between both are mixed,
 //! by the square of 1 − S, S the spring of the linear film at the least gap and the frequency of the vibration, and half of S (1 − S) of what they differ by is
-//! error. A plate that is light enough to shake has an amplitude of its own, (−dF/dh + k_T)/(m ω²) of the vibration's: twice that share of both
+//! error. A plate that is light enough to shake has an amplitude of its own, |K(iω)|/(m ω²) of the vibration's: twice that share of both
 //! stiffnesses is error, too.
 //!
 //! K is that of a row of springs with dashpots: it has a pair of complex roots or none, all others are real.
@@ -110,7 +110,8 @@ impl SlowFilm {
         let vibrating = linear_response(Complex::new(0.0, omega * per_rate * h / (least * law.at(least).0)), outline);
         let (leaks, more) = ((1.0 + vibrating.re).clamp(0.0, 1.0), leaking / film.damping() - 1.0);
         film.trapped *= 1.0 + leaks * leaks * more;
-        film.shakes = (stiffness + trapped) / mass / (omega * omega);
+        let shaken = Complex::new(0.0, omega);
+        film.shakes = (film.balance(shaken) / (shaken * shaken * mass) - 1.0).norm();
         film.doubt = MIXED * leaks * (1.0 - leaks) * more.abs() + 2.0 * film.shakes;
         (film.doubt < 1.0 && film.time.is_finite()).then_some(film)
     }
