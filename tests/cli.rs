@@ -679,6 +679,18 @@ fn a_preset_is_read_from_standard_input() {
 }
 
 #[test]
+fn sizes_that_a_preset_does_not_give_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    fs::write(&path, "schema = 1\nscene = \"plate\"\n[plate]\nshape = \"disc\"\nmass_g = 50\namplitude_um = 5\n")
+        .unwrap();
+    let solve = ["solve", path.to_str().unwrap(), "--fidelity", "draft", "--set", "plate.frequency_khz=30"];
+    let told = err(&run(&solve)).to_owned();
+    assert!(told.contains("does not give them: plate.radius_mm = 10 mm\n"), "{told}");
+    assert!(!err(&run(&["solve", "floating-disc", "--fidelity", "draft"])).contains("assumed"));
+}
+
+#[test]
 fn a_new_motor_is_made_of_options_or_of_answers() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");

@@ -16,6 +16,32 @@ use squeezefilm::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, 
 use squeezefilm::solution::Status;
 use std::f64::consts::TAU;
 
+#[test]
+fn a_wave_of_many_decay_lengths_has_as_many_harmonics_as_it_needs() {
+    let changes = [
+        ("motor.contact_radius_mm", "52.48"),
+        ("motor.waves", "3"),
+        ("stator.teeth_per_wave", "19"),
+        ("stator.tooth_share", "0.525"),
+        ("rotor.decay_length_mm", "0.7095"),
+        ("rotor.point_compliance_um_per_n", "1.247"),
+        ("motor.load_per_wave_n", "22.8"),
+        ("stator.frequency_khz", "90.84"),
+        ("film.min_spacing_nm", "169.2"),
+    ];
+    let motor = scenes::motor("fundamental", &changes);
+    let solved = |fidelity| {
+        let plan = Plan::motor(&motor, fidelity, &Numerics::default()).unwrap();
+        println!("{fidelity}: {:?}", plan.grids.iter().map(|grid| plan.harmonics(grid)).collect::<Vec<_>>());
+        motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap().result.alpha
+    };
+    let fine = solved(Fidelity::Fine);
+    for fidelity in [Fidelity::Draft, Fidelity::Standard] {
+        let found = solved(fidelity);
+        assert!((found.value - fine.value).abs() < found.error + fine.error, "{fidelity}: {found}, {fine}");
+    }
+}
+
 /// Nothing left out, and cycles that repeat far better than what is measured.
 const WHOLE: Numerics = Numerics {
     film_nodes_along: None,

@@ -371,6 +371,8 @@ mod tests {
         assert_eq!(spaced(5.0, -5.0, 3, Scale::Linear), [5.0, 0.0, -5.0]);
         let teeth = sweep("fundamental", &["motor.waves=1:8:40:log"]).unwrap();
         assert_eq!(teeth.axes()[0].values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+        let units = sweep("fundamental", &["film.min_spacing_nm=0.05um,150,0.1 um"]).unwrap();
+        assert_eq!((&units.axes()[0].values[..], units.axes()[0].words.len()), (&[50.0, 150.0, 100.0][..], 0));
     }
 
     #[test]
@@ -390,6 +392,7 @@ mod tests {
             (&["film.slip=none"], "a list of two values or more"),
             (&["film.slip=none,second"], "film.slip"),
             (&["film.slip=none,none"], "none is listed twice"),
+            (&["film.min_spacing_nm=100,0.1um"], "0.1um is listed twice"),
             (&["film.min_spacing_nm=100,3"], "film.min_spacing_nm = 3 is out of range"),
             (&["film.min_spacing=100:200:3"], "did you mean film.min_spacing_nm?"),
             (&["scene=1:2:3"], "scene cannot be changed"),

@@ -332,7 +332,9 @@ fn cost(summary: &Summary) -> String {
             StoppedBy::Budget => "; the time allowed was up",
             StoppedBy::Limit => "; no finer grid was tried",
         };
-        parts.push(format!("stated error {} ({} asked for{why})", percent(stated), percent(asked)));
+        // Of a smaller share α the accuracy is that of a hundredth of the load.
+        let of = if found(summary, Quantity::Alpha).value.abs() < 0.01 { " of a hundredth of the load" } else { "" };
+        parts.push(format!("stated error {}{of} ({} asked for{why})", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
     paragraph(&format!("Cost: {}: {}; {grid}", duration(summary.wall_s), parts.join(", ")), "\n", "  ")

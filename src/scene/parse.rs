@@ -17,7 +17,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// Largest file read \[MB\]. The largest compliance table takes a third of it.
-const LARGEST_FILE: u64 = 16;
+pub(super) const LARGEST_FILE: u64 = 16;
 
 impl Scene {
     /// Reads a preset file.

@@ -2,8 +2,11 @@
 
 use super::error::{SceneError, What};
 use super::nearest::nearest;
+use super::parameter::{Parameter, ParameterKind};
+use super::parse::LARGEST_FILE;
 use super::value::show_text;
 use super::values::Scene;
+use crate::input;
 use std::path::Path;
 
 /// A preset built into the program.
@@ -68,6 +71,21 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
         "tooth-radius-10m",
     ],
 ];
+
+/// What the file of a PRESET argument does not give of the numbers that make a motor or a plate, so that `scene` has those of the paper, or of
+/// the default strip; nothing of a built-in preset.
+pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
+    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
+    let text = (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten();
+    let Some(file) = text.and_then(|text| text.parse::<toml::Table>().ok()) else { return Vec::new() };
+    let given = |key: &str| {
+        key.split_once('.').is_some_and(|(table, name)| file.get(table).is_some_and(|t| t.get(name).is_some()))
+    };
+    let number =
+        |parameter: &Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
+    let makes = |parameter: &&Parameter| ["motor", "stator", "plate"].contains(&parameter.table()) && number(parameter);
+    scene.parameters().filter(makes).filter(|parameter| parameter.absent.is_none() && !given(parameter.key)).collect()
+}
 
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.
 ///
