@@ -17,16 +17,14 @@ impl Steps {
         Self::apart(range, (range[1] - range[0]) / about.max(1) as f64)
     }
 
-    /// As [`Self::new`], with more steps if there would be only one number between `seen`, which does not show the scale of the axis.
-    pub fn several(range: [f64; 2], seen: [f64; 2], about: usize) -> Self {
+    /// As [`Self::new`], with more steps if there would be only one number above `least`, which does not show the scale of the axis; but
+    /// not with more than there is room for, `most`.
+    pub fn several(range: [f64; 2], least: f64, about: usize, most: f64) -> Self {
+        let span = range[1] - range[0];
+        let seen = |steps: &Self| steps.values().filter(|value| *value >= least - 1e-6 * span).count();
         // Eight steps or more have two numbers wherever the range is.
-        let more = |within: [f64; 2]| {
-            let margin = 1e-6 * (range[1] - range[0]);
-            let within = within[0] - margin..=within[1] + margin;
-            let two = |steps: &Self| steps.values().filter(|value| within.contains(value)).count() > 1;
-            (about..about + 9).map(|about| Self::new(range, about)).find(two)
-        };
-        more(seen).or_else(|| more(range)).unwrap_or_else(|| Self::new(range, about))
+        let mut more = (about..about + 9).map(|about| Self::new(range, about));
+        more.find(|steps| seen(steps) > 1 && span / steps.step <= most).unwrap_or_else(|| Self::new(range, about))
     }
 
     /// Steps over `range` of at least `least`, each 1, 2 or 5 times a power of ten.
@@ -118,10 +116,12 @@ mod tests {
         let steps = Steps::new([0.0, 0.031], 4);
         let texts: Vec<String> = steps.values().map(|value| steps.format(value)).collect();
         assert_eq!(texts, ["0.00", "0.01", "0.02", "0.03"]);
-        let several = |range, seen, about| Steps::several(range, seen, about).values().collect::<Vec<_>>();
-        assert_eq!(several([0.15, 1.9], [0.15, 1.9], 1), [0.5, 1.0, 1.5], "1 alone has no scale");
-        assert_eq!(several([0.0, 2.2], [0.1, 2.2], 1), [0.0, 1.0, 2.0], "nor has 2, if 0 is not seen");
-        assert_eq!(several([0.0, 2.2], [0.0, 2.2], 1), [0.0, 2.0]);
+        let several = |range, least, about| Steps::several(range, least, about, 4.0).values().collect::<Vec<_>>();
+        assert_eq!(several([0.15, 1.9], 0.15, 1), [0.5, 1.0, 1.5], "1 alone has no scale");
+        assert_eq!(several([0.0, 2.2], 0.1, 1), [0.0, 1.0, 2.0], "nor has 2, if 0 is not seen");
+        assert_eq!(several([0.0, 2.2], 0.0, 1), [0.0, 2.0]);
+        assert_eq!(several([9.1, 10.9], 9.1, 1), [9.5, 10.0, 10.5]);
+        assert_eq!(several([9.51, 10.49], 9.51, 1), [10.0], "there is no room for more");
         assert!(Steps::new([0.0, 0.0], 3).values().count() <= 101);
         assert!(Steps::new([1e300, -1e300], 0).values().count() <= 101);
     }

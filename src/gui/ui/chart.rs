@@ -183,25 +183,20 @@ impl<'a> Inset<'a> {
         // The name has the left end, and a neighbour begins soon after the right one.
         let named = below.filter(|name| !name.is_empty());
         let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(ui.painter(), name)).clamp(0.0, 0.6 * row);
-        // Room for half a number beyond either end.
-        let beyond = [2.0 + spare, 0.4 * row];
-        let half = move |letters: usize| 0.28 * row * letters as f32;
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
-            let half = half(text.chars().count());
+            let half = 0.28 * row * text.chars().count() as f32;
             let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
-            let fits = along - half > -beyond[0] && along + half < rect.width() + beyond[1];
+            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.5 * row;
             if fits || named.is_none() { text } else { String::new() }
         };
-        let unseen =
-            beyond.map(|beyond| if named.is_some() { (half(3) - beyond).max(0.0) / rect.width() } else { 0.0 });
         let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
         let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
             .show_axes([below.is_some(), true])
             .grid_color(style.grid)
             .grid_fade(0.0)
-            .x_grid_spacer(move |input| several(&input, unseen, columns))
-            .y_grid_spacer(move |input| several(&input, [hidden, 0.0], lines));
+            .x_grid_spacer(move |input| several(&input, 0.0, columns, rect.width() / (1.5 * row)))
+            .y_grid_spacer(move |input| several(&input, hidden, lines, height / row));
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, change(chart)), self.bounds, add);
@@ -347,10 +342,10 @@ pub(super) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
     apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
 }
 
-/// Round marks, about `about`, and two at least that are farther from both ends of the axis than these shares of it.
-fn several(input: &GridInput, [before, after]: [f32; 2], about: usize) -> Vec<GridMark> {
-    let ((from, to), ends) = (input.bounds, [before, after].map(f64::from));
-    marks(Steps::several([from, to], [from + ends[0] * (to - from), to - ends[1] * (to - from)], about))
+/// Round marks, about `about`, and two at least beyond the share `hidden` of the axis at its beginning if it has room for `most`.
+fn several(input: &GridInput, hidden: f32, about: usize, most: f32) -> Vec<GridMark> {
+    let (from, to) = input.bounds;
+    marks(Steps::several([from, to], from + f64::from(hidden) * (to - from), about, most.into()))
 }
 
 /// Marks at these numbers.

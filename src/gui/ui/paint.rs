@@ -225,7 +225,7 @@ impl Axes {
     pub(super) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
         let range = [self.y[0] / unit, self.y[1] / unit];
-        let ticks = Steps::several(range, range, about);
+        let ticks = Steps::several(range, range[0], about, f64::from(self.rect.height() / style.row));
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));

@@ -205,10 +205,10 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
         [&names[0], &stiffness, &exact(stiff * found.unit.spring), small],
         [&names[1], &loss, &exact(lossy * found.unit.damping), small],
         ["Mean pressure / p_a", &uncertain(found.mean_pressure), &exact(found.trapped_mean_pressure), "σ → ∞"],
-        ["Invariant, off by", &invariant, "0 %", "any σ and ε"],
+        ["Invariant, off by", &invariant, "0 %", "any σ, ε"],
     ];
-    table::table(ui, "exact", 4, 14.0, |ui| {
-        let heads = [("", ""), ("Computed", "Computed"), ("Exact limit", "Exact"), ("valid for", "Exact")];
+    table::table(ui, "exact", 4, 9.0, |ui| {
+        let heads = [("", ""), ("Computed", "Computed"), ("Exact limit", "Exact"), ("for", "Exact")];
         table::heads(ui, &heads, cx.colours.quiet);
         ui.end_row();
         for [name, computed, exact, when] in rows {

@@ -155,7 +155,7 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
     // Both are grey; what the plate began with is the one to be told apart.
     let faint = if behind.is_some() { quiet.gamma_multiply(0.55) } else { quiet };
     let legend: Vec<_> = [("film", film)].into_iter().chain(behind).chain([("ambient", faint)]).collect();
-    style.title(ui.painter(), rect, "Film pressure", &[title, "Pressure, kPa"], &legend);
+    style.title(ui.painter(), rect, "Film pressure", &[title, "p, kPa absolute"], &legend);
     let name = "Pressure along the plate: point to read values";
     Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, faint, 1.0));
