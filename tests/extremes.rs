@@ -904,7 +904,7 @@ fn the_cost_of_a_solve_is_flat() {
 
 #[test]
 fn where_a_rotor_may_float_or_not_both_states_are_stated() {
-    // On 10 mm: followed upwards in pressure the rotor floats up to 190 kPa, downwards its teeth touch from 192 to 165 kPa.
+    // On 10 mm: followed upwards in pressure the rotor floats up to some 188 kPa, downwards its teeth touch from 192 to 165 kPa.
     let both = |pressure: f64| {
         let scene =
             scene_with("fundamental", &[("film.ambient_pressure_kpa", pressure), ("rotor.contact_width_mm", 10.0)]);
@@ -913,7 +913,7 @@ fn where_a_rotor_may_float_or_not_both_states_are_stated() {
         let Outcome::Motor(result) = solution.outcome else { panic!("a motor") };
         (result, solution.status, solution.warnings.iter().any(|words| words.starts_with("bistable")))
     };
-    for pressure in [185.0, 190.0] {
+    for pressure in [183.0, 187.0] {
         let (floating, _, bistable) = both(pressure);
         assert!(bistable && floating.alpha.value > 0.99, "{floating:?}");
     }

@@ -383,7 +383,7 @@ fn the_film_is_as_thin_as_is_said_to_within_its_error() {
         for (frame, thickness) in found.min_film_thickness.iter().enumerate() {
             let (error, off) =
                 (found.min_film_thickness_error[frame], (thickness - exact.min_film_thickness[frame * every]).abs());
-            assert!(off <= error && error < 1e-9, "{fidelity} {frame}: {off:e} {error:e}");
+            assert!(off <= error && error < 3e-9, "{fidelity} {frame}: {off:e} {error:e}");
         }
     }
 }

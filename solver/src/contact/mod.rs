@@ -5,7 +5,7 @@
 //! (Z integrated across the width), p_a (ζ/h − w), h = g + H_m: it stiffens as the gap closes, so that the load
 //! balance always has a solution.
 //!
-//! The rotor's compliance is split into a local part C_∞, the limit of short waves or else the compliance of harmonic N, and a smooth part
+//! The rotor's compliance is split into a local part C_∞, between the compliance of harmonic N and the limit of short waves, and a smooth part
 //! C(k_n) − C_∞ for n < N. The local part couples a node with itself only, so that everything at a node follows from
 //! s = z₀ + smooth deflection − W_S:
 //!

@@ -58,7 +58,7 @@ impl Shape {
 /// would leave behind, at least 4 and at most `most`.
 ///
 /// Harmonics from N on are given the local compliance: off by at most `fraction`, or, at the limit `most`, by what the
-/// error estimate of the finer grid shows.
+/// differences between grids show.
 pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
     let last = rotor.beyond(most);
     let matters = |n: usize| (rotor.harmonic(n) - last).abs() > fraction * last;
@@ -66,10 +66,19 @@ pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
 }
 
 impl Modes {
-    /// `harmonics` = N at nodes `x` \[m\].
+    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance.
     pub fn new(rotor: &Compliances, harmonics: usize, x: &[f64]) -> Self {
+        Self::down_to(rotor, harmonics, 0.0, x)
+    }
+
+    /// The same of a rotor whose C(k_N) differs by at most `fraction` from its limit, as a rule ([`cutoff`]): where it differs by less, the local
+    /// compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
+    pub fn down_to(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
         let wavelength = rotor.wavelength();
-        let local = rotor.beyond(harmonics);
+        let (last, limit) = (rotor.harmonic(harmonics), rotor.beyond(harmonics));
+        let excess = (last - limit).abs() / limit;
+        let share = if excess < fraction { excess / fraction } else { 1.0 };
+        let local = limit + share * (last - limit);
         let count = harmonics - 1;
         let smooth = |n: usize| rotor.harmonic(n) - local;
         let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();

@@ -7,7 +7,7 @@
 //! the fine grid, the gap is closed there and nowhere less than closed, absolute pressure stays positive. Whatever balance this
 //! costs is put right at the end, with the contact's load or, where there is none, with the film's.
 
-use super::{LineLoads, Recording};
+use super::{BETWEEN, LineLoads, Recording};
 use std::ops::{Add, Range};
 
 /// What the lines of a scene have to obey.
@@ -23,9 +23,8 @@ pub struct Balance {
 
 /// Least share of the load on asperities for them to take what extrapolation leaves of the balance.
 const LEAST_HELD: f64 = 1e-3;
-/// How much thinner than at any node a film may be, in units of its departure there from the chord of its neighbours: between nodes it is a
-/// quarter, of a parabola; at the edge of a tooth, where faces on asperities come closest, it changes faster than nodes follow.
-pub(super) const BETWEEN: f64 = 0.25;
+/// How much thinner than at any node a film may be, in units of its departure there from the chord of its neighbours, at the edge of a tooth:
+/// where faces on asperities come closest, it changes faster than nodes follow.
 const AT_EDGE: f64 = 0.6;
 /// Largest factor by which extrapolation changes an absolute pressure.
 const LARGEST_FACTOR: f64 = 2.0;

@@ -3,7 +3,6 @@
 mod extrapolated;
 pub mod sample;
 
-use extrapolated::BETWEEN;
 pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
@@ -16,6 +15,8 @@ use std::ops::{Deref, DerefMut};
 const PEAK: f64 = 8.0;
 /// Likewise of a least film thickness: on asperities faces come closest at the edge of a tooth, where the load is steepest.
 const ROUGH: f64 = 16.0;
+/// How far a parabola goes beyond its values at nodes or frames, in units of its departure from the chord of the two beside.
+const BETWEEN: f64 = 0.25;
 /// Least error of a series at any instant, over the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
