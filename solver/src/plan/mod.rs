@@ -197,10 +197,10 @@ const SHARE: f64 = 0.2;
 const THINNEST_LAYER: f64 = 0.03;
 const ROUND_LIMIT: usize = 300;
 
-/// Harmonics kept at most of a rotor with a local part, down to this fraction of it: 60 over its third root. The beam's own number grows with the
+/// Harmonics kept at most of a rotor with a local part, down to this fraction of it: 30 over its third root. The beam's own number grows with the
 /// fourth root, so that where this is less, grids differ more, and their differences show what is cut.
 fn most_with_local_part(fraction: f64) -> usize {
-    ((60.0 / fraction.cbrt()) as usize).min(MOST_HARMONICS)
+    ((30.0 / fraction.cbrt()) as usize).min(MOST_HARMONICS)
 }
 
 impl Plan {
