@@ -220,7 +220,7 @@ fn measure(preset: &str, changes: &[(&str, &str)], fidelity: Fidelity) -> Vec<Me
             // What the whole model cannot resolve is not known to it.
             effect: decision.effect + self::decision(&plan(&whole), key).effect,
             // The wedge changes next to nothing, on the same grid: their errors are the same to a few per cent.
-            errors: if key == "numerics.wedge" { 0.02 * (e1 + e2) + 3e-6 } else { e1 + e2 },
+            errors: if key == "numerics.wedge" { 0.02 * (e1 + e2) + 1e-6 } else { e1 + e2 },
             chosen: Fidelity::ALL.into_iter().any(auto),
         });
     }

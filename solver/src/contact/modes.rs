@@ -77,8 +77,7 @@ impl Modes {
         let wavelength = rotor.wavelength();
         let (last, limit) = (rotor.harmonic(harmonics), rotor.beyond(harmonics));
         let excess = (last - limit).abs() / limit;
-        let share = if excess < fraction { excess / fraction } else { 1.0 };
-        let local = limit + share * (last - limit);
+        let local = if excess < fraction { limit + excess / fraction * (last - limit) } else { last };
         let count = harmonics - 1;
         let smooth = |n: usize| rotor.harmonic(n) - local;
         let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();

@@ -8,6 +8,9 @@ use std::sync::Arc;
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
 const SMOOTH: usize = 10;
 
+/// Share of the first harmonic's compliance above which a local part counts: contact that is much stiffer than the rotor is lost in rounding.
+const LEAST_LOCAL: f64 = 1e-2;
+
 /// Why a rotor has no compliance.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RotorError {
@@ -78,14 +81,14 @@ impl Compliances {
         self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
     }
 
-    /// Whether short waves have a compliance of their own, which the harmonics tend to.
+    /// Whether short waves have a compliance of their own that counts beside that of the wave, so that the harmonics come to an end.
     pub fn has_local_part(&self) -> bool {
-        self.local > 0.0
+        self.local > LEAST_LOCAL * self.harmonic(1)
     }
 
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
-        if self.has_local_part() { self.local } else { self.harmonic(n) }
+        if self.local > 0.0 { self.local } else { self.harmonic(n) }
     }
 }
 
