@@ -149,7 +149,7 @@ pub(crate) fn startup(
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
             let wall_s = began.elapsed().as_secs_f64();
-            let object = fallen::object(&scene, fidelity, &ended, &rows, wall_s);
+            let object = fallen::object((&scene, &problem), fidelity, &ended, &rows, wall_s);
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();

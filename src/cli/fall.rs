@@ -6,11 +6,11 @@ use super::options::CommonOptions;
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
-use crate::analysis::validity::{Excess, beside_headline, of_outcome};
+use crate::analysis::validity::{Excess, beside_headline};
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Row, figure, floats, object};
+use crate::export::fall::{Row, figure, floats, object, validity};
 use crate::export::files::Files;
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
@@ -52,8 +52,8 @@ pub(super) fn run(
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let validity = of_outcome(problem, ended.outcome.as_ref(), &[]);
-    let (floats, object) = (floats(&ended), object(scene, fidelity, &ended, &validity, &rows, wall_s));
+    let (floats, validity) = (floats(&ended), validity(problem, &ended));
+    let object = object((scene, problem), fidelity, &ended, &rows, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats, &validity);
     terminal::result(common.output.json, || json::document(&object, command), || human);

@@ -114,7 +114,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let ended = ended?;
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
-    let object = object((&scene, &problem), &settings, &ended, &validity, &rows, wall_s);
+    let object = object((&scene, &problem), &settings, &ended, &rows, wall_s);
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
     let human = text((&scene, &problem), &rows, (&ended, &validity), steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);

@@ -1,6 +1,6 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
-use crate::analysis::validity::Excess;
+use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -44,10 +44,9 @@ impl From<Cycle> for Row {
 /// The object of `--json`: a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
 /// known is null.
 pub fn object(
-    scene: &Scene,
+    (scene, problem): (&Scene, &Problem),
     fidelity: Fidelity,
     ended: &Fall,
-    validity: &[Excess],
     rows: &[Row],
     wall_s: f64,
 ) -> Value {
@@ -61,9 +60,14 @@ pub fn object(
         "mean_gap_error_um": floats.map(|found| found.error),
         "wall_s": wall_s,
         "rows": rows,
-        "validity": validity,
+        "validity": validity(problem, ended),
         "warnings": ended.floats.as_ref().err().into_iter().collect::<Vec<_>>(),
     })
+}
+
+/// The limits of the model that its last cycle exceeds; without one, those that the scene alone does.
+pub fn validity(problem: &Problem, ended: &Fall) -> Vec<Excess> {
+    of_outcome(problem, ended.outcome.as_ref(), &[])
 }
 
 /// The mean gap \[µm\] at which it floats; `None` if it does not.

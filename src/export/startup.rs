@@ -104,7 +104,6 @@ pub fn object(
     (scene, problem): (&Scene, &Problem),
     settings: &Settings,
     ended: &Startup,
-    validity: &[Excess],
     rows: &[Row],
     wall_s: f64,
 ) -> Value {
@@ -128,7 +127,7 @@ pub fn object(
         "unsettled_steps": ended.stats.unsettled_steps,
         "wall_s": wall_s,
         "rows": rows,
-        "validity": validity,
+        "validity": validity(problem, ended),
         "warnings": warnings(ended),
     })
 }
