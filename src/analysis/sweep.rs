@@ -373,6 +373,8 @@ mod tests {
         assert_eq!(teeth.axes()[0].values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
         let units = sweep("fundamental", &["film.min_spacing_nm=0.05um,150,0.1 um"]).unwrap();
         assert_eq!((&units.axes()[0].values[..], units.axes()[0].words.len()), (&[50.0, 150.0, 100.0][..], 0));
+        let units = sweep("fundamental", &["film.min_spacing_nm=0.05um:0.1um:3"]).unwrap();
+        assert_eq!(units.axes()[0].values, [50.0, 75.0, 100.0]);
     }
 
     #[test]
@@ -380,10 +382,14 @@ mod tests {
         for (vary, words) in [
             (&["film.min_spacing_nm"][..], "expected key=from:to:count"),
             (&["film.min_spacing_nm=1:2"], "expected key=from:to:count"),
-            (&["film.min_spacing_nm=100:x:3"], "expected key=from:to:count"),
+            (&["film.min_spacing_nm=100:x:3"], "film.min_spacing_nm = x is not a number"),
+            (
+                &["film.min_spacing_nm=0.1um:5kHz:3"],
+                "5kHz is not a number: expected a number from 5 to 10000 nm, in nm, µm",
+            ),
             (&["film.min_spacing_nm=100:200:3:cubic"], "expected key=from:to:count"),
             (&["film.min_spacing_nm=3:200:3"], "film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"),
-            (&["film.min_spacing_nm=100:NaN:3"], "film.min_spacing_nm = NaN is not finite"),
+            (&["film.min_spacing_nm=100:NaN:3"], "film.min_spacing_nm = NaN is not a number"),
             (&["film.min_spacing_nm=100:200:1"], "count = 1 is out of range: allowed 2 to 10000"),
             (&["film.min_spacing_nm=100:200:-4"], "count = -4 is out of range"),
             (&["film.min_spacing_nm=100:100:3"], "the ends have to differ"),

@@ -78,7 +78,9 @@ impl Parameter {
             ParameterKind::Number { .. } | ParameterKind::Whole { .. } => {
                 // Commas are between the values of a list.
                 let typed = || quantity_text::number(self.unit, text).filter(|_| !text.contains(','));
-                text.parse().ok().or_else(typed).map(Value::Number)
+                let number = text.parse().ok().or_else(typed).map(Value::Number);
+                let message = || quantity_text::no_number(self, text);
+                return number.ok_or_else(|| What::Rule { key: self.key, message: message() });
             }
             ParameterKind::Flag { .. } => text.parse().ok().map(Value::Flag),
             ParameterKind::Choice { .. } | ParameterKind::Text { .. } => Some(Value::Text(text.to_owned())),

@@ -206,7 +206,7 @@ mod tests {
         let expected = [
             (
                 5,
-                "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is of the wrong type: expected a number from 1e-20",
+                "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is not a number: expected a number from 1e-20",
             ),
             (6, "r.csv:6: rotor.compliance_csv, row 3: 30 is not a pair of numbers"),
             (7, "r.csv:7: rotor.compliance_csv, row 4: wavenumber_per_m = 5 is not above 10, the one before"),

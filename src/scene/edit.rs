@@ -6,7 +6,11 @@ use super::parameter::{Parameter, ParameterKind};
 use super::parse;
 use super::value::Value;
 use super::values::Scene;
+use crate::digits::rounded;
 use std::path::Path;
+
+/// Digits of the numbers in a description; the scene has all of them.
+const DIGITS: usize = 6;
 
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
@@ -156,9 +160,10 @@ impl Scene {
     /// Gives a scene that was made from `original` its [`Scene::title`] as a name, and a description that lists the changes. A name or a
     /// description of its own is kept.
     pub fn retitle(&mut self, original: &Self) {
-        let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
+        let shown = |scene: &Self, parameter: &Parameter| match scene.get(parameter.key) {
             None => "none".to_owned(),
-            Some(value) => format!("{value} {unit}").trim_end().to_owned(),
+            Some(Value::Number(number)) => parameter.with_unit(Value::Number(rounded(number, DIGITS))),
+            Some(value) => parameter.with_unit(value),
         };
         let changes = self.changed(original).map(|parameter| match parameter.kind {
             ParameterKind::Rows { .. } | ParameterKind::Records { .. } => format!("another {}", parameter.key),

@@ -44,6 +44,10 @@ pub enum Accepts {
 
 /// Digits of what follows from torque and speed.
 const DIGITS: usize = 4;
+/// More friction than this is remarked on.
+const MUCH_FRICTION: f64 = 0.5;
+/// What is usual.
+const USUAL: &str = "usual are 0.1 to 0.5, and 0.7 is that of Maeno and Bogy";
 const GASES: &[&str] = &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"];
 
 const fn question(
@@ -271,9 +275,18 @@ impl NewMotor {
         let waves = draft.number("waves").unwrap_or(9.0);
         match draft.number("teeth").map(|teeth| teeth / waves) {
             Some(teeth) if teeth.fract() == 0.0 => draft.give("stator.teeth_per_wave", teeth),
+            Some(teeth) if teeth < 1.0 => {
+                let given = answer(answers, "teeth").unwrap_or_default();
+                return Err(format!(
+                    "teeth = {given} does not go with the other answers: each of the {waves} waves has one tooth or more"
+                ));
+            }
             Some(teeth) => {
-                let why = "the nearest whole number: the model has as many teeth on every wave";
-                draft.assume("stator.teeth_per_wave", teeth.round().max(1.0), why);
+                let (given, taken) = (teeth * waves, teeth.round() * waves);
+                let why = format!(
+                    "the nearest whole number, because the model has as many teeth on every wave: {taken} teeth on the ring, not {given:.0}"
+                );
+                draft.assume("stator.teeth_per_wave", teeth.round(), &why);
             }
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
@@ -289,7 +302,8 @@ impl NewMotor {
                     }
                     _ => "the solved motor has the stall torque of the data sheet",
                 };
-                draft.assume("motor.dry_friction", friction, why);
+                let much = format!("{why}; {USUAL}: check the stall torque, the load and the diameter");
+                draft.assume("motor.dry_friction", friction, if friction > MUCH_FRICTION { &much } else { why });
             }
             None => draft.assume("motor.dry_friction", 0.3, "a filled polymer on metal"),
         }
@@ -411,12 +425,23 @@ mod tests {
         let given = ["motor.waves", "stator.teeth_per_wave", "rotor.thickness_mm", "film.gas", "film.altitude_m"];
         assert!(!motor.assumed.iter().any(|assumption| given.contains(&assumption.key)));
         // 70 teeth are no whole number on each of 9 waves.
-        let uneven = NewMotor::of(&answers(&[&NEEDED[..], &[("teeth", "70")]].concat())).unwrap();
-        assert!(
-            uneven
+        let why = |more: (&'static str, &str), key: &str| {
+            let motor = NewMotor::of(&answers(&[&NEEDED[..], &[more]].concat())).unwrap();
+            motor
                 .assumed
                 .iter()
-                .any(|assumption| assumption.key == "stator.teeth_per_wave" && assumption.value == "8")
+                .find(|assumption| assumption.key == key)
+                .map(|it| format!("{}: {}", it.value, it.why))
+                .unwrap()
+        };
+        let uneven = why(("teeth", "70"), "stator.teeth_per_wave");
+        assert!(uneven.starts_with("8: ") && uneven.ends_with("72 teeth on the ring, not 70"), "{uneven}");
+        // More friction than is usual.
+        let friction = |torque| why(("stall-torque-nm", torque), "motor.dry_friction");
+        assert!(
+            friction("2.5").contains("usual are 0.1 to 0.5") && !friction("1.2").contains("usual"),
+            "{}",
+            friction("2.5")
         );
     }
 
@@ -431,6 +456,8 @@ mod tests {
              waves = 2.5 is not accepted: expected a whole number from 1 to 100\n\
              gas = steam is not accepted: expected one of air, nitrogen, helium, argon, carbon-dioxide, hydrogen"
         );
+        let few = NewMotor::of(&answers(&[&NEEDED[..], &[("teeth", "5")]].concat())).unwrap_err();
+        assert_eq!(few, "teeth = 5 does not go with the other answers: each of the 9 waves has one tooth or more");
         // Each answer alone is allowed, and together they ask for a load on one wave that is not.
         let light = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "0.05")];
         assert!(NewMotor::of(&answers(&light)).unwrap_err().contains("motor.load_per_wave_n"));

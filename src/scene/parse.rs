@@ -127,7 +127,15 @@ impl Reader<'_> {
 
     /// The default scene of the kind the file asks for.
     fn empty_scene(&mut self, root: &DeTable<'_>) -> Option<Scene> {
-        let Some(value) = root.get("scene") else { return Some(Scene::motor()) };
+        let Some(value) = root.get("scene") else {
+            let Some((plate, _)) = root.get_key_value("plate") else { return Some(Scene::motor()) };
+            let missing = "the key scene is missing: write scene = \"plate\" at the top of the file";
+            let message = format!(
+                "{missing}; allowed \"motor\" or \"plate\", and without it the scene is a motor, which has no [plate]"
+            );
+            self.fault(Some(plate.span()), || What::Rule { key: "scene", message });
+            return None;
+        };
         let name = value.get_ref().as_str().unwrap_or_default();
         let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name);
         if kind.is_none() {

@@ -1,6 +1,7 @@
 //! Numbers as people type them: `250nm` for a key in micrometres, `0,3`, `2 × (1.5mm − 200um)`. The result is in the unit of the key.
 
 use super::parameter::Parameter;
+use super::value::show_text;
 
 /// Units of one kind: their symbols (with `u` for µ), and their sizes relative to each other.
 type Kind = &'static [(&'static str, f64)];
@@ -40,18 +41,28 @@ const DECIMALS: usize = 13;
 /// # Errors
 /// The text is not such a number; the message has the key, the text and what is allowed.
 pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
-    number(parameter.unit, text).ok_or_else(|| {
-        let others: Vec<&str> =
-            kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
-        let others =
-            if others.is_empty() { String::new() } else { format!(", in {}", others.join(", ").replace('u', "µ")) };
-        let accepts = parameter.accepts();
-        format!(
-            "{} = {} is not a number: expected {accepts}{others}, or a calculation such as (1 + 2) × 3",
-            parameter.key,
-            text.trim()
-        )
-    })
+    number(parameter.unit, text).ok_or_else(|| no_number(parameter, text))
+}
+
+/// Reads `text` as an end of a range of values of `key`, as [`read`] does. Of a key that does not exist it is any number: what is wrong with
+/// the key is told where the scene is known.
+///
+/// # Errors
+/// As [`read`].
+pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
+    match Parameter::find(key) {
+        Some(parameter) => read(parameter, text),
+        None => number("", text).ok_or_else(|| format!("{key}: {} is not a number", show_text(text))),
+    }
+}
+
+/// What is wrong with a text that is no number for `parameter`.
+pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
+    let units: Vec<&str> =
+        kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
+    let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
+    let (key, found, accepts) = (parameter.key, show_text(text.trim()), parameter.accepts());
+    format!("{key} = {found} is not a number: expected {accepts}{units}, or a calculation such as (1 + 2) × 3")
 }
 
 fn kind_of(unit: &str) -> Kind {

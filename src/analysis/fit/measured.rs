@@ -5,7 +5,7 @@ use crate::analysis::quantity::Quantity;
 use crate::input::read_text;
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::published;
-use crate::scene::{Parameter, Scene, SceneError, presets, show_text};
+use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
 use crate::solve::Method;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -211,6 +211,10 @@ impl Measured {
         reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
         let mut reader = reader.from_reader(text.as_bytes());
         let head = reader.headers().map_err(|error| fault(Some(1), error.to_string()))?.clone();
+        if head.iter().all(str::is_empty) {
+            let expected = "expected a line that names the columns, as in rotor_speed_rpm,torque_nm, and a line for each measurement";
+            return Err(fault(None, format!("no table: {expected}")));
+        }
         let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(Some(1), what)));
         let columns = columns.collect::<Result<Vec<Column>, _>>()?;
         for (i, name) in head.iter().enumerate() {
@@ -414,8 +418,14 @@ fn column(problem: &Problem, name: &str) -> Result<Column, String> {
         found.map(Some)
     });
     error.map(Column::Error).ok_or_else(|| {
+        let measured = measurable(problem).into_iter().map(|quantity| quantity.column(problem));
+        let measured: Vec<String> = measured.chain([TORQUE.to_owned()]).collect();
+        let errors: Vec<String> = measured.iter().map(|name| format!("{name}_error")).collect();
+        let others = PARAMETERS.iter().map(|parameter| parameter.key).chain([SPEED, WEIGHT]).chain(LABELS);
+        let near = nearest(name, measured.iter().chain(&errors).map(String::as_str).chain(others))
+            .map_or_else(|| "; allowed".to_owned(), |near| format!(": did you mean {near}? Allowed"));
         format!(
-            "column {}: unknown; allowed: keys of the scene (film.min_spacing_nm), what was measured ({}, {TORQUE} with {SPEED}), \
+            "column {}: unknown{near}: keys of the scene (film.min_spacing_nm), what was measured ({}, {TORQUE} with {SPEED}), \
              each with _error behind it for its standard error, {WEIGHT}, {}",
             show_text(name),
             names(problem),

@@ -1,6 +1,7 @@
 //! The keys that are chosen, each within its bounds.
 
 use crate::analysis::error::AnalysisError;
+use crate::scene::quantity_text::end_of_range;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -36,8 +37,9 @@ impl FromStr for Bounds {
             [from, to, "lin"] => (from, to, Some(Scale::Linear)),
             _ => return Err(syntax()),
         };
-        let number = |text: &str| text.parse().map_err(|_| syntax());
-        Ok(Self { key: key.trim().to_owned(), from: number(from)?, to: number(to)?, scale })
+        let key = key.trim().to_owned();
+        let number = |text| end_of_range(&key, text).map_err(|fault| AnalysisError::Input(format!("vary {fault}")));
+        Ok(Self { from: number(from)?, to: number(to)?, key, scale })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::digits::as_given;
+use crate::scene::quantity_text::end_of_range;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, Value};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -74,7 +75,7 @@ impl FromStr for Vary {
             [from, to, count, "log"] => ([from, to, count], Scale::Log),
             _ => return Err(syntax()),
         };
-        let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
+        let number = |text| end_of_range(&key, text).map_err(|fault| AnalysisError::Input(format!("vary {fault}")));
         let (from, to) = (number(ends[0])?, number(ends[1])?);
         let count = ends[2].parse().map_err(|_| count_fault(&key, ends[2]))?;
         Ok(Self { key, values: Values::Range { from, to, count, scale } })
