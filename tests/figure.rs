@@ -121,7 +121,8 @@ fn the_numbers_are_in_the_svg() {
 
 #[test]
 fn names_of_places_close_together_stand_apart() {
-    let places = [[1.0, 1.0], [1.02, 1.01], [1.01, 0.98], [0.0, 0.0], [2.0, 2.0]];
+    let places =
+        [[1.0, 1.0], [1.02, 1.01], [1.01, 0.98], [1.0, 1.01], [1.01, 1.0], [1.0, 0.99], [0.0, 0.0], [2.0, 2.0]];
     let mut panel = Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(Line::new("", places, Style::quiet()));
     for (i, at) in places.into_iter().enumerate() {
         panel = panel.layer(Text::new(at, format!("number {i}")));

@@ -210,6 +210,11 @@ fn rows_of_one_condition_share_a_solve() {
     for (one, truth) in found.unknowns.iter().zip([0.7, 1.0]) {
         assert!((one.value - truth).abs() < 4.0 * one.error.unwrap() && one.error.unwrap() < 0.05 * truth, "{one:?}");
     }
+    // The curve goes on between the measured speeds, and through what is computed there.
+    let curve = &found.curves[0];
+    let ends = [0, measured.measurements.len() - 1].map(|i| found.rows[i].computed.as_ref().unwrap().value);
+    assert!(curve.len() > 50 && curve.iter().all(|point| point[1].is_finite()), "{curve:?}");
+    assert_eq!((curve[0], curve.last().unwrap()[1]), ([0.0, ends[0]], ends[1]));
     // Far less than ten for each point that was tried.
     assert!(found.solves < 150, "{}", found.solves);
 }
@@ -239,8 +244,13 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         ("film.min_spacing_nm\n100\n", "table.csv:1: no column holds what was measured; allowed: alpha, film_load_n"),
         (
             "film.min_spacing,alpha\n100,0.2\n",
-            "table.csv:1: column film.min_spacing: unknown; allowed: keys of the scene",
+            "table.csv:1: column film.min_spacing: unknown: did you mean film.min_spacing_nm? Allowed: keys of the scene",
         ),
+        ("rotor_speed_rpm,torque_mnm\n0,200\n", "column torque_mnm: unknown: did you mean torque_nm?"),
+        ("rotor_speed,torque_nm\n0,200\n", "column rotor_speed: unknown: did you mean rotor_speed_rpm?"),
+        ("qqq,alpha\n0,0.2\n", "column qqq: unknown; allowed: keys of the scene"),
+        ("", "table.csv: no table: expected a line that names the columns, as in rotor_speed_rpm,torque_nm"),
+        ("\n\n", "table.csv: no table"),
         ("alpha,alpha\n1,2\n", "table.csv:1: column alpha: given twice"),
         ("alpha\n0.2\nhigh\n", "table.csv:3: column alpha: high is not a number"),
         ("alpha\n0.2\ninf\n", "table.csv:3: column alpha: inf is not a number"),
@@ -300,6 +310,8 @@ fn bounds_are_read_and_checked() {
         ("film.min_spacing_nm", "expected key=from:to"),
         ("film.min_spacing_nm=100:200:3", "expected key=from:to"),
         ("film.min_spacing_nm=3:200", "film.min_spacing_nm = 3 is out of range"),
+        ("film.min_spacing_nm=3nm:200", "film.min_spacing_nm = 3 is out of range"),
+        ("film.min_spacing_nm=3kHz:200", "3kHz is not a number: expected a number from 5 to 10000 nm, in nm, µm, mm"),
         ("film.min_spacing=100:200", "did you mean film.min_spacing_nm?"),
         ("film.min_spacing_nm=200:200", "is no range"),
         ("motor.rotor_speed_rpm=0:20:log", "both ends have to be above 0"),
@@ -310,6 +322,7 @@ fn bounds_are_read_and_checked() {
         let error = read.unwrap_err().to_string();
         assert!(error.contains(words), "{vary}: {error}");
     }
+    assert_eq!(bounds(&["film.min_spacing_nm=0.1um:0,2 µm:log"]), bounds(&["film.min_spacing_nm=100:200:log"]));
     let twice = bounds(&["rotor.decay_length_mm=2:6", "rotor.decay_length_mm=2:7"]);
     assert!(Model::new(&motor, &twice, &DRAFT).unwrap_err().to_string().contains("given twice"));
     assert!(Model::new(&motor, &[], &DRAFT).unwrap_err().to_string().contains("0 keys given: allowed 1 to 12"));
@@ -358,6 +371,13 @@ fn an_optimum_keeps_its_limits() {
     assert!((found.limited[0].value - 0.2).abs() < 5e-4, "{found:?}");
     assert!((found.value.value - 0.2 * 2.45).abs() < 2e-3, "{found:?}");
     assert!(found.warnings.iter().any(|text| text == "the limit alpha < 0.2 is what stops it"), "{:?}", found.warnings);
+    // Spacings below the optimum are told to be beyond the limit.
+    let line = &found.lines[0];
+    assert_eq!(line.kept.len(), line.points.len());
+    assert!(
+        line.points.iter().zip(&line.kept).all(|((spacing, _), kept)| *kept == (*spacing >= line.value)),
+        "{line:?}"
+    );
     // Where it is kept nowhere, that is no optimum.
     let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
     let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft"]].concat());
@@ -368,6 +388,11 @@ fn an_optimum_keeps_its_limits() {
     let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
     assert_eq!((found.lines[0].at, found.lines[0].value), (Some(Bound::Lower), 100.0));
     assert!(found.warnings[0].ends_with("is at its lower bound, 100 nm: a better value lies beyond it, if anywhere"));
+    // A key without a unit.
+    let goal_torque = Goal::new(&motor, "stall_torque_nm", true, &[]).unwrap();
+    let vary = bounds(&["motor.dry_friction=0.1:0.3"]);
+    let found = optimise(&motor, &vary, &goal_torque, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    assert!(found.warnings[0].contains("is at its upper bound, 0.3: a better"), "{:?}", found.warnings);
     // In next to a vacuum the torque does not depend on the pressure.
     let goal = Goal::new(&motor, "max_torque_nm", false, &[]).unwrap();
     let found = optimise(

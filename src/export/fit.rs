@@ -3,8 +3,8 @@
 use super::csv;
 use super::estimates::finite;
 use super::figure::{
-    Axis, Colour, Colours, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range, Shading,
-    Shape, Style, extent,
+    Axis, Colour, Colours, Dash, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range,
+    Shading, Shape, Style, extent,
 };
 use crate::analysis::fit::{
     Bound, Fitted, FittedRow, FittedUnknown, Limit, Measured, Measurement, Observable, Optimum, Scan,
@@ -146,7 +146,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
             .filter_map(|(one, row)| Some((one, row, row.computed.as_ref().ok()?.value)))
     };
     let Some((first, ..)) = all().next() else { return Panel::default() };
-    let solid = Marker::solid(Shape::Circle);
+    let [solid, hollow] = [Marker::solid(Shape::Circle), Marker::hollow(Shape::Circle)];
     let words = first.what.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
     if let Observable::Torque { .. } = first.what {
@@ -154,16 +154,17 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
         for condition in 0..measured.conditions.len() {
             let speed =
                 |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
-            let mut points: Vec<(f64, f64, f64, f64)> = all()
-                .filter(|(one, ..)| one.condition == condition)
-                .map(|(one, row, computed)| (speed(one.what), one.value, row.error, computed))
-                .collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let of_condition = all().filter(|(one, ..)| one.condition == condition);
+            let points: Vec<(f64, f64, f64)> =
+                of_condition.map(|(one, row, _)| (speed(one.what), one.value, row.error)).collect();
             let style = Style { marker: None, ..Style::nth(condition) };
             let named = if condition == 0 { ["measured", "computed"] } else { ["", ""] };
-            let mut dots = Points::new(named[0], points.iter().map(|point| [point.0, point.1]), style.colour, solid);
+            // Of several conditions points and curve are told to belong together by their colour.
+            let colour = if measured.conditions.len() == 1 { Colour::BLACK } else { style.colour };
+            let mut dots = Points::new(named[0], points.iter().map(|point| [point.0, point.1]), colour, hollow);
             dots.errors = points.iter().map(|point| point.2).collect();
-            panel = panel.layer(Line::new(named[1], points.iter().map(|point| [point.0, point.3]), style)).layer(dots);
+            let curve = fitted.curves[condition].iter().copied();
+            panel = panel.layer(Line::new(named[1], curve, style)).layer(dots);
         }
         return panel.legend(Legend::Above);
     }
@@ -268,34 +269,42 @@ struct LineRow {
     value: f64,
     quantity: &'static str,
     computed: Option<f64>,
+    within_limits: bool,
 }
 
 /// Writes the lines through the optimum.
 pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()> {
     let rows = found.lines.iter().flat_map(|line| {
-        line.points.iter().map(|(value, computed)| LineRow {
+        line.points.iter().zip(&line.kept).map(|((value, computed), kept)| LineRow {
             key: line.unknown.parameter.key,
             value: *value,
             quantity: found.goal.quantity.name(),
             computed: *computed,
+            within_limits: *kept,
         })
     });
     csv::rows(rows, out)
 }
 
-/// Lines through the optimum, a panel for each unknown.
+/// Lines through the optimum, a panel for each unknown; dashed where a limit is not kept.
 pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     let words = found.goal.quantity.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
     let size = if found.goal.greatest { "large" } else { "small" };
     let mut figure = Figure::new(format!("{label}, as {size} as possible"));
     figure.provenance = Provenance::named(&found.scene.name);
+    let limits = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect::<Vec<_>>().join(", ");
+    let names =
+        if limits.is_empty() { [limits.clone(), limits] } else { [format!("within {limits}"), "beyond".to_owned()] };
     for line in &found.lines {
         let parameter = line.unknown.parameter;
-        let curve = line.points.iter().map(|(value, computed)| [*value, computed.unwrap_or(f64::NAN)]);
+        let curve = || line.points.iter().map(|(value, computed)| [*value, computed.unwrap_or(f64::NAN)]);
+        let within = curve().zip(&line.kept).map(|(point, kept)| if *kept { point } else { [f64::NAN; 2] });
         let x = Axis { scale: line.unknown.scale, ..Axis::new(parameter.words(), parameter.unit) };
+        let [kept, beyond] = &names;
         let panel = Panel::new("", x, Axis::new(label, unit))
-            .layer(Line::new("", curve, Style::solid(Colour::FILM)))
+            .layer(Line::new(beyond, curve(), Style::quiet().dash(Dash::Dashed)))
+            .layer(Line::new(kept, within, Style::solid(Colour::FILM)))
             .layer(Points::new("", [[line.value, found.value.value]], Colour::CONTACT, Marker::solid(Shape::Diamond)));
         figure = figure.panel(panel);
     }

@@ -1,7 +1,7 @@
 //! The values of the unknowns that agree best with what was measured, and how sure they are.
 
 use super::measured::Measured;
-use super::model::{Computed, Model};
+use super::model::{Computed, Curve, Model};
 use super::starts::{best, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
@@ -38,6 +38,8 @@ pub struct Fitted {
     pub unknowns: Vec<FittedUnknown>,
     /// The measurements beside what is computed.
     pub rows: Vec<FittedRow>,
+    /// Of each condition under which torques were measured, what is computed over the rotor's speed, `[rpm, N m]`; empty of the others.
+    pub curves: Vec<Vec<[f64; 2]>>,
     /// Σ ((computed − measured)/error)².
     pub chi_squared: f64,
     /// Measurements less unknowns that are not at a bound.
@@ -274,9 +276,9 @@ pub fn fit(
         }
     }
     let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
-    let Some(last) = model.at_one(&x, cancel) else { return Ok(None) };
+    let Some((last, curves)) = model.with_curves(&x, cancel) else { return Ok(None) };
     let computed = in_order(measured, &last);
-    Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, minima, converged })?))
+    Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, curves, minima, converged })?))
 }
 
 /// The best few of the points that are spread over the bounds, by drafts.
@@ -338,13 +340,14 @@ struct Reached {
     /// Of each unknown ∂residual/∂x; zeros at a bound.
     columns: Vec<Vec<f64>>,
     computed: Vec<Computed>,
+    curves: Vec<Curve>,
     minima: Vec<Minimum>,
     converged: bool,
 }
 
 /// What there is to say of the minimum.
 fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
-    let Reached { x, at, columns, computed, minima, converged } = reached;
+    let Reached { x, at, columns, computed, curves, minima, converged } = reached;
     let count = x.len();
     let free: Vec<usize> = (0..count).filter(|k| at[*k].is_none()).collect();
     let certainty = Certainty::of(&free.iter().map(|k| columns[*k].clone()).collect::<Vec<_>>());
@@ -416,6 +419,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
         errors_known: measured.errors_known,
         unknowns,
         rows,
+        curves,
         chi_squared,
         degrees_of_freedom,
         error_scale,

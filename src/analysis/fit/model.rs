@@ -5,18 +5,25 @@ use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
 use crate::analysis::attempt::{RunStatus, attempt, caught};
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Numbers;
+use crate::analysis::sweep::spaced;
 use crate::analysis::variation::Variation;
 use crate::control::Cancel;
 use crate::drive::Scaled;
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario, rpm};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scale, Scene, SceneError};
 use crate::solution::{Outcome, Solution};
 use crate::solve::near::Centre;
 use crate::solve::{Method, Record, Settings, check};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Points of a curve of torque over speed.
+const CURVE: usize = 61;
+
+/// Torque over the rotor's speed, `[rpm, N m]`.
+pub(super) type Curve = Vec<[f64; 2]>;
 
 /// A number computed with its estimated numerical error, or why there is none.
 pub type Computed = Result<Estimate, String>;
@@ -148,8 +155,9 @@ impl<'a> Model<'a> {
         let tasks: Vec<(usize, usize)> = (0..points.len())
             .flat_map(|point| (0..self.conditions.len()).map(move |condition| (point, condition)))
             .collect();
-        let solved =
-            tasks.into_par_iter().map(|(point, condition)| self.solve(condition, &points[point], settings, cancel));
+        let solved = tasks
+            .into_par_iter()
+            .map(|(point, condition)| self.solve(condition, &self.asked[condition], &points[point], settings, cancel));
         let mut solved = solved.collect::<Vec<_>>().into_iter();
         let rows = points.iter().map(|_| solved.by_ref().take(self.conditions.len()).collect::<Vec<_>>()).collect();
         (!cancel.is_cancelled()).then_some(rows)
@@ -160,13 +168,41 @@ impl<'a> Model<'a> {
         self.at(&[x.to_vec()], &self.settings, cancel)?.pop()
     }
 
+    /// The same, and of each condition under which torques are asked for the torque over the rotor's speed, `[rpm, N m]`, at speeds from the least to
+    /// the greatest of them.
+    pub(super) fn with_curves(&self, x: &[f64], cancel: &Cancel) -> Option<(Vec<Vec<Computed>>, Vec<Curve>)> {
+        let of = |condition: usize| {
+            let asked = &self.asked[condition];
+            let speed =
+                |what: &Observable| if let Observable::Torque { speed_rpm } = what { Some(*speed_rpm) } else { None };
+            let ends = asked.iter().filter_map(speed).map(|speed| (speed, speed));
+            let ends = ends.reduce(|ends, (speed, _)| (ends.0.min(speed), ends.1.max(speed)));
+            let speeds = ends.map_or_else(Vec::new, |(from, to)| spaced(from, to, CURVE, Scale::Linear));
+            let more = speeds.iter().map(|speed_rpm| Observable::Torque { speed_rpm: *speed_rpm });
+            let all: Vec<Observable> = asked.iter().copied().chain(more).collect();
+            let mut found = self.solve(condition, &all, x, &self.settings, cancel);
+            let curve =
+                found.split_off(asked.len()).into_iter().map(|found| found.map_or(f64::NAN, |found| found.value));
+            (found, speeds.into_iter().zip(curve).map(|(speed, torque)| [speed, torque]).collect())
+        };
+        let found = (0..self.conditions.len()).into_par_iter().map(of).unzip();
+        (!cancel.is_cancelled()).then_some(found)
+    }
+
     /// The same by drafts.
     pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
         self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
     }
 
-    fn solve(&self, condition: usize, x: &[f64], settings: &Settings, cancel: &Cancel) -> Vec<Computed> {
-        let asked = &self.asked[condition];
+    /// What is asked of a condition at `x`.
+    fn solve(
+        &self,
+        condition: usize,
+        asked: &[Observable],
+        x: &[f64],
+        settings: &Settings,
+        cancel: &Cancel,
+    ) -> Vec<Computed> {
         let fields = asked.iter().any(|what| matches!(what, Observable::Torque { .. }));
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
@@ -223,7 +259,7 @@ impl<'a> Model<'a> {
         let ratios: Vec<f64> = match self.settings.method {
             Method::Auto => vec![1.0; asked.len()],
             Method::Paper => {
-                let own = self.solve(condition, x, &self.settings, cancel);
+                let own = self.solve(condition, asked, x, &self.settings, cancel);
                 own.iter()
                     .zip(&found.numbers.fine)
                     .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours))

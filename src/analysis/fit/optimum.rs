@@ -152,6 +152,8 @@ pub struct Scan {
     pub at: Option<Bound>,
     /// Values of the unknown, ascending, and of the number there; `None` where it cannot be computed.
     pub points: Vec<(f64, Option<f64>)>,
+    /// Of each of them, whether all limits are kept.
+    pub kept: Vec<bool>,
     /// The range round the optimum in which the number stays within a hundredth of it.
     pub flat: (f64, f64),
 }
@@ -348,17 +350,19 @@ fn describe(
         let unknown = model.unknowns[k].clone();
         let numbers: Vec<(f64, Vec<Computed>)> =
             places.iter().zip(&mut found).map(|(place, found)| (*place, found)).collect();
+        let mut kept = Vec::new();
         for (place, computed) in &numbers {
             let allowed =
                 goal.judge(computed, 1.0).is_some_and(|(_, beyond)| beyond.iter().all(|beyond| *beyond <= 1e-3));
+            kept.push(allowed);
             if let Some(there) = value(computed)
                 && allowed
                 && sign * (there.value - best.value) > (there.error + best.error).max(0.0)
                 && better.as_ref().is_none_or(|(_, other)| sign * (there.value - other) > 0.0)
             {
                 let parameter = unknown.parameter;
-                let at = format!("{} = {} {}", parameter.key, short(unknown.value(*place), 4), parameter.unit);
-                better = Some((at.trim_end().to_owned(), there.value));
+                let at = parameter.with_unit(short(unknown.value(*place), 4));
+                better = Some((format!("{} = {at}", parameter.key), there.value));
             }
         }
         let points: Vec<(f64, Option<f64>)> = numbers
@@ -367,7 +371,7 @@ fn describe(
             .collect();
         let middle = places.iter().position(|place| *place == x[k]).unwrap_or(0);
         let flat = (edge(&points, middle, best.value, false), edge(&points, middle, best.value, true));
-        lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, flat });
+        lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, kept, flat });
     }
     let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
     let mut warnings = Vec::new();
@@ -377,14 +381,14 @@ fn describe(
         let (parameter, lower) = (line.unknown.parameter, bound == Bound::Lower);
         let flat_to = if lower { line.flat.1 } else { line.flat.0 };
         let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
-        let flat = format!("{} {}", short(flat_to, 3), parameter.unit);
+        let flat = parameter.with_unit(short(flat_to, 3));
         let beyond = match (line.value - flat_to).abs() > PLATEAU * range {
             true if lower => format!("up to {flat} {name} changes by less than 1 %"),
             true => format!("from {flat} on {name} changes by less than 1 %"),
             false => "a better value lies beyond it, if anywhere".to_owned(),
         };
-        let (side, value) = (bound.name(), short(line.value, 6));
-        warnings.push(format!("{} is at its {side} bound, {value} {}: {beyond}", parameter.key, parameter.unit));
+        let (side, value) = (bound.name(), parameter.with_unit(short(line.value, 6)));
+        warnings.push(format!("{} is at its {side} bound, {value}: {beyond}", parameter.key));
     }
     let mut kept = true;
     for ((limit, _), found) in goal.limits.iter().zip(&limited) {

@@ -159,9 +159,18 @@ fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
     Ticks { ticks, power: 0 }
 }
 
-/// An upright axis: as many ticks as its height has room for.
+/// An upright axis: as many ticks as its height has room for, and of labels that would touch every other one.
 fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
-    Ruler::new(axis, range, ticks(axis, &range, ((height / (2.0 * TICK)) as usize).clamp(2, 7)))
+    let mut ticks = ticks(axis, &range, ((height / (2.0 * TICK)) as usize).clamp(2, 7));
+    loop {
+        let labelled: Vec<usize> = (0..ticks.ticks.len()).filter(|i| ticks.ticks[*i].label.is_some()).collect();
+        let place = |i: usize| range.fraction(ticks.ticks[i].at) * height;
+        let touch = labelled.windows(2).any(|pair| (place(pair[1]) - place(pair[0])).abs() < LEADING * TICK);
+        if !touch || labelled.len() < 3 {
+            return Ruler::new(axis, range, ticks);
+        }
+        labelled.iter().skip(1).step_by(2).for_each(|i| ticks.ticks[*i].label = None);
+    }
 }
 
 /// What an upright axis takes beside the plotting area.
@@ -169,9 +178,8 @@ fn room(axis: &Ruler) -> f64 {
     axis.reach() + if axis.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
 }
 
-/// Ticks of a level axis whose labels do not touch.
-fn level_ticks(axis: &Axis, range: &Scaled, width: f64) -> Ticks {
-    let mut most = ((width / 26.0) as usize).clamp(2, 9);
+/// Ticks of a level axis whose labels do not touch: at most so many, unless they are two.
+fn level_ticks(axis: &Axis, range: &Scaled, width: f64, mut most: usize) -> Ticks {
     loop {
         let ticks = ticks(axis, range, most);
         if most <= 2 || !touch(&ticks, range, width) {
@@ -199,10 +207,9 @@ impl Placed {
     fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
         let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
         let bar = first_map(panel).map(|map| {
-            let (axis, range, is_upright) = (Axis::new(&map.label, &map.unit), map_range(map), height >= LOW);
-            let low = || Ruler::new(&axis, range, Ticks::new(&range, 4, false));
-            let ruler = if is_upright { upright(&axis, range, height) } else { low() };
-            Bar { rect: Rect::default(), upright: is_upright, ruler }
+            // The ticks of a level one depend on its width.
+            let (axis, range) = (Axis::new(&map.label, &map.unit), map_range(map));
+            Bar { rect: Rect::default(), upright: height >= LOW, ruler: upright(&axis, range, height) }
         });
         Self {
             rect: Rect { height, ..Rect::default() },
@@ -292,7 +299,14 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
             placed.rect.x = x + left;
             placed.rect.width = plot;
             let (axis, range) = (&figure.panels[i].x, placed.x.range);
-            placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot));
+            placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot, ((plot / 26.0) as usize).clamp(2, 9)));
+            let width = level_bar(&placed.rect);
+            if let (Some(bar), Some(map)) =
+                (placed.bar.as_mut().filter(|bar| !bar.upright), first_map(&figure.panels[i]))
+            {
+                let (axis, range) = (Axis::new(&map.label, &map.unit), bar.ruler.range);
+                bar.ruler = Ruler::new(&axis, range, level_ticks(&axis, &range, width, 4));
+            }
             if figure.panels[i].legend != Legend::None {
                 legend::choose(placed, &figure.panels[i]);
             }
@@ -304,6 +318,25 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_of_a_low_map_and_of_its_colour_bar_do_not_touch() {
+        use crate::export::figure::{Grid, Map, Width};
+        for width in [60.0, 85.0, 170.0] {
+            for (height, end) in [(5.0, 0.15), (7.0, 0.15), (11.0, 0.3), (20.0, 123.0)] {
+                let grid = Grid { x: vec![0.0, 1.0], y: vec![-end, end], values: vec![-1.0, 1.0, 0.5, -0.5] };
+                let map = Map { label: "correlation".to_owned(), grid, ..Map::default() };
+                let panel = Panel::new("", Axis::new("x", ""), Axis::new("y", "mm")).height(height).layer(map);
+                let figure = Figure { width: Width::Millimetres(width), ..Figure::new("").panel(panel) };
+                let placed = &Layout::new(&figure).panels[0];
+                let bar = placed.bar.as_ref().unwrap();
+                assert!(!touch(&bar.ruler.ticks, &bar.ruler.range, bar.rect.width), "{width} {height}: {bar:?}");
+                let labelled = placed.y.ticks.ticks.iter().filter(|tick| tick.label.is_some());
+                let at: Vec<f64> = labelled.map(|tick| placed.y.range.fraction(tick.at) * placed.rect.height).collect();
+                assert!(at.len() >= 2 && at.windows(2).all(|pair| pair[1] - pair[0] >= TICK), "{height}: {at:?}");
+            }
+        }
+    }
 
     #[test]
     fn long_titles_and_feet_keep_the_margins() {

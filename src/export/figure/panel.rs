@@ -223,7 +223,7 @@ impl On<'_> {
         taken
     }
 
-    /// The names of places, each beside its own: right and left first, then above and below, then at the corners.
+    /// The names of places, each beside its own: right and left first, then above and below, then at the corners, then likewise farther away.
     fn names(&self, svg: &mut Svg) {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
@@ -236,20 +236,15 @@ impl On<'_> {
         }
         let mut taken = self.taken(true);
         for (words, [x, y]) in names {
-            let (width, height, apart) = (text::width(&words.text, NOTE), 0.8 * NOTE, 5.0);
-            let [right, left, centre] = [x + apart, x - apart - width, x - 0.5 * width];
-            let [above, below, middle] = [y - apart - height, y + apart, y - 0.5 * height];
-            let places = [
-                [right, middle],
-                [left, middle],
-                [centre, above],
-                [centre, below],
-                [right, above],
-                [left, below],
-                [right, below],
-                [left, above],
-            ];
-            let places = places.map(|[x, y]| Rect { x, y, width, height });
+            let (width, height) = (text::width(&words.text, NOTE), 0.8 * NOTE);
+            let places = [5.0, 10.0, 16.0].map(|apart| {
+                let [right, left, centre] = [x + apart, x - apart - width, x - 0.5 * width];
+                let [above, below, middle] = [y - apart - height, y + apart, y - 0.5 * height];
+                let beside = [[right, middle], [left, middle], [centre, above], [centre, below]];
+                let corners = [[right, above], [left, below], [right, below], [left, above]];
+                [beside, corners].concat()
+            });
+            let places: Vec<Rect> = places.concat().into_iter().map(|[x, y]| Rect { x, y, width, height }).collect();
             let place = self.freest(&places, &taken);
             svg.text([place.x, place.bottom()], &words.text, &Type::new(NOTE, "start"));
             taken.extend(place.points());
