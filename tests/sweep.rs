@@ -172,6 +172,18 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!((&object["complete"], &object["axes"][0]["key"]), (&true.into(), &"stator.frequency_khz".into()));
     assert_eq!(object["published"].as_array().unwrap().len(), 7);
 
+    // The figure is of α, or of whatever was asked for.
+    let drawn = |folder: &Path| fs::read_to_string(folder.join("sweep.svg")).unwrap();
+    assert!(drawn(&folder).contains("error of α up to 0.0"), "{}", drawn(&folder));
+    let other = parent.path().join("other");
+    assert!(run(&[&COMMAND[..], &["--quantity", "stall_torque_nm"]].concat(), Some(&other)).status.success());
+    assert!(
+        drawn(&other).contains("error of the stall torque up to 0.0") && !drawn(&other).contains("share of the load")
+    );
+    let wrong = run(&[&COMMAND[..], &["--quantity", "torque"]].concat(), Some(&other));
+    let said = String::from_utf8_lossy(&wrong.stderr);
+    assert!(wrong.status.code() == Some(2) && said.contains("torque: no such number; allowed: alpha"), "{said}");
+
     // The CSV by a reader of its own: columns by name.
     let text = fs::read_to_string(folder.join("sweep.csv")).unwrap();
     let mut reader = csv::Reader::from_reader(text.as_bytes());

@@ -57,7 +57,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scenes = arguments.common.scene.scenes(&arguments.presets)?;
-    let (folder, settings, cancel) = arguments.common.begin()?;
+    let (folder, settings, cancel) = arguments.common.begin(command)?;
 
     let (solved, wall_s) =
         Bar::points(scenes.len(), 0).timed(|bar| runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label)));
@@ -79,13 +79,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
-    if let Some(folder) = folder {
+    if let Some(folder) = &folder {
         let bar = Bar::points(frames(&runs, Options::default().frames), 0);
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
-        let out = arguments.common.figures.folder(folder, command);
-        let paths = files::comparison(&out, &runs, &settings, arguments.all, &control)?;
+        let paths = files::comparison(folder, &runs, &settings, arguments.all, &control)?;
         drop(bar);
-        terminal::wrote(folder, &paths);
+        terminal::wrote(folder.path, &paths);
     }
     Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }

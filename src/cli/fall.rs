@@ -11,14 +11,13 @@ use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
 use crate::export::fall::{Row, figure, floats, object, validity};
-use crate::export::files::Files;
+use crate::export::files::{Files, Folder};
 use crate::export::{csv, json};
 use crate::fall::{Fall, fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::Status;
-use std::path::Path;
 
 /// Rows shown to people, about.
 const SHOWN: usize = 24;
@@ -36,7 +35,7 @@ pub(super) struct Dropped<'a> {
 /// Drops the plate and prints its way; `None` if the scene has no plate under a load.
 pub(super) fn run(
     asked: &Dropped<'_>,
-    folder: Option<&Path>,
+    folder: Option<&Folder<'_>>,
     cancel: &Cancel,
     command: &[String],
 ) -> Result<Option<Exit>, CliError> {
@@ -59,15 +58,14 @@ pub(super) fn run(
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
-        let out = common.figures.folder(folder, command);
-        let mut files = Files::new(&out)?;
+        let mut files = Files::new(folder)?;
         files.add("startup.csv", |out| csv::rows(&rows, out))?;
         files.json("startup.json", &object)?;
         let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
         drawn.provenance.fidelity = fidelity.to_string();
         files.figure("startup", &drawn)?;
         files.text("scene.toml", &scene.to_toml())?;
-        terminal::wrote(folder, &files.commit()?);
+        terminal::wrote(folder.path, &files.commit()?);
     }
     Ok(Some(Exit::of(&ended.status)))
 }

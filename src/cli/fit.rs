@@ -10,13 +10,13 @@ use crate::analysis::fit::{
 };
 use crate::control::Cancel;
 use crate::digits::{duration, percent, short, signed, significant, with_error};
+use crate::export::files::{self, Folder};
 use crate::export::fit as export;
-use crate::export::{files, json};
+use crate::export::json;
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
 use crate::solve::Settings;
 use clap::{ArgGroup, Args};
-use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -74,7 +74,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "subject_to")]
     data: Option<String>,
 
-    /// A key to choose, with its bounds in the unit of the key; may be repeated
+    /// A key to choose, with its bounds in the unit of the key or another of its kind; may be repeated
     ///
     /// The search begins at the value that the preset has, or --set gives. Bounds with a ratio of ten or more are searched by equal
     /// ratios; :log and :lin say so for any.
@@ -111,7 +111,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
-    let (folder, settings, cancel) = arguments.common.begin()?;
+    let (folder, settings, cancel) = arguments.common.begin(command)?;
     let greatest = arguments.maximise.as_ref().map(|name| (name, true));
     let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));
     let call = Call { arguments, scene: &scene, settings: &settings, folder, cancel: &cancel, command };
@@ -130,7 +130,7 @@ struct Call<'a> {
     arguments: &'a Arguments,
     scene: &'a Scene,
     settings: &'a Settings,
-    folder: Option<&'a Path>,
+    folder: Option<Folder<'a>>,
     cancel: &'a Cancel,
     command: &'a [String],
 }
@@ -151,9 +151,8 @@ impl Call<'_> {
         terminal::result(json, object, || text(self.scene, &fitted, measured));
         fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
-        if let Some(folder) = self.folder {
-            let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::fitted(&out, &problem, preset, &fitted, measured)?);
+        if let Some(folder) = &self.folder {
+            terminal::wrote(folder.path, &files::fitted(folder, &problem, preset, &fitted, measured)?);
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -175,9 +174,8 @@ impl Call<'_> {
         terminal::result(json, object, || optimum_text(self.scene, &problem, &found));
         found.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
-        if let Some(folder) = self.folder {
-            let out = self.arguments.common.figures.folder(folder, self.command);
-            terminal::wrote(folder, &files::optimum(&out, &problem, preset, &found)?);
+        if let Some(folder) = &self.folder {
+            terminal::wrote(folder.path, &files::optimum(folder, &problem, preset, &found)?);
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }

@@ -1,11 +1,12 @@
 //! `squeezefilm join`: the whole of a sweep whose parts were solved one by one.
 
 use super::exit::{CliError, Exit};
-use super::options::{FigureOptions, OutputOptions};
+use super::options::OutputOptions;
 use super::sweep::tell;
 use super::terminal;
 use crate::export::files;
 use crate::export::saved::{Joined, join};
+use crate::export::sweep::primary;
 use crate::input::read_text;
 use clap::Args;
 use std::path::PathBuf;
@@ -32,23 +33,19 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
-    let folder = arguments.output.folder()?;
     let read = |path: &PathBuf| match read_text(path, LARGEST) {
         Ok(text) => Ok((path.display().to_string(), text)),
         Err(fault) => Err(CliError::file(path, fault)),
     };
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let Joined { sweep, rows, command } = join(&parts).map_err(CliError::Input)?;
+    let folder = arguments.output.folder(&command)?;
     let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
-    if let Some(folder) = folder {
-        let out = arguments.figures.folder(folder, &command);
-        terminal::wrote(folder, &files::swept(&out, &sweep, &rows)?);
+    if let Some(folder) = &folder {
+        terminal::wrote(folder.path, &files::swept(folder, &sweep, &rows, primary(&sweep))?);
     }
     Ok(exit)
 }

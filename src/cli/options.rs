@@ -19,7 +19,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use std::io;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Changes to a scene.
@@ -221,13 +221,41 @@ pub(super) struct OutputOptions {
     /// Writes files into this folder, made if need be; files of the same name are replaced
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+
+    /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
+    figures: Vec<String>,
 }
 
 impl OutputOptions {
-    /// The folder of `--out`: found out, before anything is solved, to be one that can be written into.
-    pub(super) fn folder(&self) -> Result<Option<&Path>, CliError> {
-        self.out.as_deref().map(check_writable).transpose()?;
-        Ok(self.out.as_deref())
+    /// The folder of `--out` for results of this command line: found out, before anything is solved, to be one that can be written into, with
+    /// figures in formats that go together. Of a command that has no fields.
+    pub(super) fn folder<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
+        let folder = self.folder_of_fields(command)?;
+        if folder.is_some() && self.vtk() {
+            terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");
+        }
+        Ok(folder)
+    }
+
+    /// The same of a command that has fields.
+    pub(super) fn folder_of_fields<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
+        if self.has("none") && self.figures.len() > 1 {
+            return Err(CliError::usage("--figures none is no figures at all: give it alone, or leave it out"));
+        }
+        let Some(path) = &self.out else { return Ok(None) };
+        check_writable(path)?;
+        let formats = Format::ALL.into_iter().filter(|format| self.has(format.name())).collect();
+        Ok(Some(Folder { path, command, formats }))
+    }
+
+    /// Whether the fields are to be written as VTK.
+    pub(super) fn vtk(&self) -> bool {
+        self.has("vtk")
+    }
+
+    fn has(&self, format: &str) -> bool {
+        self.figures.iter().any(|figure| figure == format)
     }
 }
 
@@ -242,46 +270,17 @@ pub(super) struct CommonOptions {
 
     #[command(flatten)]
     pub(super) output: OutputOptions,
-
-    #[command(flatten)]
-    pub(super) figures: FigureOptions,
 }
 
 impl CommonOptions {
     /// The folder of `--out`, and as [`SolveOptions::begin`].
-    pub(super) fn begin(&self) -> Result<(Option<&Path>, Settings, Cancel), CliError> {
-        let folder = self.output.folder()?;
+    pub(super) fn begin<'a>(
+        &'a self,
+        command: &'a [String],
+    ) -> Result<(Option<Folder<'a>>, Settings, Cancel), CliError> {
+        let folder = self.output.folder(command)?;
         let (settings, cancel) = self.solve.begin()?;
         Ok((folder, settings, cancel))
-    }
-}
-
-/// Which formats figures are written in.
-#[derive(Clone, Debug, Args)]
-pub(super) struct FigureOptions {
-    /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
-    figures: Vec<String>,
-}
-
-impl FigureOptions {
-    /// A folder of `--out` for results of this command line, with figures in the formats asked for; of a command that has no fields.
-    pub(super) fn folder<'a>(&self, path: &'a Path, command: &'a [String]) -> Folder<'a> {
-        Folder { path, command, formats: self.formats() }
-    }
-
-    fn formats(&self) -> Vec<Format> {
-        let (formats, vtk) = self.formats_and_vtk();
-        if vtk {
-            terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");
-        }
-        formats
-    }
-
-    /// The formats asked for, and whether the fields are to be written as VTK.
-    pub(super) fn formats_and_vtk(&self) -> (Vec<Format>, bool) {
-        let asked = |name: &str| self.figures.iter().any(|figure| figure == name);
-        (Format::ALL.into_iter().filter(|format| asked(format.name())).collect(), asked("vtk"))
     }
 }
 
@@ -355,6 +354,9 @@ mod tests {
         let three = [("film.min_spacing_nm", "100"), ("stator.tooth_radius_m", "3"), ("film.slip", "none")];
         assert_eq!(scene(&three).name, "Fundamental case, changed: 3 keys");
         assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
+        let long = scene(&[("film.min_spacing_nm", "123.456789012")]);
+        assert!(long.about.contains("film.min_spacing_nm = 123.457 nm, was 200 nm."), "{}", long.about);
+        assert_eq!(long.get("film.min_spacing_nm").unwrap().as_number(), Some(123.456789012));
         let named = scene(&[("film.min_spacing_nm", "100"), ("name", "Mine"), ("about", "My own.")]);
         assert_eq!((named.name.as_str(), named.about.as_str()), ("Mine", "My own."));
     }

@@ -2,21 +2,20 @@
 
 use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
-use super::options::{FigureOptions, SolveOptions};
+use super::options::{OutputOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
-use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::digits::{duration, with_error};
 use crate::export::animation::{Options, cycle, frames};
-use crate::export::files::{self, ExportError, Files};
+use crate::export::files::{self, ExportError, Files, Folder};
 use crate::export::reproduce::{RowObject, figures, object, report};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 const FILES: &str = "\
@@ -33,55 +32,40 @@ Files of --out:
 /// Table I and Figs. 3, 4 and 6–12 of Maeno and Bogy (1992): published numbers beside those of the paper's algorithm on its
 /// own meshes and beside converged ones; and what the text says, checked. Under a minute on two cores.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES)]
+#[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES, mut_arg("out", |out| out.default_value("reproduction")))]
 pub(super) struct Arguments {
-    /// Writes the files into this folder, made if need be; files of the same name are replaced
-    #[arg(long, value_name = "DIR", default_value = "reproduction")]
-    out: PathBuf,
-
-    /// Prints JSON, and nothing else, to standard output
-    #[arg(long)]
-    json: bool,
-
     #[command(flatten)]
     solve: SolveOptions,
 
     #[command(flatten)]
-    figures: FigureOptions,
+    output: OutputOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     if arguments.solve.method.is_some() {
         return Err(CliError::usage("reproduce solves by both methods: leave --method out"));
     }
-    // Finds out whether it can be written before anything is solved.
-    check_writable(&arguments.out)?;
+    let Some(folder) = arguments.output.folder(command)? else { return Err(CliError::usage("give --out")) };
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, Method::Auto)?;
     let started = Instant::now();
     let bar = Bar::points(number_of_solves(), 0);
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));
     drop(bar);
     let all = solved?;
-    let paths = write(&arguments.out, &all, arguments, command, &cancel)?;
-    terminal::result(arguments.json, || json::document(&object(&all), command), || text(&all));
-    terminal::wrote(&arguments.out, &paths);
+    let paths = write(&folder, &all, &cancel)?;
+    terminal::result(arguments.output.json, || json::document(&object(&all), command), || text(&all));
+    terminal::wrote(folder.path, &paths);
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
         number_of_solves(),
         duration(started.elapsed().as_secs_f64()),
-        arguments.out.join("report.html").display()
+        folder.path.join("report.html").display()
     ));
     Ok(if all.unsolved() == 0 { Exit::Solved } else { Exit::NotConverged })
 }
 
 /// Writes the files; none if it was cancelled meanwhile.
-fn write(
-    folder: &Path,
-    all: &Reproduction,
-    arguments: &Arguments,
-    command: &[String],
-    cancel: &Cancel,
-) -> Result<Vec<PathBuf>, CliError> {
+fn write(folder: &Folder<'_>, all: &Reproduction, cancel: &Cancel) -> Result<Vec<PathBuf>, CliError> {
     let check = || if cancel.is_cancelled() { Err(ExportError::Cancelled) } else { Ok(()) };
     check()?;
     let mut gif = None;
@@ -91,11 +75,10 @@ fn write(
         let options = Options { width: 860, ..Options::default() };
         let bar = Bar::points(frames(&solution.recording, options.frames), 0);
         let movie = cycle(&both.problem, solution, &options, &|| bar.point_done("frames"), cancel)?;
-        gif = Some(files::gif(&movie, &folder.join("cycle.gif"), cancel)?);
+        gif = Some(files::gif(&movie, &folder.path.join("cycle.gif"), cancel)?);
     }
-    let out = arguments.figures.folder(folder, command);
-    let mut files = Files::new(&out)?;
-    files.text("report.html", &report(all, gif.as_deref(), command))?;
+    let mut files = Files::new(folder)?;
+    files.text("report.html", &report(all, gif.as_deref(), folder.command))?;
     files.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
     files.json("figures.json", &object(all))?;
     for (number, figure) in figures(all) {

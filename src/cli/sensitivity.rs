@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             arguments.uncertainties.iter().map(|(key, _)| key.clone()).filter(|key| !arguments.keys.contains(key)),
         );
     }
-    let (folder, settings, cancel) = arguments.common.begin()?;
+    let (folder, settings, cancel) = arguments.common.begin(command)?;
     if settings.method == Method::Paper {
         return Err(CliError::usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
     }
@@ -121,9 +121,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
     terminal::result(arguments.common.output.json, || json::document(&found.object(), command), || text(&found));
     terminal::note(&format!("computed in {}", duration(wall_s)));
-    if let Some(folder) = folder {
-        let out = arguments.common.figures.folder(folder, command);
-        terminal::wrote(folder, &files::sensitivity(&out, &found)?);
+    if let Some(folder) = &folder {
+        terminal::wrote(folder.path, &files::sensitivity(folder, &found)?);
     }
     Ok(Exit::of(&sensitivity.status()))
 }
@@ -199,6 +198,11 @@ fn text(found: &Found<'_>) -> String {
     }
     let right: Vec<usize> = (1..=outputs.len()).collect();
     text.push_str(&columns.text(&right));
+    for column in sensitivity.columns.iter().filter(|column| column.parameter.unit == "°C") {
+        let absolute = column.scale().map_or_else(String::new, |kelvins| significant(kelvins, 5));
+        let told = format!("1 % of {} is 1 % of its {absolute} K above absolute zero.", column.parameter.key);
+        text.push_str(&paragraph(&told, "\n", ""));
+    }
     let unknown =
         sensitivity.columns.iter().filter_map(|column| Some((column.parameter.key, column.slopes.as_ref().err()?)));
     for (key, why) in unknown {

@@ -67,14 +67,18 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
-    let (folder, settings, cancel) = arguments.common.begin()?;
+    let folder = arguments.common.output.folder_of_fields(command)?;
+    let (settings, cancel) = arguments.common.solve.begin()?;
     problems.iter().try_for_each(|problem| check(problem, &settings))?;
 
     let several = scenes.len() > 1;
     let (mut exits, mut objects, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for ((preset, scene), problem) in arguments.presets.iter().zip(&scenes).zip(&problems) {
-        let folder =
-            folder.map(|folder| if several { folder.join(own(preset, &mut names)) } else { folder.to_owned() });
+        let own = |folder: &Folder<'_>| {
+            if several { folder.path.join(own(preset, &mut names)) } else { folder.path.to_owned() }
+        };
+        let path = folder.as_ref().map(own);
+        let folder = folder.as_ref().zip(path.as_deref()).map(|(folder, path)| Folder { path, ..folder.clone() });
         if several {
             terminal::note(&format!("{preset}:"));
             if !exits.is_empty() && !arguments.common.output.json {
@@ -92,7 +96,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         if !assumed.is_empty() {
             terminal::note(&format!("assumed, since the preset does not give them: {}", assumed.join(", ")));
         }
-        match one(arguments, scene, problem, &settings, &cancel, folder.as_deref(), command) {
+        match one(arguments, scene, problem, &settings, &cancel, folder.as_ref(), command) {
             Ok((exit, object)) => {
                 exits.push(exit);
                 objects.extend(object);
@@ -122,7 +126,7 @@ fn one(
     problem: &Problem,
     settings: &Settings,
     cancel: &Cancel,
-    folder: Option<&Path>,
+    folder: Option<&Folder<'_>>,
     command: &[String],
 ) -> Result<(Exit, Option<Summary>), CliError> {
     let mut bar = Bar::solve(force_unit(problem));
@@ -158,15 +162,14 @@ fn one(
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
         let solved = Solved { scene, problem, solution: &solution, history: &history, torque: result.torque.as_ref() };
-        if let Some(text) = announced(folder, files::expected_size(problem, &solution.recording)) {
+        if let Some(text) = announced(folder.path, files::expected_size(problem, &solution.recording)) {
             terminal::note(&text);
         }
         let control = Control { cancel, drawn: &|_, _| () };
-        let (formats, vtk) = arguments.common.figures.formats_and_vtk();
-        let out = Folder { path: folder, command, formats };
-        let written_files = files::solve(&out, &solved, &result, &control).and_then(|mut paths| {
+        let vtk = arguments.common.output.vtk();
+        let written_files = files::solve(folder, &solved, &result, &control).and_then(|mut paths| {
             // Of many instants their series is named.
-            paths.extend(if vtk { files::vtk(folder, &solved, &control)?.pop() } else { None });
+            paths.extend(if vtk { files::vtk(folder.path, &solved, &control)?.pop() } else { None });
             Ok(paths)
         });
         match written_files {
@@ -174,7 +177,7 @@ fn one(
                 terminal::note(&ExportError::Cancelled.to_string());
                 exit = Exit::Other;
             }
-            paths => terminal::wrote(folder, &paths?),
+            paths => terminal::wrote(folder.path, &paths?),
         }
     }
     Ok((exit, Some(result)))

@@ -27,8 +27,8 @@ Examples:
 /// Maps, over the full ranges of the parameters, where each method (ours and the paper's) finds a solution
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
-/// a pressure or contact force below 0, loads that do not add up), failed or refused. Some minutes on two cores, nearly all
-/// of them the paper's method.
+/// a pressure or contact force below 0, loads that do not add up), failed or refused. About three minutes on two cores, nearly all
+/// of them the paper's method: --method auto leaves that out.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
-    let (folder, settings, cancel) = arguments.common.begin()?;
+    let (folder, settings, cancel) = arguments.common.begin(command)?;
     let methods =
         arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
     let maps: Vec<&'static Map> =
@@ -82,15 +82,14 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
     }
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
-        let out = arguments.common.figures.folder(folder, command);
-        let mut files = Files::new(&out)?;
+        let mut files = Files::new(&folder)?;
         // What was cancelled does not pass for a map.
         let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
         files.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
         if complete {
             files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }
-        terminal::wrote(folder, &files.commit()?);
+        terminal::wrote(folder.path, &files.commit()?);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }

@@ -44,7 +44,8 @@ Files of --out:
 /// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
 /// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes. It shakes a
-/// little with the vibration, which the plate of the periodic solve does not.
+/// little with the vibration, which the plate of the periodic solve does not. A heavy plate bounces for thousands of cycles, which may take a
+/// minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -76,7 +77,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let problem = Problem::try_from(&scene)?;
-    let (folder, chosen, cancel) = arguments.common.begin()?;
+    let (folder, chosen, cancel) = arguments.common.begin(command)?;
     if chosen.method == Method::Paper {
         return Err(CliError::usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
@@ -89,7 +90,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         cycles: cycles(CYCLES),
         tolerance: arguments.tolerance,
     };
-    if let Some(exit) = fall::run(&dropped, folder, &cancel, command)? {
+    if let Some(exit) = fall::run(&dropped, folder.as_ref(), &cancel, command)? {
         return Ok(exit);
     }
     let usual = startup::Settings::default();
@@ -119,9 +120,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let human = text((&scene, &problem), &rows, (&ended, &validity), steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
-    if let Some(folder) = folder {
-        let out = arguments.common.figures.folder(folder, command);
-        let mut files = Files::new(&out)?;
+    if let Some(folder) = &folder {
+        let mut files = Files::new(folder)?;
         files.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
         files.json("startup.json", &object)?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
@@ -131,7 +131,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
         files.figure("startup", &drawn)?;
         files.text("scene.toml", &scene.to_toml())?;
-        terminal::wrote(folder, &files.commit()?);
+        terminal::wrote(folder.path, &files.commit()?);
     }
     Ok(Exit::of(&ended.status))
 }

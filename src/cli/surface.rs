@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{FigureOptions, OutputOptions, whole};
+use super::options::{OutputOptions, whole};
 use super::terminal;
 use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
@@ -48,13 +48,10 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let folder = arguments.output.folder()?;
+    let folder = arguments.output.folder(command)?;
     let faces = arguments.files.iter().map(|file| face(file, arguments.degree)).collect::<Result<Vec<_>, _>>()?;
     let (Some((_, rotor)), Some((_, stator))) = (faces.first(), faces.last()) else { return Ok(Exit::BadInput) };
     let pair = Pair::of(rotor, stator);
@@ -63,15 +60,14 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         arguments.files.iter().zip(&faces).map(|(file, (map, texture))| Face::of(&name(file), map, texture)).collect();
     let object = Object::new(told, &pair);
     terminal::result(arguments.output.json, || json::document(&object, command), || text(&object));
-    if let Some(folder) = folder {
-        let out = arguments.figures.folder(folder, command);
-        let mut files = Files::new(&out)?;
+    if let Some(folder) = &folder {
+        let mut files = Files::new(folder)?;
         files.json("surface.json", &object)?;
         files.text("surface.toml", &object.preset)?;
         for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
             files.figure(&format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
         }
-        terminal::wrote(folder, &files.commit()?);
+        terminal::wrote(folder.path, &files.commit()?);
     }
     Ok(Exit::Solved)
 }

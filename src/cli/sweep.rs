@@ -2,24 +2,25 @@
 
 use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
+use super::options::{CommonOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Row, Sweep, Values, Vary};
-use crate::atomic::{Lock, WriteError, check_writable, write_file};
+use crate::atomic::{Lock, WriteError, write_file};
 use crate::digits::{duration, significant};
 use crate::export::compare::{LIMITS, TIME_UP};
+use crate::export::files::{self, Folder};
+use crate::export::json;
 use crate::export::saved;
-use crate::export::sweep::Object;
-use crate::export::{files, json};
+use crate::export::sweep::{Object, primary};
 use crate::scene::show_text;
 use crate::solution::StoppedBy;
 use clap::Args;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -59,10 +60,10 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET")]
     preset: String,
 
-    /// What to vary, in the unit of the key: a range or a list; given twice: a map; three times: maps
+    /// What to vary, in the unit of the key or another of its kind: a range or a list; given twice: a map; three times: maps
     ///
     /// A key that is a number, as in the file, has a range: --vary film.min_spacing_nm=50:400:8:log has 8 values of equal ratio,
-    /// without :log of equal steps. A key of whole numbers takes the nearest ones. Any key has a list:
+    /// without :log of equal steps; 0.05um:0.4um:8:log is the same. A key of whole numbers takes the nearest ones. Any key has a list:
     /// --vary film.slip=first-order,fukui-kaneko, with the values of --set.
     #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log] or KEY=VALUE,VALUE…", required = true)]
     vary: Vec<Vary>,
@@ -78,6 +79,10 @@ pub(super) struct Arguments {
     /// Starts again and discards what a cancelled sweep left in the folder of --out
     #[arg(long, requires = "out")]
     restart: bool,
+
+    /// What the figure shows, by its name in sweep.csv [default: alpha, of a plate mean_load_ratio, or mean_gap_um if it floats]
+    #[arg(long, value_name = "NAME", requires = "out")]
+    quantity: Option<String>,
 
     #[command(flatten)]
     common: CommonOptions,
@@ -104,10 +109,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             terminal::note(&format!("{key} is a whole number: {} different values, not {count}", axis.values.len()));
         }
     }
+    let shown = shown(&sweep, arguments.quantity.as_deref())?;
     let points = sweep.points_of(part).len();
     let command = &of_the_whole(command);
-    let folder = arguments.common.output.out.as_deref();
-    let folder = folder.map(|path| Folder::open(path, (&sweep, arguments.part), command)).transpose()?;
+    let folder = arguments.common.output.folder(command)?;
+    let folder = folder.map(|out| Saved::open(out, &sweep, arguments.part)).transpose()?;
     let done = match &folder {
         Some(folder) if !arguments.restart => folder.left_over()?,
         _ => Vec::new(),
@@ -146,9 +152,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let exit = tell(&sweep, &rows, budget, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::wrote(folder.path, &folder.save(&rows, &arguments.common.figures)?);
+        terminal::wrote(folder.out.path, &folder.save(&rows, shown)?);
     }
     Ok(exit)
+}
+
+/// The quantity of this name, or what the sweep is about.
+fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
+    let Some(name) = name else { return Ok(primary(sweep)) };
+    let column = |quantity: &Quantity| quantity.column(sweep.problem());
+    sweep.quantities().into_iter().find(|quantity| quantity.name() == name || column(quantity) == name).ok_or_else(
+        || {
+            let allowed: Vec<String> = sweep.quantities().iter().map(column).collect();
+            CliError::Input(format!("--quantity {}: no such number; allowed: {}", show_text(name), allowed.join(", ")))
+        },
+    )
 }
 
 /// Prints the rows, for people or as JSON. What that leads to.
@@ -192,22 +210,21 @@ fn unfinished(part: Option<Part>) -> String {
 }
 
 /// The folder of `--out`, which no other sweep has meanwhile; parts of one share it.
-struct Folder<'a> {
-    path: &'a Path,
+struct Saved<'a> {
+    out: Folder<'a>,
     sweep: &'a Sweep,
     part: Option<Part>,
-    command: &'a [String],
     /// `None` only while being dropped.
     lock: Option<Lock>,
     /// The folder was made by us, and is removed if nothing comes into it.
     made: bool,
 }
 
-impl<'a> Folder<'a> {
-    /// Finds out whether it can be written, and whether another sweep is being saved there, before anything is solved.
-    fn open(path: &'a Path, (sweep, part): (&'a Sweep, Option<Part>), command: &'a [String]) -> Result<Self, CliError> {
+impl<'a> Saved<'a> {
+    /// Finds out whether another sweep is being saved there, before anything is solved.
+    fn open(out: Folder<'a>, sweep: &'a Sweep, part: Option<Part>) -> Result<Self, CliError> {
+        let path = out.path;
         let made = !path.exists();
-        check_writable(path)?;
         let failed = |source| WriteError { path: path.to_owned(), source };
         std::fs::create_dir_all(path).map_err(failed)?;
         match Lock::of(path, unfinished(part).trim_end_matches(UNFINISHED)).map_err(failed)? {
@@ -215,13 +232,13 @@ impl<'a> Folder<'a> {
                 let busy = "another sweep is being saved into this folder; give another folder, or wait for it";
                 Err(CliError::file(path, busy))
             }
-            lock => Ok(Self { path, sweep, part, command, lock, made }),
+            lock => Ok(Self { out, sweep, part, lock, made }),
         }
     }
 
     /// The rows that were solved before.
     fn left_over(&self) -> Result<Vec<Row>, CliError> {
-        let path = self.path.join(unfinished(self.part));
+        let path = self.out.path.join(unfinished(self.part));
         let fault = |fault: String| {
             let way_out = "give another folder, or --restart to begin anew";
             CliError::file(&path, format!("cannot be continued: {fault}; {way_out}"))
@@ -234,18 +251,18 @@ impl<'a> Folder<'a> {
     }
 
     fn save_unfinished(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
-        let path = self.path.join(unfinished(self.part));
+        let path = self.out.path.join(unfinished(self.part));
         let part = self.part.unwrap_or(Part::WHOLE);
-        write_file(&path, |out| saved::write(self.sweep, part, rows, self.command, out))?;
+        write_file(&path, |out| saved::write(self.sweep, part, rows, self.out.command, out))?;
         Ok(path)
     }
 
-    fn save(&self, rows: &[Row], figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
+    fn save(&self, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
-        let paths = files::swept(&figures.folder(self.path, self.command), self.sweep, rows)?;
-        let path = self.path.join(unfinished(self.part));
+        let paths = files::swept(&self.out, self.sweep, rows, shown)?;
+        let path = self.out.path.join(unfinished(self.part));
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
             _ => Ok(paths),
@@ -253,12 +270,12 @@ impl<'a> Folder<'a> {
     }
 }
 
-impl Drop for Folder<'_> {
+impl Drop for Saved<'_> {
     fn drop(&mut self) {
         self.lock.take();
         if self.made {
             // Only an empty folder is removed.
-            let _ = std::fs::remove_dir(self.path);
+            let _ = std::fs::remove_dir(self.out.path);
         }
     }
 }

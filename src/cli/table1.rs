@@ -2,12 +2,12 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::{SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
-use crate::atomic::Staged;
+use crate::atomic::{Staged, check_writable};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
 use crate::export::table1::Object;
@@ -17,6 +17,7 @@ use crate::scene::table1::published;
 use crate::solution::Status;
 use crate::solve::{Method, Settings};
 use clap::Args;
+use std::path::PathBuf;
 
 /// Solves the 14 rows of the paper's Table I and prints published beside computed values
 ///
@@ -38,15 +39,21 @@ pub(super) struct Arguments {
     #[command(flatten)]
     solve: SolveOptions,
 
-    #[command(flatten)]
-    output: OutputOptions,
+    /// Prints JSON, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+
+    /// Writes table1.csv into this folder, made if need be; a file of that name is replaced
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if arguments.converged && arguments.solve.method == Some(Method::Paper) {
         return Err(CliError::usage("--converged is method auto, and --method paper was asked for: keep one"));
     }
-    let folder = arguments.output.folder()?;
+    let folder = arguments.out.as_deref();
+    folder.map(check_writable).transpose()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, method)?;
 
@@ -71,7 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         }
     }
     let objects: Vec<Object> = rows.iter().map(|row| Object::new(row, &settings)).collect();
-    terminal::result(arguments.output.json, || json::text(&objects), || human);
+    terminal::result(arguments.json, || json::text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;

@@ -3,7 +3,7 @@
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
-use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, whole};
+use super::options::{MemoryOptions, OutputOptions, SceneOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
@@ -58,9 +58,6 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
@@ -68,7 +65,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problem = Problem::try_from(&scene)?;
     arguments.memory.apply();
     check(&problem, &Settings::default())?;
-    let folder = arguments.output.folder()?;
+    let folder = arguments.output.folder(command)?;
     let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
     let cancel = cancel_on_interrupt();
     let bar = Bar::solve("");
@@ -94,14 +91,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let advice: String = targets.iter().map(|target| advice(&tradeoff, *target, &alone)).collect();
     terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
-    if let Some(folder) = folder {
-        let out = arguments.figures.folder(folder, command);
-        let mut files = Files::new(&out)?;
+    if let Some(folder) = &folder {
+        let mut files = Files::new(folder)?;
         files.add("tradeoff.csv", |out| csv::rows(settings(&tradeoff), out))?;
         files.json("tradeoff.json", &object)?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         files.figure("tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
-        terminal::wrote(folder, &files.commit()?);
+        terminal::wrote(folder.path, &files.commit()?);
     }
     // A target that nothing fulfils is a failure for whoever asked.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());

@@ -9,6 +9,7 @@ use super::json::{self, Summary};
 use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
+use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -309,11 +310,12 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.
-pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row]) -> Result<Vec<PathBuf>, WriteError> {
+/// `shown`: the quantity of the figure.
+pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
     files.json("sweep.json", &sweep::Object { sweep: swept, rows })?;
-    files.figure("sweep", &sweep::figure(swept, rows))?;
+    files.figure("sweep", &sweep::figure(swept, rows, shown))?;
     files.text("scene.toml", &swept.scene().to_toml())?;
     files.commit()
 }

@@ -9,6 +9,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
+use crate::digits::significant;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading,
     Shape, Style, Width, extent,
@@ -131,23 +132,23 @@ impl Serialize for RowObject<'_> {
     }
 }
 
-/// The sweep as a figure. Over one key: its first quantity with the error as a band, and a second one below. Over two: a
+/// A quantity of the sweep as a figure. Over one key: with its error as a band, and below the [`primary`] one a second. Over two: a
 /// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
-pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
-    figure_of(sweep, rows, primary(sweep))
-}
-
-/// The same of one of its quantities; only the first has another below.
-pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
+pub fn figure(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
-    let worst = |error: Quantity| rows.iter().filter_map(|row| row.numbers.get(error)).fold(0.0, f64::max);
+    let worst = |error: Quantity| {
+        let worst = rows.iter().filter_map(|row| row.numbers.get(error)).fold(0.0, f64::max);
+        format!("{} up to {} {}", error.words(), significant(worst, 2), error.unit(sweep.problem()))
+            .trim_end()
+            .to_owned()
+    };
     let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
     let provenance = Provenance {
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
-        error: quantity.error().map_or_else(String::new, |error| format!("errors up to {:.1e}", worst(error))),
+        error: quantity.error().map_or_else(String::new, worst),
         note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
         ..Provenance::named(&show_text(&sweep.scene().name))
     };
@@ -193,7 +194,7 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
 const MOST_MAPS: usize = 12;
 
 /// What a sweep is about: α of a motor, the load ratio of a plate.
-fn primary(sweep: &Sweep) -> Quantity {
+pub fn primary(sweep: &Sweep) -> Quantity {
     let there = sweep.quantities();
     let first = [Quantity::Alpha, Quantity::MeanGap].into_iter().find(|quantity| there.contains(quantity));
     first.unwrap_or(Quantity::LoadRatio)
@@ -336,7 +337,7 @@ pub(super) mod tests {
     fn figures_have_a_curve_or_a_map_and_the_published_points() {
         use crate::export::figure::Layer;
         let line = sweep("stator.frequency_khz=3:50:3:log");
-        let drawn = figure(&line, &rows(&line));
+        let drawn = figure(&line, &rows(&line), primary(&line));
         let points = |panel: &Panel| {
             let points = |layer: &Layer| if let Layer::Points(points) = layer { Some(points.clone()) } else { None };
             panel.layers.iter().filter_map(points).collect::<Vec<_>>()
@@ -358,7 +359,7 @@ pub(super) mod tests {
             numbers,
             outside: Vec::new(),
         };
-        let drawn = figure(&plane, &[row]);
+        let drawn = figure(&plane, &[row], primary(&plane));
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
         let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();

@@ -15,7 +15,7 @@ use crate::export::animation::Options;
 use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::Summary;
-use crate::export::sweep::{figure_of, write_csv};
+use crate::export::sweep::{self as swept, primary, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
 use crate::fidelity::Fidelity;
 use crate::lessons::record::{self, Record};
@@ -140,13 +140,15 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Runs(OfRuns::Comparison { all }, runs) => {
             files::comparison(&folder(path, BESIDE_DATA), &runs, &coarsest(&runs), all, control)?
         }
-        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(&folder(path, BESIDE_DATA), &sweep, &rows)?,
+        Content::Sweep(OfSweep::Data, sweep, rows) => {
+            files::swept(&folder(path, BESIDE_DATA), &sweep, &rows, primary(&sweep))?
+        }
         Content::Sweep(OfSweep::Table, sweep, rows) => {
             write_file(path, |out| write_csv(&sweep, &rows, out))?;
             one()
         }
         Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => {
-            figure::write(&figure_of(&sweep, &rows, quantity), path)?;
+            figure::write(&swept::figure(&sweep, &rows, quantity), path)?;
             one()
         }
         Content::Sensitivity(sensitivity, uncertainties, carlo) => {
