@@ -276,7 +276,14 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
 
     let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft"]);
     let line = out(&output).lines().find(|line| line.trim_start().starts_with("film load ")).unwrap().to_owned();
-    assert!(line.contains(" N/m") && line.ends_with("in N/m, not N"), "{line}");
+    assert!(line.contains(" N/m") && line.ends_with("N/m, not N"), "{line}");
+    let squeeze = |presets: [&str; 2]| {
+        let output = run(&[&["compare", "--fidelity", "draft"], &presets[..]].concat());
+        out(&output).lines().find(|line| line.trim_start().starts_with("squeeze number")).unwrap().to_owned()
+    };
+    let line = squeeze(["floating-disc", "plate-crossover"]);
+    assert!(line.contains(" by radius ") && line.ends_with("by length, not by radius"), "{line}");
+    assert!(squeeze(["plate-viscous", "plate-crossover"]).ends_with("× 45.5"));
     let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&result["runs"][0]["force_unit"], &result["runs"][1]["force_unit"]), (&"N".into(), &"N/m".into()));
@@ -585,6 +592,8 @@ fn figures_are_written_in_the_formats_asked_for() {
     assert!(String::from_utf8_lossy(&swept.stderr).contains("--figures vtk has no effect here"));
     refused(&["solve", "plate-viscous", "--figures", "jpg", "--out", "x"], 2, &["jpg", "svg, png, pdf, none"]);
     refused(&["solve", "plate-viscous", "--figures", "svg"], 2, &["--out"]);
+    refused(&["compare", "plate-viscous", "--figures", "none,png", "--out", "x"], 2, &["--figures none", "alone"]);
+    assert!(!Path::new("x").exists());
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::quantity::{Numbers, Quantity, labelled};
 use super::validity::{names, outside};
 use crate::control::Cancel;
 use crate::estimate::Estimate;
-use crate::problem::Problem;
+use crate::problem::{Outline, Problem, Scenario};
 use crate::scene::{PARAMETERS, Parameter, Scene, Value, show_text};
 use crate::solution::{Solution, settled};
 use crate::solve::{Settings, check};
@@ -177,12 +177,25 @@ pub struct ResultCell {
     pub difference_percent: Option<Estimate>,
 }
 
+/// The unit of a quantity of a run. A squeeze number is by a length: those by different ones have no more in common than two units.
+fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
+    match (quantity, &run.problem.scenario) {
+        (Quantity::SqueezeNumber, Scenario::Motor(_)) => "by tooth width",
+        (Quantity::SqueezeNumber, Scenario::Plate(plate)) => match plate.outline() {
+            Outline::Strip | Outline::Rectangle { .. } => "by length",
+            Outline::Disc => "by radius",
+            Outline::Ring { .. } => "by width of the ring",
+        },
+        _ => quantity.unit(&run.problem),
+    }
+}
+
 /// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
 pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     let numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
     let row = |quantity: Quantity| {
         let first = numbers.first().and_then(|numbers| numbers.estimate(quantity));
-        let units: Vec<&'static str> = runs.iter().map(|run| quantity.unit(&run.problem)).collect();
+        let units: Vec<&'static str> = runs.iter().map(|run| unit(quantity, run)).collect();
         let cell = |(i, numbers): (usize, &Numbers)| {
             let found = numbers.estimate(quantity);
             // N/m less N is nothing.
@@ -192,7 +205,8 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
         let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
         let mut there = cells.iter().filter(|cell| cell.found.is_some()).map(|cell| cell.unit);
         let unit = there.next()?;
-        let unit = there.all(|other| other == unit).then_some(unit);
+        let unit =
+            there.all(|other| other == unit).then_some(if quantity == Quantity::SqueezeNumber { "" } else { unit });
         Some(ResultRow { quantity, unit, cells })
     };
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()

@@ -68,8 +68,8 @@ impl Output {
     pub fn words(self) -> &'static str {
         match self {
             Self::Number(quantity) => quantity.words(),
-            Self::Stiffness => "stiffness of the film",
-            Self::Damping => "damping coefficient of the film",
+            Self::Stiffness => "dynamic stiffness",
+            Self::Damping => "dynamic damping",
         }
     }
 

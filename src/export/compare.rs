@@ -269,7 +269,7 @@ pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
 pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     let first = row.cells.first().filter(|first| first.found.is_some() && cell.found.is_some());
     if let Some(first) = first.filter(|first| first.unit != cell.unit) {
-        return format!("in {}, not {}", cell.unit, first.unit);
+        return format!("{}, not {}", cell.unit, first.unit);
     }
     let Some(Estimate { value, error }) = cell.difference_percent else { return String::new() };
     match value {

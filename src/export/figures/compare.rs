@@ -281,19 +281,25 @@ pub fn plates(runs: &[PlateRun<'_>]) -> Vec<(&'static str, Figure)> {
     vec![("profiles", profiles(runs)), ("loads", plate_loads(runs)), ("loops", loops(runs)), ("maps", plate_maps(runs))]
 }
 
-/// The plate's x axis in lengths of the plate.
-fn plate_axis() -> Axis {
-    Axis::new("x/length", "").fixed(-0.5, 0.5)
+/// The plates' x axis in lengths, or if all are round in radii, and what is one on it.
+fn plate_axis(runs: &[PlateRun<'_>]) -> (Axis, fn(&Plate) -> f64) {
+    let round = runs.iter().filter(|run| run.scene.hole.is_some()).count();
+    match round {
+        0 => (Axis::new("x/length", "").fixed(-0.5, 0.5), |plate| plate.length),
+        all if all == runs.len() => (Axis::new("r/radius", "").fixed(-1.0, 1.0), Plate::radius),
+        _ => (Axis::new("x/length, of round plates x/diameter", "").fixed(-0.5, 0.5), |plate| plate.length),
+    }
 }
 
 fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let margin = 0.06 * (high - low);
     let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
-    let mut panel = Panel::new(title, plate_axis(), y);
+    let (axis, length) = plate_axis(runs);
+    let mut panel = Panel::new(title, axis, y);
     for run in runs {
         let frame = nearest_frame(run.recording, phase);
-        let points = plate::along_the_middle(run.recording, frame, scale, |x| x / run.scene.length);
+        let points = plate::along_the_middle(run.recording, frame, scale, |x| x / length(run.scene));
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
     panel
@@ -360,9 +366,11 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let mut figure = Figure::new("pressure along the plate and over the cycle");
     for run in runs {
-        let grid = plate::over_length_and_cycle(run.recording, scale, |x| x / run.scene.length);
+        // Each map is of one plate.
+        let (axis, length) = plate_axis(std::slice::from_ref(run));
+        let grid = plate::over_length_and_cycle(run.recording, scale, |x| x / length(run.scene));
         let map = pressure_map(grid, &unit, Range::Fixed(low * scale, high * scale));
-        let panel = Panel::new(run.name, plate_axis(), Axis::new("t/T", "").fixed(0.0, 1.0));
+        let panel = Panel::new(run.name, axis, Axis::new("t/T", "").fixed(0.0, 1.0));
         figure.panels.push(panel.layer(map).height(40.0));
     }
     figure.columns = runs.len().clamp(1, 2);
