@@ -102,6 +102,9 @@ fn lessons_are_printed_a_page_for_each() {
             && answers.contains("The program gives 241 kPa")
             && !answers.contains("class=\"room\"")
     );
+    // The text of a step is on the worksheet.
+    let body = "Here a plate lies on a film of air that is 1 µm thick";
+    assert!(worksheets.contains(body) && !answers.contains(body), "{worksheets}");
     assert!(worksheets.contains("Sketch") && worksheets.contains("mean pressure"));
 }
 

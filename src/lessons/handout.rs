@@ -35,8 +35,11 @@ pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piec
     let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
     for (i, step) in lesson.steps.iter().enumerate() {
         let known = quoted(step, cancel).map_err(|error| format!("{}, {}: {error}", lesson.title, step.title))?;
-        if step.question.is_some() || step.task.is_some() {
+        // The text of a step is on the worksheet alone, and of a step without a question or a task it is all there is.
+        if !answers || step.question.is_some() || step.task.is_some() {
             pieces.push(Piece::Heading(format!("{}  {}", i + 1, step.title)));
+            let body = if answers { &[] } else { &step.body[..] };
+            pieces.extend(lines(body, &known.before).map(Piece::Text));
             on_paper(&mut pieces, step, &known, answers);
         }
     }
