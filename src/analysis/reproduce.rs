@@ -63,6 +63,13 @@ pub struct Row {
     pub both: Both,
 }
 
+impl Row {
+    /// By how much the film load of a result exceeds the published one \[%\].
+    pub fn difference_percent(&self, result: &MotorResult) -> f64 {
+        100.0 * (result.film_load.value / self.published.published_load_n - 1.0)
+    }
+}
+
 /// α at a frequency, converged.
 #[derive(Clone, Debug)]
 pub struct Point {

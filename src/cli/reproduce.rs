@@ -5,12 +5,12 @@ use super::exit::{CliError, Exit};
 use super::options::{OutputOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
-use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
+use crate::analysis::reproduce::{Both, Reproduction, Row, number_of_solves, reproduce};
 use crate::control::Cancel;
-use crate::digits::{duration, with_error};
+use crate::digits::duration;
 use crate::export::animation::{Options, cycle, frames};
 use crate::export::files::{self, ExportError, Files, Folder};
-use crate::export::reproduce::{RowObject, figures, object, report};
+use crate::export::reproduce::{figures, object, report, row_object};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
@@ -79,7 +79,7 @@ fn write(folder: &Folder<'_>, all: &Reproduction, cancel: &Cancel) -> Result<Vec
     }
     let mut files = Files::new(folder)?;
     files.text("report.html", &report(all, gif.as_deref(), folder.command))?;
-    files.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
+    files.add("table1.csv", |out| csv::rows(all.rows.iter().map(row_object), out))?;
     files.json("figures.json", &object(all))?;
     for (number, figure) in figures(all) {
         check()?;
@@ -97,15 +97,13 @@ fn text(all: &Reproduction) -> String {
     let mut text = heading("Table I of Maeno and Bogy (1992): film share α of the load");
     let mut columns = Columns::new();
     columns.row(["row", "published", "paper's algorithm", "converged"]);
-    let with = |value: Option<f64>, error: Option<f64>| {
-        value.map_or_else(|| "failed".to_owned(), |value| with_error(value, error.unwrap_or(f64::INFINITY)))
-    };
-    for row in all.rows.iter().map(RowObject::new) {
+    let share = |solved| Both::result(solved).map_or_else(|| "failed".to_owned(), |result| result.alpha.to_string());
+    for Row { published, both } in &all.rows {
         columns.row([
-            row.row.clone(),
-            format!("{:.3}", row.published_alpha),
-            with(row.paper_alpha, row.paper_alpha_error),
-            with(row.alpha, row.alpha_error),
+            published.row.clone(),
+            format!("{:.3}", published.published_alpha),
+            share(&both.paper),
+            share(&both.ours),
         ]);
     }
     text.push_str(&columns.text(&[1, 2, 3]));

@@ -9,7 +9,7 @@ use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
 use crate::digits::duration;
 use crate::export::files::Files;
-use crate::export::stability::{CellObject, detail, figure, object};
+use crate::export::stability::{cell_object, detail, figure, object};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut files = Files::new(&folder)?;
         // What was cancelled does not pass for a map.
         let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-        files.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
+        files.add(name, |out| csv::rows(cells.iter().map(cell_object), out))?;
         if complete {
             files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }

@@ -10,7 +10,7 @@ use crate::analysis::table1::{Row, rows};
 use crate::atomic::{Staged, check_writable};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
-use crate::export::table1::Object;
+use crate::export::table1::object;
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
             }
         }
     }
-    let objects: Vec<Object> = rows.iter().map(|row| Object::new(row, &settings)).collect();
+    let objects: Vec<_> = rows.iter().map(|row| object(row, &settings)).collect();
     terminal::result(arguments.json, || json::text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
     if let Some(folder) = folder {

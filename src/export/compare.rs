@@ -3,9 +3,9 @@
 //! Numbers are written with the fewest digits that read back to the same bits.
 
 use super::animation::{Movie, Options};
-use super::csv::{number, words as csv_words};
+use super::csv::words as csv_words;
 use super::error::ExportError;
-use super::estimates::{self, finite};
+use super::estimates;
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
@@ -95,41 +95,25 @@ pub fn parameter_rows(runs: &[ComparedRun]) -> Vec<ParameterRow> {
 
 /// Writes the results as CSV, a row for each run and quantity; what is not there is empty.
 pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record([
-        "run",
-        "label",
-        "scene",
-        "status",
-        "validity",
-        "quantity",
-        "unit",
-        "value",
-        "error",
-        "difference_percent",
-        "difference_error_percent",
-    ])?;
-    for row in results(runs) {
-        for (i, (run, cell)) in runs.iter().zip(&row.cells).enumerate() {
-            let value = |found: Option<Estimate>| found.map_or_else(String::new, |found| number(found.value));
-            let error =
-                |found: Option<Estimate>| found.and_then(|found| finite(found.error)).map_or_else(String::new, number);
-            writer.write_record([
-                (i + 1).to_string().as_str(),
-                &csv_words(&run.label),
-                run.scene.scene(),
-                &status(run),
-                &run.outside().join(";"),
-                row.quantity.name(),
-                cell.unit,
-                &value(cell.found),
-                &error(cell.found),
-                &value(cell.difference_percent),
-                &error(cell.difference_percent),
-            ])?;
-        }
-    }
-    writer.flush()
+    let rows = results(runs).into_iter().flat_map(|row| {
+        let of_run = |(i, (run, cell)): (usize, (&ComparedRun, &ResultCell))| {
+            json!({
+                "run": i + 1,
+                "label": csv_words(&run.label),
+                "scene": run.scene.scene(),
+                "status": status(run),
+                "validity": run.outside().join(";"),
+                "quantity": row.quantity.name(),
+                "unit": cell.unit,
+                "value": cell.found.map(|found| found.value),
+                "error": cell.found.map(|found| found.error),
+                "difference_percent": cell.difference_percent.map(|found| found.value),
+                "difference_error_percent": cell.difference_percent.map(|found| found.error),
+            })
+        };
+        runs.iter().zip(&row.cells).enumerate().map(of_run).collect::<Vec<_>>()
+    });
+    super::csv::rows(rows, out)
 }
 
 /// Writes the parameters as CSV, a row for each key and a column for each run.

@@ -13,6 +13,7 @@ use crate::analysis::quantity::force_unit;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use serde::Serialize;
+use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -109,10 +110,23 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
     table.finish()
 }
 
-/// Writes one row for each object, the header first; what is null is empty.
+/// Writes one row for each object, with the keys of the first as the header; what is null is empty. Numbers are those of JSON.
 pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    for (i, row) in rows.into_iter().enumerate() {
+        let Value::Object(row) = serde_json::to_value(row)? else { return Err(io::Error::other("a row is no object")) };
+        if i == 0 {
+            writer.write_record(row.keys())?;
+        }
+        writer.write_record(row.values().map(|value| {
+            match value {
+                Value::Null => Cow::Borrowed(""),
+                Value::String(text) => Cow::Borrowed(text.as_str()),
+                other => Cow::Owned(other.to_string()),
+            }
+            .into_owned()
+        }))?;
+    }
     writer.flush()
 }
 

@@ -1,7 +1,6 @@
 //! A fit, or an optimum, as JSON, as CSV and as figures.
 
 use super::csv;
-use super::estimates::finite;
 use super::figure::{
     Axis, Colour, Colours, Dash, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range,
     Shading, Shape, Style, extent,
@@ -12,9 +11,7 @@ use crate::analysis::fit::{
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::show_text;
-use serde::Serialize;
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// The object of `fit --json`: a fit of the scene `preset`, and the measurements beside what is computed. Its numbers are those of [`Fitted`];
@@ -51,65 +48,47 @@ fn unknown(FittedUnknown { unknown, value, error, at }: &FittedUnknown) -> Value
     })
 }
 
-/// A measurement: a row of the CSV.
-#[derive(Clone, Debug, Serialize)]
-pub struct RowObject<'a> {
-    /// Name of its line.
-    pub row: Cow<'a, str>,
-    /// Keys that its condition changes, as `--set` takes them, divided by spaces.
-    pub condition: String,
-    /// What was measured.
-    pub quantity: &'static str,
-    /// Of a torque, the speed of the rotor.
-    pub rotor_speed_rpm: Option<f64>,
-    /// As measured.
-    pub measured: f64,
-    /// Its standard error, scaled if it was not given.
-    pub error: f64,
-    /// As computed.
-    pub computed: Option<f64>,
-    /// Estimated numerical error of that.
-    pub numerical_error: Option<f64>,
-    /// (computed − measured)/error; null if the measurement was left out.
-    pub residual: Option<f64>,
-    /// `used`, or why it was left out.
-    pub status: Cow<'a, str>,
-}
-
-/// The rows of a fit.
-pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>> {
-    let row = |(one, row): (&'a Measurement, &'a FittedRow)| {
+/// One object for each measurement, a row of the CSV.
+fn rows(fitted: &Fitted, measured: &Measured) -> Vec<Value> {
+    let row = |(one, row): (&Measurement, &FittedRow)| {
         let changes =
             measured.conditions[one.condition].iter().map(|(key, value)| format!("{key}={}", show_text(value)));
         let computed = row.computed.as_ref().ok();
-        RowObject {
-            row: Cow::Borrowed(&one.label),
-            condition: changes.collect::<Vec<_>>().join(" "),
-            quantity: one.what.name(),
-            rotor_speed_rpm: match one.what {
+        json!({
+            "row": one.label,
+            // Keys that its condition changes, as `--set` takes them.
+            "condition": changes.collect::<Vec<_>>().join(" "),
+            "quantity": one.what.name(),
+            // Of a torque.
+            "rotor_speed_rpm": match one.what {
                 Observable::Torque { speed_rpm } => Some(speed_rpm),
                 Observable::Number(_) => None,
             },
-            measured: one.value,
-            error: row.error,
-            computed: computed.map(|found| found.value),
-            numerical_error: computed.and_then(|found| finite(found.error)),
-            residual: row.residual,
-            status: Cow::Borrowed(match (&row.computed, row.residual) {
+            "measured": one.value,
+            // Its standard error, scaled if it was not given.
+            "error": row.error,
+            "computed": computed.map(|found| found.value),
+            "numerical_error": computed.map(|found| found.error),
+            // (computed − measured)/error; null if the measurement was left out.
+            "residual": row.residual,
+            // `used`, or why it was left out.
+            "status": match (&row.computed, row.residual) {
                 (_, Some(_)) => "used",
                 (Err(why), None) => why,
                 (Ok(_), None) => "left out: it could not be computed at the start",
-            }),
-        }
+            },
+        })
     };
     measured.measurements.iter().zip(&fitted.rows).map(row).collect()
 }
 
 /// Writes the measurements beside what is computed.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
-    let in_csv = |row: RowObject<'_>| {
-        let [name, status] = [&row.row, &row.status].map(|words| csv::words(words).into_owned().into());
-        RowObject { row: name, status, ..row }
+    let in_csv = |mut row: Value| {
+        for name in ["row", "status"] {
+            row[name] = csv::words(row[name].as_str().unwrap_or_default()).into();
+        }
+        row
     };
     csv::rows(rows(fitted, measured).into_iter().map(in_csv), out)
 }
@@ -262,25 +241,17 @@ fn limit(limit: &Limit, reached: Option<&Estimate>) -> Value {
     json!({ "limit": limit.to_string(), "value": value, "numerical_error": error })
 }
 
-/// Lines through an optimum, one for each point.
-#[derive(Serialize)]
-struct LineRow {
-    key: &'static str,
-    value: f64,
-    quantity: &'static str,
-    computed: Option<f64>,
-    within_limits: bool,
-}
-
-/// Writes the lines through the optimum.
+/// Writes the lines through the optimum, one row for each point.
 pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()> {
     let rows = found.lines.iter().flat_map(|line| {
-        line.points.iter().zip(&line.kept).map(|((value, computed), kept)| LineRow {
-            key: line.unknown.parameter.key,
-            value: *value,
-            quantity: found.goal.quantity.name(),
-            computed: *computed,
-            within_limits: *kept,
+        line.points.iter().zip(&line.kept).map(|((value, computed), kept)| {
+            json!({
+                "key": line.unknown.parameter.key,
+                "value": value,
+                "quantity": found.goal.quantity.name(),
+                "computed": computed,
+                "within_limits": kept,
+            })
         })
     });
     csv::rows(rows, out)

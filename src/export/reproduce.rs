@@ -7,6 +7,6 @@ mod report;
 mod statements;
 
 pub use figures::figures;
-pub use objects::{RowObject, object};
+pub use objects::{object, row_object};
 pub use report::report;
 pub use statements::{Statement, statements};

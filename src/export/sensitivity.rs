@@ -3,11 +3,10 @@
 use super::csv::number;
 use super::estimates::finite;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
-use crate::analysis::variation::{Column, Sides, Slope};
+use crate::analysis::variation::Column;
 use crate::digits::significant;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
 use crate::solution::Status;
-use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -20,45 +19,6 @@ pub struct Found<'a> {
     pub uncertainties: &'a Uncertainties,
     /// Random draws.
     pub carlo: Option<&'a MonteCarlo>,
-}
-
-/// A result by a key, a row of the CSV.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// The result.
-    pub output: &'static str,
-    /// The key.
-    pub key: &'static str,
-    /// Unit of the key.
-    pub key_unit: &'static str,
-    /// Value of the key.
-    pub at: f64,
-    /// Derivative, in the unit of the result over that of the key.
-    pub derivative: Option<f64>,
-    /// Its estimated error, absolute: the sum of the next three.
-    pub derivative_error: Option<f64>,
-    /// By the length of the step.
-    pub step_error: Option<f64>,
-    /// By the grids.
-    pub grid_error: Option<f64>,
-    /// By what is left out of the model.
-    pub left_out_error: Option<f64>,
-    /// By how many per cent the result changes with 1 % of the key, of a temperature from absolute zero.
-    pub elasticity: Option<f64>,
-    /// Its estimated error, absolute.
-    pub elasticity_error: Option<f64>,
-    /// Step of the differences, in the unit of the key.
-    pub step: f64,
-    /// `both`, or the side on which there is room: `above` or `below`.
-    pub sides: Sides,
-    /// Standard deviation of the key, in its unit, if it is uncertain.
-    pub uncertainty: Option<f64>,
-    /// What it contributes to that of the result, signed.
-    pub contribution: Option<f64>,
-    /// Its share of the variance of the result, 0 to 1.
-    pub variance_share: Option<f64>,
-    /// Why there is no derivative.
-    pub why: Option<String>,
 }
 
 /// The random draws: where the random numbers began, and how many draws were solved, failed and were drawn again.
@@ -119,42 +79,53 @@ impl Found<'_> {
     }
 
     /// The rows of one result.
-    fn rows_of(&self, output: usize) -> Vec<Row> {
+    fn rows_of(&self, output: usize) -> Vec<Value> {
         let propagated = self.propagated(output);
         (0..self.sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect()
     }
 
-    fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Row {
+    /// A result by a key, a row of the CSV. Errors are estimated ones, absolute.
+    fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Value {
         let sensitivity = self.sensitivity;
         let Column { parameter, at, step, sides, slopes } = &sensitivity.columns[column];
         let slope = slopes.as_ref().ok().map(|slopes| slopes[output]);
-        let part = |of: fn(&Slope) -> f64| slope.as_ref().map(of).and_then(finite);
         let relative = sensitivity.columns[column].scale().and_then(|_| sensitivity.elasticity(output, column));
         let contribution =
             propagated.and_then(|found| found.parts.iter().find(|(other, _)| other.key == parameter.key));
-        Row {
-            output: sensitivity.outputs[output].name(),
-            key: parameter.key,
-            key_unit: parameter.unit,
-            at: *at,
-            derivative: part(|slope| slope.value),
-            derivative_error: part(Slope::error),
-            step_error: part(|slope| slope.step_error),
-            grid_error: part(Slope::grid_error),
-            left_out_error: part(|slope| slope.left_out),
-            elasticity: relative.and_then(|found| finite(found.value)),
-            elasticity_error: relative.and_then(|found| finite(found.error)),
-            step: *step,
-            sides: *sides,
-            uncertainty: self.uncertainties.deviation(parameter),
-            contribution: contribution.and_then(|(_, part)| finite(part.value)),
-            variance_share: propagated.and_then(|found| found.share(parameter)),
-            why: slopes.as_ref().err().cloned(),
-        }
+        json!({
+            "output": sensitivity.outputs[output].name(),
+            "key": parameter.key,
+            "key_unit": parameter.unit,
+            "at": at,
+            // In the unit of the result over that of the key.
+            "derivative": slope.map(|slope| slope.value),
+            // The sum of the next three.
+            "derivative_error": slope.map(|slope| slope.error()),
+            // By the length of the step.
+            "step_error": slope.map(|slope| slope.step_error),
+            // By the grids.
+            "grid_error": slope.map(|slope| slope.grid_error()),
+            // By what is left out of the model.
+            "left_out_error": slope.map(|slope| slope.left_out),
+            // By how many per cent the result changes with 1 % of the key, of a temperature from absolute zero.
+            "elasticity": relative.map(|found| found.value),
+            "elasticity_error": relative.map(|found| found.error),
+            // That of the differences, in the unit of the key.
+            "step": step,
+            // `both`, or the side on which there is room: `above` or `below`.
+            "sides": sides,
+            // Standard deviation of the key, in its unit, if it is uncertain; what it contributes to that of the result, signed; and its share of
+            // the variance of the result, 0 to 1.
+            "uncertainty": self.uncertainties.deviation(parameter),
+            "contribution": contribution.map(|(_, part)| part.value),
+            "variance_share": propagated.and_then(|found| found.share(parameter)),
+            // Why there is no derivative.
+            "why": slopes.as_ref().err(),
+        })
     }
 
     /// The rows of the CSV, result by result.
-    pub fn rows(&self) -> impl Iterator<Item = Row> {
+    pub fn rows(&self) -> impl Iterator<Item = Value> {
         (0..self.sensitivity.outputs.len()).flat_map(|output| self.rows_of(output))
     }
 

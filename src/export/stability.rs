@@ -7,73 +7,35 @@ use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Pro
 use crate::fidelity::Fidelity;
 use crate::scene::Parameter;
 use crate::solve::Method;
-use serde::Serialize;
 use serde_json::{Value, json};
 
 /// The object of `--json`: the scene whose parameters are mapped, the fidelity of method auto, and the cells.
 pub fn object(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Value {
-    let cells: Vec<_> = cells.iter().map(CellObject::new).collect();
+    let cells: Vec<_> = cells.iter().map(cell_object).collect();
     json!({ "preset": preset, "fidelity": fidelity.to_string(), "cells": cells })
 }
 
-/// One cell, a row of the CSV. What is not known is null, or empty.
-#[derive(Clone, Debug, Serialize)]
-pub struct CellObject {
-    /// The map.
-    pub map: &'static str,
-    /// `auto` or `paper`.
-    pub method: &'static str,
-    /// Key along x.
-    pub x_key: &'static str,
-    /// Its value, in the unit of the key.
-    pub x: f64,
-    /// Key along y.
-    pub y_key: &'static str,
-    /// Its value, in the unit of the key.
-    pub y: f64,
-    /// `solved`, `not converged`, `non-physical`, `failed` or `refused`.
-    pub verdict: &'static str,
-    /// α.
-    pub alpha: Option<f64>,
-    /// Its stated error, absolute.
-    pub alpha_error: Option<f64>,
-    /// Change of the last round, if it did not converge.
-    pub residual: Option<f64>,
-    /// Rounds of film and contact.
-    pub coupling_iterations: Option<u64>,
-    /// Cycles marched.
-    pub cycles: Option<u64>,
-    /// Time steps of one tooth's film.
-    pub film_steps: Option<u64>,
-    /// Why, and what about the numbers cannot be.
-    pub detail: String,
-    /// Options of the command line that solve it.
-    pub options: String,
-}
-
-impl CellObject {
-    /// The object of a cell.
-    pub fn new(cell: &Cell) -> Self {
-        let number = |quantity| cell.numbers.get(quantity);
-        let count = |quantity| number(quantity).map(|count| count as u64);
-        Self {
-            map: cell.map.name,
-            method: cell.method.name(),
-            x_key: cell.changes[0].0,
-            x: cell.changes[0].1,
-            y_key: cell.changes[1].0,
-            y: cell.changes[1].1,
-            verdict: cell.verdict.name(),
-            alpha: number(Quantity::Alpha),
-            alpha_error: number(Quantity::AlphaError),
-            residual: number(Quantity::Residual),
-            coupling_iterations: count(Quantity::Rounds),
-            cycles: count(Quantity::Cycles),
-            film_steps: count(Quantity::FilmSteps),
-            detail: detail(cell),
-            options: cell.options(),
-        }
-    }
+/// One cell, a row of the CSV; x and y are the keys of the map. What is not known is null, or empty.
+pub fn cell_object(cell: &Cell) -> Value {
+    let number = |quantity| cell.numbers.get(quantity);
+    let count = |quantity| number(quantity).map(|count| count as u64);
+    json!({
+        "map": cell.map.name,
+        "method": cell.method.name(),
+        "x_key": cell.changes[0].0,
+        "x": cell.changes[0].1,
+        "y_key": cell.changes[1].0,
+        "y": cell.changes[1].1,
+        "verdict": cell.verdict.name(),
+        "alpha": number(Quantity::Alpha),
+        "alpha_error": number(Quantity::AlphaError),
+        "residual": number(Quantity::Residual),
+        "coupling_iterations": count(Quantity::Rounds),
+        "cycles": count(Quantity::Cycles),
+        "film_steps": count(Quantity::FilmSteps),
+        "detail": detail(cell),
+        "options": cell.options(),
+    })
 }
 
 /// Why a cell is not solved, and what about its numbers cannot be.

@@ -1,10 +1,8 @@
 //! Error against time as JSON and as CSV, with the same names, and as a figure.
 
-use super::estimates::finite;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Family, Point, Target, Tradeoff};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
-use serde::Serialize;
 use serde_json::{Value, json};
 
 /// The object of `--json`: the settings of a scene, and those that serve what was asked for, if anything.
@@ -29,81 +27,41 @@ fn choice(tradeoff: &Tradeoff, target: Target) -> Value {
     json!({ "wish": wish, "value": value, "setting": setting, "options": options })
 }
 
-/// One setting, a row of the CSV. What is not known is null, or empty.
-#[derive(Clone, Debug, Serialize)]
-pub struct SettingObject {
-    /// Its name.
-    pub setting: String,
-    /// `fidelity`, `grid` or `paper`.
-    pub family: Family,
-    /// `converged`, `not converged`, `given up`, `failed: …`, or `waiting`.
-    pub status: String,
-    /// Median time \[s\].
-    pub median_s: Option<f64>,
-    /// Lower quartile \[s\].
-    pub lower_quartile_s: Option<f64>,
-    /// Upper quartile \[s\].
-    pub upper_quartile_s: Option<f64>,
-    /// Number of runs.
-    pub runs: usize,
-    /// The value that is judged.
-    pub value: Option<f64>,
-    /// The greater of the next two, by which it is judged.
-    pub error: Option<f64>,
-    /// Distance from the reference plus the reference's own stated error, relative.
-    pub measured_error: Option<f64>,
-    /// The error it states of itself, relative.
-    pub stated_error: Option<f64>,
-    /// No other is at once as fast and as accurate.
-    pub pareto: bool,
-    /// The one that the others are judged by.
-    pub reference: bool,
-    /// Film nodes of the finest grid.
-    pub film_nodes: usize,
-    /// Steps in a cycle of the finest grid.
-    pub steps_per_cycle: usize,
-    /// Time steps of one tooth's film.
-    pub film_steps: Option<u64>,
-    /// Rounds of film and contact.
-    pub coupling_iterations: Option<u64>,
-    /// Contact problems solved.
-    pub contact_solves: Option<u64>,
-    /// Options of the command line that choose it.
-    pub options: String,
-}
-
-impl SettingObject {
-    fn new(point: &Point, judged: Quantity, reference: bool) -> Self {
+/// One object for each setting, a row of the CSV, in the order of the curve. What is not known is null, or empty.
+pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
+    let setting = |(i, point): (usize, &Point)| {
         let run = &point.run;
         let count = |quantity| run.numbers.get(quantity).map(|count| count as u64);
-        Self {
-            setting: run.candidate.name.clone(),
-            family: run.candidate.family,
-            status: run.status.to_string(),
-            median_s: finite(point.median),
-            lower_quartile_s: finite(point.quartiles.0),
-            upper_quartile_s: finite(point.quartiles.1),
-            runs: run.times.len(),
-            value: run.numbers.get(judged),
-            error: point.error.and_then(finite),
-            measured_error: point.measured.and_then(finite),
-            stated_error: point.stated.and_then(finite),
-            pareto: point.best,
-            reference,
-            film_nodes: run.grid.0,
-            steps_per_cycle: run.grid.1,
-            film_steps: count(Quantity::FilmSteps),
-            coupling_iterations: count(Quantity::Rounds),
-            contact_solves: count(Quantity::ContactSolves),
-            options: run.candidate.options.clone(),
-        }
-    }
-}
-
-/// One for each setting, in the order of the curve.
-pub fn settings(tradeoff: &Tradeoff) -> Vec<SettingObject> {
-    let object = |(i, point)| SettingObject::new(point, tradeoff.judged, tradeoff.reference == Some(i));
-    tradeoff.points.iter().enumerate().map(object).collect()
+        json!({
+            "setting": run.candidate.name,
+            // `fidelity`, `grid` or `paper`.
+            "family": run.candidate.family,
+            // `converged`, `not converged`, `given up`, `failed: …`, or `waiting`.
+            "status": run.status.to_string(),
+            "median_s": point.median,
+            "lower_quartile_s": point.quartiles.0,
+            "upper_quartile_s": point.quartiles.1,
+            "runs": run.times.len(),
+            "value": run.numbers.get(tradeoff.judged),
+            // The greater of the next two, by which it is judged.
+            "error": point.error,
+            // Distance from the reference plus the reference's own stated error, relative.
+            "measured_error": point.measured,
+            // What it states of itself, relative.
+            "stated_error": point.stated,
+            // No other is at once as fast and as accurate.
+            "pareto": point.best,
+            // The one that the others are judged by.
+            "reference": tradeoff.reference == Some(i),
+            "film_nodes": run.grid.0,
+            "steps_per_cycle": run.grid.1,
+            "film_steps": count(Quantity::FilmSteps),
+            "coupling_iterations": count(Quantity::Rounds),
+            "contact_solves": count(Quantity::ContactSolves),
+            "options": run.candidate.options,
+        })
+    };
+    tradeoff.points.iter().enumerate().map(setting).collect()
 }
 
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,

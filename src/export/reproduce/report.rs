@@ -1,7 +1,6 @@
 //! The report on the paper: its tables and figures as one page.
 
 use super::figures::figures;
-use super::objects::RowObject;
 use super::statements::{share, statements};
 use crate::analysis::decision::{effort, sentences};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
@@ -183,23 +182,18 @@ fn table1(all: &Reproduction) -> Table {
             (Kind::Number, "difference"),
         ]);
     for row in &all.rows {
-        let object = RowObject::new(row);
         let mut cells = vec![
             (Kind::Words, row_name(row)),
-            (Kind::Number, format!("{:.3}", object.published_load_n)),
-            (Kind::Number, format!("{:.3}", object.published_alpha)),
+            (Kind::Number, format!("{:.3}", row.published.published_load_n)),
+            (Kind::Number, format!("{:.3}", row.published.published_alpha)),
         ];
-        let both = [
-            (&row.both.paper, object.paper_load_n, object.paper_difference_percent, 3, Kind::Number),
-            (&row.both.ours, object.film_load_n, object.difference_percent, 4, Kind::Strong),
-        ];
-        for (solved, load, difference, places, kind) in both {
-            match (Both::result(solved), load, difference) {
-                (Some(result), Some(load), Some(difference)) => {
+        for (solved, places, kind) in [(&row.both.paper, 3, Kind::Number), (&row.both.ours, 4, Kind::Strong)] {
+            match Both::result(solved).filter(|result| result.film_load.value.is_finite()) {
+                Some(result) => {
                     let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
-                    cells.push((Kind::Number, format!("{load:.places$}")));
+                    cells.push((Kind::Number, format!("{:.places$}", result.film_load.value)));
                     cells.push((if sound { kind } else { Kind::Alarm }, result.alpha.to_string()));
-                    cells.push((Kind::Number, change(difference, 1)));
+                    cells.push((Kind::Number, change(row.difference_percent(result), 1)));
                 }
                 _ => cells.extend(["failed", "", ""].map(|words| (Kind::Alarm, words.to_owned()))),
             }
