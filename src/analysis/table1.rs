@@ -3,49 +3,42 @@
 //! With [`Method::Paper`] the rows are computed at the paper's own meshes. With [`Method::Auto`] they are
 //! mesh-converged: a row's `[numerics]` table is dropped, so that `doubled-mesh` is then the fundamental case again.
 
+use super::compare::{ComparedRun, runs};
+use super::error::AnalysisError;
 use crate::control::Cancel;
-use crate::problem::{Numerics, Problem};
+use crate::problem::Numerics;
 use crate::scene::table1::{PublishedRow, published};
 use crate::scene::{Scene, SceneError, Value, presets};
-use crate::solution::{MotorResult, Outcome, Status};
-use crate::solve::{Method, Settings, SolveError, solve};
-use rayon::prelude::*;
+use crate::solution::{MotorResult, Outcome};
+use crate::solve::{Method, Settings};
 
 /// One row: what was published, and what came of it here.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Row {
     /// As published.
     pub published: PublishedRow,
     /// As computed, or why not.
-    pub computed: Result<Computed, SolveError>,
-}
-
-/// A computed row.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Computed {
-    /// How it ended.
-    pub status: Status,
-    /// The numbers.
-    pub result: MotorResult,
-    /// What the user should know.
-    pub warnings: Vec<String>,
+    pub run: ComparedRun,
 }
 
 impl Row {
-    /// By how much the computed film load exceeds the published one \[%\].
-    pub fn difference_percent(&self) -> Option<f64> {
-        let computed = self.computed.as_ref().ok()?;
-        Some(100.0 * (computed.result.film_load.value / self.published.published_load_n - 1.0))
+    /// The numbers; `None` if it was not computed.
+    pub fn result(&self) -> Option<&MotorResult> {
+        match &self.run.solved.as_ref().ok()?.outcome {
+            Outcome::Motor(result) => Some(result),
+            // Every row is a motor, and no change makes it a plate.
+            Outcome::Plate(_) => None,
+        }
     }
 
-    /// Whether the row was computed and its cycle repeats to the tolerance.
-    pub fn converged(&self) -> bool {
-        self.computed.as_ref().is_ok_and(|computed| computed.status == Status::Converged)
+    /// By how much the computed film load exceeds the published one \[%\].
+    pub fn difference_percent(&self) -> Option<f64> {
+        Some(100.0 * (self.result()?.film_load.value / self.published.published_load_n - 1.0))
     }
 }
 
 /// Solves the 14 rows, several at a time (on rayon's pool), in the paper's order. `changes` are made to every row's
-/// scene as by `--set`; `finished` is told of each row as it ends, from whichever thread.
+/// scene as by `--set`; `finished` is told of each run as it ends, from whichever thread.
 ///
 /// # Errors
 /// Faults of `changes`, before anything is solved. A row that fails is a [`Row`] that says so.
@@ -53,25 +46,19 @@ pub fn rows(
     changes: &[(String, String)],
     settings: &Settings,
     cancel: &Cancel,
-    finished: &(dyn Fn(&Row) + Sync),
-) -> Result<Vec<Row>, SceneError> {
-    let problems = published()
-        .into_iter()
-        .map(|row| {
-            let mut scene = presets::find(&row.preset)?;
-            if settings.method == Method::Auto {
-                scene.set_numerics(&Numerics::default())?;
-            }
-            scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
-            Ok((row, Problem::try_from(&scene)?))
-        })
-        .collect::<Result<Vec<_>, SceneError>>()?;
-    let solved = problems.into_par_iter().map(|(published, problem)| {
-        let row = Row { published, computed: compute(&problem, settings, cancel) };
-        finished(&row);
-        row
-    });
-    Ok(solved.collect())
+    finished: &(dyn Fn(&ComparedRun) + Sync),
+) -> Result<Vec<Row>, AnalysisError> {
+    let scene = |row: &PublishedRow| {
+        let mut scene = presets::find(&row.preset)?;
+        if settings.method == Method::Auto {
+            scene.set_numerics(&Numerics::default())?;
+        }
+        scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        Ok(scene)
+    };
+    let scenes = published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?;
+    let runs = runs(&scenes, settings, cancel, finished)?;
+    Ok(published().into_iter().zip(runs).map(|(published, run)| Row { published, run }).collect())
 }
 
 /// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their
@@ -108,13 +95,4 @@ pub struct Published {
     pub film_load: f64,
     /// α as published.
     pub alpha: f64,
-}
-
-fn compute(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Computed, SolveError> {
-    let solution = solve(problem, settings, &mut (), cancel)?;
-    match solution.outcome {
-        Outcome::Motor(result) => Ok(Computed { status: solution.status, result, warnings: solution.warnings }),
-        // Every row is a motor, and no change makes it a plate.
-        Outcome::Plate(_) => Err(SolveError::PaperPlate),
-    }
 }

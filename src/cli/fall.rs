@@ -2,7 +2,6 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::CommonOptions;
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
@@ -22,24 +21,15 @@ use crate::solution::Status;
 /// Rows shown to people, about.
 const SHOWN: usize = 24;
 
-/// What is asked for.
-pub(super) struct Dropped<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) problem: &'a Problem,
-    pub(super) common: &'a CommonOptions,
-    pub(super) fidelity: Fidelity,
-    pub(super) cycles: usize,
-    pub(super) tolerance: f64,
-}
-
 /// Drops the plate and prints its way; `None` if the scene has no plate under a load.
 pub(super) fn run(
-    asked: &Dropped<'_>,
-    folder: Option<&Folder<'_>>,
+    (scene, problem): (&Scene, &Problem),
+    fidelity: Fidelity,
+    (cycles, tolerance): (usize, f64),
+    (json, folder): (bool, Option<&Folder<'_>>),
     cancel: &Cancel,
     command: &[String],
 ) -> Result<Option<Exit>, CliError> {
-    let Dropped { scene, problem, common, fidelity, cycles, tolerance } = *asked;
     let mut rows: Vec<Row> = Vec::new();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: crate::fall::Cycle| {
@@ -55,7 +45,7 @@ pub(super) fn run(
     let object = object((scene, problem), fidelity, &ended, &rows, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, tolerance, floats, &validity);
-    terminal::result(common.output.json, || json::document(&object, command), || human);
+    terminal::result(json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
         let mut files = Files::new(folder)?;

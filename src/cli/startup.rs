@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::fall::{self, Dropped};
+use super::fall;
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::summary::limits;
@@ -82,15 +82,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Err(CliError::usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
     let cycles = |otherwise| arguments.cycles.map_or(otherwise, |cycles| cycles as usize);
-    let dropped = Dropped {
-        scene: &scene,
-        problem: &problem,
-        common: &arguments.common,
-        fidelity: chosen.fidelity,
-        cycles: cycles(CYCLES),
-        tolerance: arguments.tolerance,
-    };
-    if let Some(exit) = fall::run(&dropped, folder.as_ref(), &cancel, command)? {
+    let (output, limits) = ((arguments.common.output.json, folder.as_ref()), (cycles(CYCLES), arguments.tolerance));
+    if let Some(exit) = fall::run((&scene, &problem), chosen.fidelity, limits, output, &cancel, command)? {
         return Ok(exit);
     }
     let usual = startup::Settings::default();

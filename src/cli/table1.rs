@@ -5,16 +5,17 @@ use super::exit::{CliError, Exit};
 use super::options::{SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::{Staged, check_writable};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
+use crate::export::compare::mark;
 use crate::export::table1::object;
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
-use crate::solution::Status;
 use crate::solve::{Method, Settings};
 use clap::Args;
 use std::path::PathBuf;
@@ -58,23 +59,22 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, method)?;
 
     let (solved, wall_s) = Bar::points(published().len(), 0)
-        .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.point_done(&row.published.row)));
+        .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.point_done(&row.label)));
     let rows = solved?;
 
-    let exit = exit(&rows);
+    // The worst of the rows decides.
+    let exit = Exit::worst(rows.iter().map(|row| Exit::from(&row.run.status())));
     let human = text(&rows, &settings, &arguments.scene.changes);
     if exit == Exit::Other && cancel.is_cancelled() {
         terminal::note(&format!("cancelled; reached was\n\n{human}"));
         return Ok(exit);
     }
-    for row in &rows {
-        match &row.computed {
-            Err(error) => terminal::error(&format!("{}: {error}", row.published.row)),
-            Ok(computed) => {
-                computed.warnings.iter().for_each(|warning| {
-                    terminal::warning(&format!("{}: {warning}", row.published.row));
-                });
-            }
+    for Row { published, run } in &rows {
+        match &run.solved {
+            Err(error) => terminal::error(&format!("{}: {error}", published.row)),
+            Ok(solution) => solution.warnings.iter().for_each(|warning| {
+                terminal::warning(&format!("{}: {warning}", published.row));
+            }),
         }
     }
     let objects: Vec<_> = rows.iter().map(|row| object(row, &settings)).collect();
@@ -86,15 +86,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::wrote(folder, &staged.commit()?);
     }
     Ok(exit)
-}
-
-/// The worst of the rows decides.
-fn exit(rows: &[Row]) -> Exit {
-    Exit::worst(rows.iter().map(|row| match &row.computed {
-        Err(error) if error.is_bad_input() => Exit::BadInput,
-        Err(_) => Exit::Other,
-        Ok(computed) => Exit::of(&computed.status),
-    }))
 }
 
 /// The table for people, with what to know about it below.
@@ -114,19 +105,19 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
     for row in rows {
         let published = &row.published;
         let (load, share) = (format!("{:.3}", published.published_load_n), format!("{:.3}", published.published_alpha));
-        match (&row.computed, row.difference_percent()) {
+        match (row.run.status(), row.result(), row.difference_percent()) {
             // A row cut short has no numbers worth a comparison.
-            (Ok(computed), _) if computed.status == Status::Cancelled => {
+            (RunStatus::GivenUp, ..) => {
                 columns.row([&published.row, &load, "cancelled", &share, "cancelled", "", ""]);
             }
-            (Ok(computed), Some(difference)) => columns.row([
+            (_, Some(result), Some(difference)) => columns.row([
                 published.row.clone(),
                 load,
-                estimated(computed.result.film_load),
+                estimated(result.film_load),
                 share,
-                estimated(computed.result.alpha),
+                estimated(result.alpha),
                 change(difference, 1),
-                json::mark(json::status_name(&computed.status)),
+                mark(&row.run),
             ]),
             _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),
         }
@@ -155,32 +146,47 @@ fn estimated(found: Estimate) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::table1::Computed;
-    use crate::solution::MotorResult;
+    use crate::analysis::compare::ComparedRun;
+    use crate::problem::Problem;
+    use crate::scene::Scene;
+    use crate::solution::{MotorResult, Outcome, Solution, Status};
+    use std::sync::Arc;
 
     fn rows_that_ended(statuses: &[Status]) -> Vec<Row> {
-        let computed = |status: &Status| {
+        let run = |status: &Status| {
             let alpha = Estimate { value: 0.25, error: f64::INFINITY };
             let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
-            Computed { status: *status, result, warnings: Vec::new() }
+            let solution = Solution {
+                status: *status,
+                outcome: Outcome::Motor(result),
+                performance: None,
+                recording: Default::default(),
+                stats: Default::default(),
+                accuracy: Default::default(),
+                model: Default::default(),
+                warnings: Vec::new(),
+            };
+            let scene = Scene::motor();
+            let problem = Problem::try_from(&scene).unwrap();
+            ComparedRun::new(String::new(), scene, problem, Ok(Arc::new(solution)))
         };
-        published()
-            .into_iter()
-            .zip(statuses)
-            .map(|(row, s)| Row { published: row, computed: Ok(computed(s)) })
-            .collect()
+        published().into_iter().zip(statuses).map(|(published, status)| Row { published, run: run(status) }).collect()
     }
 
     #[test]
-    fn the_worst_row_decides_and_is_marked() {
+    fn a_row_that_did_not_converge_is_marked() {
         let limit = Status::NotConverged { residual: 1e-3, tolerance: 1e-6 };
-        let rows = rows_that_ended(&[Status::Converged, limit]);
-        assert_eq!(exit(&rows), Exit::NotConverged);
+        let rows = rows_that_ended(&[Status::Converged, limit, Status::Cancelled]);
         let shown = text(&rows, &Settings::default(), &[]);
         assert!(shown.lines().any(|line| line.contains("doubled_mesh") && line.ends_with("NOT CONVERGED")), "{shown}");
         // One mesh has no error estimate: the value stands alone.
         assert!(shown.contains("0.2500 ") && !shown.contains("error"), "{shown}");
-        assert_eq!(exit(&rows_that_ended(&[limit, Status::Cancelled])), Exit::Other);
-        assert_eq!(exit(&rows_that_ended(&[Status::Converged])), Exit::Solved);
+        assert!(shown.lines().any(|line| line.contains("cancelled")), "{shown}");
+        let statuses = rows.iter().map(|row| row.run.status()).collect::<Vec<_>>();
+        let worst = |of: &[RunStatus]| Exit::worst(of.iter().map(Exit::from));
+        assert_eq!(
+            [worst(&statuses[..1]), worst(&statuses[..2]), worst(&statuses)],
+            [Exit::Solved, Exit::NotConverged, Exit::Other]
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Table I as JSON objects and as a CSV file, with the same names.
 
-use super::json::status_name;
+use super::compare::status;
 use crate::analysis::table1::Row;
 use crate::solve::{Method, Settings};
 use serde_json::{Value, json};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// A row. Errors are estimated numerical ones, absolute; a difference is that of the film loads. What was not computed, or is not finite, is null.
 pub fn object(row: &Row, settings: &Settings) -> Value {
     let published = &row.published;
-    let result = row.computed.as_ref().ok().map(|computed| &computed.result);
+    let result = row.result();
     json!({
         "row": published.row,
         "preset": published.preset,
@@ -20,11 +20,8 @@ pub fn object(row: &Row, settings: &Settings) -> Value {
         "alpha": result.map(|result| result.alpha.value),
         "alpha_error": result.map(|result| result.alpha.error),
         "difference_percent": row.difference_percent(),
-        "converged": row.converged(),
-        "status": match &row.computed {
-            Ok(computed) => status_name(&computed.status).to_owned(),
-            Err(error) => format!("failed: {error}"),
-        },
+        "converged": row.run.converged(),
+        "status": status(&row.run),
         "method": settings.method.name(),
         // The paper's method has none.
         "fidelity": (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
