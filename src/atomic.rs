@@ -58,9 +58,6 @@ fn place(path: &Path) -> io::Result<(&Path, &OsStr)> {
 }
 
 /// Checks whether [`write_file`] can write a file, before any work is done for it.
-///
-/// # Errors
-/// [`WriteError`] if it cannot.
 pub fn check_file(path: &Path) -> Result<(), WriteError> {
     let failed = |source| WriteError { path: path.to_owned(), source };
     let (folder, _) = place(path).map_err(failed)?;
@@ -68,9 +65,6 @@ pub fn check_file(path: &Path) -> Result<(), WriteError> {
 }
 
 /// Checks whether files can be written into a folder, or the folder created, before any work is done for them.
-///
-/// # Errors
-/// [`WriteError`] if they cannot.
 pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
     Staged::new(folder)?.add("check", |_| Ok(()))
 }
@@ -91,9 +85,6 @@ pub struct Staged {
 
 impl Staged {
     /// Begins to stage files for a folder. Creates it, and the folders above it, if they do not exist.
-    ///
-    /// # Errors
-    /// [`WriteError`] if the folder cannot be created, or is a file.
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: folder.to_owned(), source };
         if HAS_FILES && folder.is_file() {
@@ -286,9 +277,6 @@ pub struct Lock {
 
 impl Lock {
     /// The lock `name` of a folder, which has to exist; `None` while another process holds it.
-    ///
-    /// # Errors
-    /// The file of the lock cannot be created.
     pub fn of(folder: &Path, name: &str) -> io::Result<Option<Self>> {
         Self::take(&folder.join(format!("{PREFIX}{name}{LOCK}")))
     }

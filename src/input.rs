@@ -24,9 +24,6 @@ pub enum ReadError {
 }
 
 /// The bytes of a regular file of up to `limit` \[MB\]. If the path names anything else, it is not opened.
-///
-/// # Errors
-/// [`ReadError`]: there is no such file, it is not a regular file, or it is too large.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let system = |error: std::io::Error| ReadError::System(error.to_string());
     if let Some(bytes) = handed_over(path) {
@@ -51,25 +48,16 @@ fn bytes_of(source: impl Read, limit: u64) -> Result<Vec<u8>, ReadError> {
 }
 
 /// The text of a regular file of up to `limit` \[MB\]. If the path names anything else, it is not opened.
-///
-/// # Errors
-/// [`ReadError`]: there is no such file, it is not a regular file, it is too large, or it is not text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
     text(read_bytes(path, limit)?)
 }
 
 /// The text of standard input or another stream, of up to `limit` \[MB\].
-///
-/// # Errors
-/// [`ReadError`]: it cannot be read, is too large, or is not text.
 pub fn read_stream(source: impl Read, limit: u64) -> Result<String, ReadError> {
     text(bytes_of(source, limit)?)
 }
 
 /// The text in the bytes of a file: UTF-8, or UTF-16 after a byte order mark, as `>` in PowerShell 5 writes it.
-///
-/// # Errors
-/// [`ReadError::NotText`].
 pub fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
     let unit = match bytes.get(..2) {
         Some([0xff, 0xfe]) => u16::from_le_bytes,

@@ -175,9 +175,6 @@ impl Sweep {
     }
 
     /// The scene of a point, for solving it alone.
-    ///
-    /// # Errors
-    /// The point breaks a rule between keys.
     pub fn scene_at(&self, point: usize) -> Result<Scene, SceneError> {
         varied(&self.scene, &self.axes, &self.values(point))
     }

@@ -336,9 +336,6 @@ impl Movie {
     }
 
     /// Writes an MP4 that has the cycle as often as [`LONG_ENOUGH`] asks. `done` is called after each frame.
-    ///
-    /// # Errors
-    /// Those of the encoder and of the writer; an interruption if it was cancelled.
     pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
         let video = Mp4Cycle { size: [self.width, self.height], count: self.count(), seconds: self.seconds };
         video.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)

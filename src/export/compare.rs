@@ -200,9 +200,6 @@ pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
 
 /// Moving pictures of the runs in phase, with the name of their file without extension: of the motors, and of the plates.
 /// `done` is called after each frame, from several threads.
-///
-/// # Errors
-/// [`ExportError`]: cancelled, or a frame that cannot be drawn.
 pub fn movies(
     runs: &[ComparedRun],
     options: &Options,

@@ -83,9 +83,6 @@ impl std::fmt::Debug for Solver {
 
 impl Solver {
     /// Starts the worker. The clock `now` measures the solves; `wake` is called after every event.
-    ///
-    /// # Errors
-    /// If the browser refuses.
     pub fn start(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let (line, events) = (Some(Line::open()?), Vec::new());
         let shared = Shared { line, running: None, waiting: None, events, now, wake: Box::new(wake) };

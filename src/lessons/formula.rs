@@ -114,9 +114,6 @@ const SPACES: &[(&str, f32)] = &[(",", 0.17), (":", 0.22), (";", 0.28), (" ", 0.
 
 impl Formula {
     /// Reads a formula; `source` is without its dollars.
-    ///
-    /// # Errors
-    /// A command or character is not known, or a group is not closed.
     pub fn parse(source: &str) -> Result<Self, FormulaError> {
         let mut reader = Reader { rest: source.chars().collect::<Vec<_>>(), at: 0 };
         let nodes = reader.row(End::Text, 0)?;

@@ -46,9 +46,6 @@ pub enum PictureError {
 
 impl Picture {
     /// Reads a PNG file.
-    ///
-    /// # Errors
-    /// [`PictureError`].
     pub fn load(path: &Path, alternative: &str) -> Result<Self, PictureError> {
         let bytes = read_bytes(path, LARGEST).map_err(PictureError::Unreadable)?;
         let fault = |error: png::DecodingError| PictureError::NoPicture(error.to_string());

@@ -138,9 +138,6 @@ pub enum TextError {
 }
 
 /// Reads one line.
-///
-/// # Errors
-/// As [`blocks`].
 pub fn inline(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Inline>, TextError> {
     let mut parts = Vec::new();
     let mut text = String::new();

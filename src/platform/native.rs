@@ -39,9 +39,6 @@ pub fn on_interrupt(handler: impl FnMut() + Send + 'static) {
 }
 
 /// Does work that may block on a thread of its own.
-///
-/// # Errors
-/// If no thread can be started.
 pub fn aside(name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
     std::thread::Builder::new().name(format!("squeezefilm-{name}")).spawn(work).map(|_| ())
 }
@@ -69,9 +66,6 @@ pub mod window {
     ///
     /// It is drawn by OpenGL. Where there is no OpenGL, it is drawn by Direct3D on Windows, and elsewhere by Vulkan or Metal if the feature
     /// `wgpu` is built in.
-    ///
-    /// # Errors
-    /// If there is no display, or no way to draw on it.
     pub fn run(storage: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
         keep_freed_memory();
         let start = Rc::new(Cell::new(Some(start)));

@@ -40,9 +40,6 @@ thread_local! {
 pub fn on_interrupt(_: impl FnMut() + Send + 'static) {}
 
 /// Does work that may block. On a page nothing blocks, and it is done at once.
-///
-/// # Errors
-/// None.
 pub fn aside(_: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
     work();
     Ok(())
@@ -120,9 +117,6 @@ pub mod worker {
 
     impl Worker {
         /// Starts a worker. `told` is called with everything that it sends.
-        ///
-        /// # Errors
-        /// If the browser refuses.
         pub fn start(told: impl Fn(News) + Clone + 'static) -> io::Result<Self> {
             let options = WorkerOptions::new();
             options.set_type(WorkerType::Module);
@@ -154,9 +148,6 @@ pub mod worker {
         }
 
         /// Sends it `bytes`.
-        ///
-        /// # Errors
-        /// If the browser refuses.
         pub fn send(&self, bytes: &[u8]) -> io::Result<()> {
             self.worker.post_message(&Uint8Array::from(bytes)).map_err(refused)
         }
@@ -230,9 +221,6 @@ pub mod window {
 
     /// Opens the window in the page. It keeps its state in the browser's storage. When the window is open, or cannot be opened, the page gets an
     /// event `squeezefilm`, whose detail is empty or the reason.
-    ///
-    /// # Errors
-    /// The page has no canvas.
     pub fn run(_: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
         let document = web_sys::window().and_then(|window| window.document());
         let canvas =

@@ -18,10 +18,6 @@ impl TryFrom<&Scene> for Problem {
     type Error = SceneError;
 
     /// The checked, SI form of a scene.
-    ///
-    /// # Errors
-    ///
-    /// The faults of [`Scene::check`].
     fn try_from(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
         Ok(scene.unchecked()?)

@@ -18,7 +18,6 @@ impl Scene {
     /// a ring, also set `rotor.model` to the model that has them.
     ///
     /// # Errors
-    ///
     /// An unknown key, a key of another scene or rotor model, a value of the wrong type or outside the key's own range;
     /// the scene is then unchanged. Rules between keys are left to [`Scene::check`], so that several keys can be set
     /// one by one; [`Scene::set_all`] does both.
@@ -63,20 +62,12 @@ impl Scene {
     }
 
     /// Sets a dotted key from a value in the key's unit. A number without a fraction is accepted for a whole number.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scene::set`].
     pub fn set_value(&mut self, key: &str, value: Value) -> Result<(), SceneError> {
         let parameter = self.settable(key)?;
         Ok(self.assign(parameter, value)?)
     }
 
     /// Removes an optional key, or gives another key its default.
-    ///
-    /// # Errors
-    ///
-    /// An unknown key, or a key of another scene or rotor model.
     pub fn unset(&mut self, key: &str) -> Result<(), SceneError> {
         let parameter = self.settable(key)?;
         self.reset(parameter);
@@ -87,7 +78,6 @@ impl Scene {
     /// last one counts.
     ///
     /// # Errors
-    ///
     /// The faults of all pairs; the scene is then unchanged.
     pub fn set_all<'a>(&mut self, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<(), SceneError> {
         let mut pairs: Vec<_> = pairs.into_iter().collect();

@@ -247,9 +247,6 @@ impl NewMotor {
     }
 
     /// The motor that these answers describe, with more friction and amplitude than the least.
-    ///
-    /// # Errors
-    /// As [`NewMotor::of`].
     pub fn with(answers: &Answers, factors: Factors) -> Result<Self, String> {
         let fault = |question: &Question| match answer(answers, question.name) {
             Some(answer) => question.check(answer).err(),
@@ -362,9 +359,6 @@ impl NewMotor {
     }
 
     /// Writes the preset file, whole or not at all.
-    ///
-    /// # Errors
-    /// The file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), WriteError> {
         write_file(path, |out| out.write_all(self.to_toml().as_bytes()))
     }

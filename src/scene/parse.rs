@@ -23,7 +23,6 @@ impl Scene {
     /// Reads a preset file.
     ///
     /// # Errors
-    ///
     /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let text =
@@ -32,10 +31,6 @@ impl Scene {
     }
 
     /// Reads a preset from text. `origin` is the path that messages name; CSV files are looked for in its folder.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scene::load`].
     pub fn from_toml(text: &str, origin: impl AsRef<Path>) -> Result<Self, SceneError> {
         let origin = origin.as_ref();
         let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };

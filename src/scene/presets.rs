@@ -24,7 +24,6 @@ impl BuiltIn {
     /// The scene.
     ///
     /// # Errors
-    ///
     /// A fault in the built-in file; a test reads them all.
     pub fn scene(&self) -> Result<Scene, SceneError> {
         Scene::from_toml(self.toml, self.name)
@@ -90,7 +89,6 @@ pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.
 ///
 /// # Errors
-///
 /// The faults of the file; or, if there is no such file, [`What::UnknownPreset`] with the nearest built-in name.
 pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == name_or_path) {

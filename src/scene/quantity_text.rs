@@ -46,9 +46,6 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
 
 /// Reads `text` as an end of a range of values of `key`, as [`read`] does. Of a key that does not exist it is any number: what is wrong with
 /// the key is told where the scene is known.
-///
-/// # Errors
-/// As [`read`].
 pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
     match Parameter::find(key) {
         Some(parameter) => read(parameter, text),

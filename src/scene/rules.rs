@@ -40,7 +40,6 @@ impl Scene {
     /// Checks the rules between keys; each key's own range is checked when it is set.
     ///
     /// # Errors
-    ///
     /// All rules that are broken.
     pub fn check(&self) -> Result<(), SceneError> {
         let mut faults = SceneError::none();

@@ -131,7 +131,6 @@ impl Scene {
     /// Replaces the table `[numerics]`.
     ///
     /// # Errors
-    ///
     /// A number outside its range; the scene is then unchanged.
     pub fn set_numerics(&mut self, numerics: &Numerics) -> Result<(), SceneError> {
         let mut changed = self.clone();

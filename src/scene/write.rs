@@ -51,7 +51,6 @@ impl Scene {
     /// older file stays as it was.
     ///
     /// # Errors
-    ///
     /// The faults of [`Scene::check`], as such a file would not load; [`What::Unwritable`] if the folder or the file
     /// cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {

@@ -148,9 +148,6 @@ impl Unknown {
     }
 
     /// Gives the key its value at x.
-    ///
-    /// # Errors
-    /// The scene does not take it.
     pub fn set(&self, scene: &mut Scene, x: f64) -> Result<(), SceneError> {
         scene.set_value(self.parameter.key, Value::Number(self.value(x)))
     }

@@ -47,9 +47,6 @@ pub enum Piece {
 }
 
 /// The sheets as a PDF, each beginning on a page of its own.
-///
-/// # Errors
-/// [`FigureError`] if the pages cannot be made.
 pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
     let mut pages = Vec::new();
     for sheet in sheets {
