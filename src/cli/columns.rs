@@ -15,7 +15,6 @@ impl Columns {
         Self(table)
     }
 
-    /// Adds a row.
     pub(super) fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.0.add_row(cells.into_iter().map(|cell| escaped(&cell.into())).collect::<Vec<_>>());
     }

@@ -15,11 +15,8 @@ use std::process::ExitCode;
 /// How a command ended, the worse the later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
-    /// Solved.
     Solved,
-    /// Not converged.
     NotConverged,
-    /// Bad input.
     BadInput,
     /// Anything else.
     Other,
@@ -33,7 +30,6 @@ impl Exit {
         Self::from(&RunStatus::from(*status))
     }
 
-    /// The status.
     pub(super) fn code(self) -> ExitCode {
         ExitCode::from(match self {
             Self::Solved => 0,

@@ -8,15 +8,14 @@ use super::terminal;
 use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
-use crate::control::Cancel;
 use crate::digits::{duration, percent, short, signed, significant, with_error};
-use crate::export::files::{self, Folder};
+use crate::export::files;
 use crate::export::fit as export;
 use crate::export::json;
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
-use crate::solve::Settings;
 use clap::{ArgGroup, Args};
+use serde_json::Value;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -114,71 +113,48 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let greatest = arguments.maximise.as_ref().map(|name| (name, true));
     let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));
-    let call = Call { arguments, scene: &scene, settings: &settings, folder, cancel: &cancel, command };
-    match (&arguments.data, sought) {
-        (_, Some((name, greatest))) => call.optimum(&Goal::new(&scene, name, greatest, &arguments.subject_to)?),
-        (Some(data), _) => {
-            let measured = Measured::find(data, &scene, settings.method)?;
-            call.fit(&measured.without(&arguments.skip)?.with_errors(&arguments.error)?)
-        }
-        (None, None) => Err(CliError::usage("give --data, --maximise or --minimise")),
-    }
-}
-
-/// One call of the command.
-struct Call<'a> {
-    arguments: &'a Arguments,
-    scene: &'a Scene,
-    settings: &'a Settings,
-    folder: Option<Folder<'a>>,
-    cancel: &'a Cancel,
-    command: &'a [String],
-}
-
-impl Call<'_> {
-    fn fit(&self, measured: &Measured) -> Result<Exit, CliError> {
-        let model = Model::new(self.scene, &self.arguments.vary, self.settings)?.under(measured)?;
-        let starts = usize::from(self.arguments.starts);
+    let starts = usize::from(arguments.starts);
+    let preset = &scene.name;
+    let tell = |object: &Value, text: &str, warnings: &[String], solves: usize, wall_s: f64| {
+        let json = arguments.common.output.json;
+        terminal::result(json, || json::document(object, command), || text.to_owned());
+        warnings.iter().for_each(|warning| terminal::warning(warning));
+        terminal::note(&format!("{solves} solves in {}", duration(wall_s)));
+    };
+    let (files, converged) = if let Some((name, greatest)) = sought {
+        let goal = Goal::new(&scene, name, greatest, &arguments.subject_to)?;
+        let (found, wall_s) = Bar::solve("").timed(|bar| {
+            let told =
+                |points: usize, best: f64| bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
+            optimise(&scene, &arguments.vary, &goal, &settings, (starts, &cancel, &told as _))
+        });
+        let Some(found) = found? else { return Ok(cancelled()) };
+        let problem = Problem::try_from(&found.scene)?;
+        let text = optimum_text(&scene, &problem, &found);
+        tell(&export::optimum(preset, &found), &text, &found.warnings, found.solves, wall_s);
+        (folder.as_ref().map(|folder| files::optimum(folder, &problem, preset, &found)), found.converged)
+    } else {
+        let Some(data) = &arguments.data else {
+            return Err(CliError::usage("give --data, --maximise or --minimise"));
+        };
+        let measured = Measured::find(data, &scene, settings.method)?;
+        let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
+        let model = Model::new(&scene, &arguments.vary, &settings)?.under(&measured)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {
-            fit(&model, measured, starts, self.cancel, &|points, chi_squared| {
+            fit(&model, &measured, starts, &cancel, &|points, chi_squared| {
                 bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
             })
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
-        let (preset, problem) = (&self.scene.name, Problem::try_from(&fitted.scene)?);
-        let object = || json::document(&export::object(preset, &fitted, measured), self.command);
-        let json = self.arguments.common.output.json;
-        terminal::result(json, object, || text(self.scene, &fitted, measured));
-        fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
-        terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
-        if let Some(folder) = &self.folder {
-            terminal::wrote(folder.path, &files::fitted(folder, &problem, preset, &fitted, measured)?);
-        }
-        Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
+        let problem = Problem::try_from(&fitted.scene)?;
+        let object = export::object(preset, &fitted, &measured);
+        tell(&object, &text(&scene, &fitted, &measured), &fitted.warnings, fitted.solves, wall_s);
+        (folder.as_ref().map(|folder| files::fitted(folder, &problem, preset, &fitted, &measured)), fitted.converged)
+    };
+    if let (Some(folder), Some(files)) = (&folder, files) {
+        terminal::wrote(folder.path, &files?);
     }
-
-    fn optimum(&self, goal: &Goal) -> Result<Exit, CliError> {
-        let name = goal.quantity.name();
-        let (found, wall_s) = Bar::solve("").timed(|bar| {
-            let told = |points: usize, best: f64| {
-                bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
-            };
-            let starts = (usize::from(self.arguments.starts), self.cancel, &told as _);
-            optimise(self.scene, &self.arguments.vary, goal, self.settings, starts)
-        });
-        let Some(found) = found? else { return Ok(cancelled()) };
-        let problem = Problem::try_from(&found.scene)?;
-        let preset = &self.scene.name;
-        let object = || json::document(&export::optimum(preset, &found), self.command);
-        let json = self.arguments.common.output.json;
-        terminal::result(json, object, || optimum_text(self.scene, &problem, &found));
-        found.warnings.iter().for_each(|warning| terminal::warning(warning));
-        terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
-        if let Some(folder) = &self.folder {
-            terminal::wrote(folder.path, &files::optimum(folder, &problem, preset, &found)?);
-        }
-        Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
-    }
+    Ok(if converged { Exit::Solved } else { Exit::NotConverged })
 }
 
 fn cancelled() -> Exit {

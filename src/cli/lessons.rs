@@ -1,7 +1,7 @@
 //! `squeezefilm lessons`: lessons that a teacher has written, tried; and lessons on paper.
 
 use super::exit::{CliError, Exit};
-use super::interrupt::cancel_on_interrupt;
+use super::options::cancel_on_interrupt;
 use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};

@@ -9,7 +9,6 @@ mod fall;
 mod fit;
 #[cfg(feature = "gui")]
 mod gui;
-mod interrupt;
 mod join;
 #[cfg(feature = "gui")]
 mod lessons;

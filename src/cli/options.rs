@@ -1,7 +1,6 @@
 //! Options that several commands share.
 
 use super::exit::CliError;
-use super::interrupt::cancel_on_interrupt;
 use super::terminal;
 use crate::atomic::check_writable;
 use crate::control::Cancel;
@@ -12,7 +11,7 @@ use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input::{self, ReadError};
 use crate::memory;
-use crate::platform::timed;
+use crate::platform::{on_interrupt, timed};
 use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
@@ -66,7 +65,6 @@ impl SceneOptions {
     }
 }
 
-/// The key of the ambient pressure.
 pub(super) const PRESSURE: &str = "film.ambient_pressure_kpa";
 
 /// Says so where the mean free path does not follow another pressure.
@@ -172,6 +170,22 @@ impl SolveOptions {
         let cancel = self.accuracy.budget.map_or(interrupted.clone(), |budget| timed(&interrupted, budget));
         Ok((Settings { fidelity, method, ..Settings::default() }, cancel))
     }
+}
+
+/// What a shell reports for a program ended by Ctrl-C.
+const KILLED: i32 = 130;
+
+/// A flag that the first Ctrl-C (or a request to terminate) raises; the second ends the program.
+pub(super) fn cancel_on_interrupt() -> Cancel {
+    let cancel = Cancel::new();
+    let raised = cancel.clone();
+    on_interrupt(move || {
+        if raised.is_cancelled() {
+            std::process::exit(KILLED);
+        }
+        raised.cancel();
+    });
+    cancel
 }
 
 /// How much memory solving may take.

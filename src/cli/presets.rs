@@ -51,7 +51,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     Ok(Exit::Solved)
 }
 
-/// A preset as JSON.
 fn object(preset: &str, scene: &Scene, toml: Option<&str>) -> Value {
     let mut object = json!({ "preset": preset, "name": scene.name, "about": scene.about, "scene": scene.scene() });
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == preset) {

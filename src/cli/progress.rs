@@ -7,7 +7,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
 
-/// Parts of the bar.
 const PARTS: u64 = 1000;
 /// Each grid takes about this many times as long as the one before.
 const COST_RATIO: f64 = 6.0;
@@ -36,7 +35,6 @@ impl Bar {
         bar
     }
 
-    /// One more point is done.
     pub(super) fn point_done(&self, point: &str) {
         self.bar.inc(1);
         let (now, all) = (self.bar.position(), self.bar.length().unwrap_or(0));

@@ -20,7 +20,6 @@ use std::fmt::Write as _;
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
 
-/// The whole summary.
 pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary: &Summary) -> String {
     let outside = beside_headline(&summary.validity).map_or_else(String::new, |words| format!("; {words}"));
     let mut text = paragraph(&format!("{}: {}{outside}", name(scene), status(summary)), "", "");

@@ -11,13 +11,14 @@ use crate::analysis::table1::{Row, rows};
 use crate::atomic::{Staged, check_writable};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
-use crate::export::compare::mark;
-use crate::export::table1::object;
-use crate::export::{csv, json};
+use crate::export::compare::{mark, status};
+use crate::export::csv;
+use crate::export::json::text as json_text;
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
 use crate::solve::{Method, Settings};
 use clap::Args;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Solves the 14 rows of the paper's Table I and prints published beside computed values
@@ -78,7 +79,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         }
     }
     let objects: Vec<_> = rows.iter().map(|row| object(row, &settings)).collect();
-    terminal::result(arguments.json, || json::text(&objects), || human);
+    terminal::result(arguments.json, || json_text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
@@ -86,6 +87,29 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::wrote(folder, &staged.commit()?);
     }
     Ok(exit)
+}
+
+/// A row. Errors are estimated numerical ones, absolute; a difference is that of the film loads. What was not computed, or is not finite, is null.
+fn object(row: &Row, settings: &Settings) -> Value {
+    let published = &row.published;
+    let result = row.result();
+    json!({
+        "row": published.row,
+        "preset": published.preset,
+        "change": published.change,
+        "published_load_n": published.published_load_n,
+        "film_load_n": result.map(|result| result.film_load.value),
+        "film_load_error_n": result.map(|result| result.film_load.error),
+        "published_alpha": published.published_alpha,
+        "alpha": result.map(|result| result.alpha.value),
+        "alpha_error": result.map(|result| result.alpha.error),
+        "difference_percent": row.difference_percent(),
+        "converged": row.run.converged(),
+        "status": status(&row.run),
+        "method": settings.method.name(),
+        // The paper's method has none.
+        "fidelity": (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
+    })
 }
 
 /// The table for people, with what to know about it below.

@@ -2,8 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::interrupt::cancel_on_interrupt;
-use super::options::{MemoryOptions, OutputOptions, SceneOptions, whole};
+use super::options::{MemoryOptions, OutputOptions, SceneOptions, cancel_on_interrupt, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;

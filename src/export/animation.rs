@@ -9,8 +9,8 @@
 use super::error::ExportError;
 use super::figure::{Figure, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
+use super::mp4_cycle;
 pub use super::mp4_cycle::LONG_ENOUGH;
-use super::mp4_cycle::Mp4Cycle;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
@@ -125,10 +125,11 @@ pub fn write_video(
         pixels(&figure, f64::from(options.width.max(1)) / figure.width.points())
     };
     let first = draw(0)?;
-    let video = Mp4Cycle { size: [first.width, first.height], count, seconds: on_screen(options.seconds) };
+    let shown = ([first.width, first.height], count, on_screen(options.seconds));
     let picture = |frame: usize| Ok(Cow::Owned(draw(frame).map_err(io::Error::other)?.rgb));
     let source = Provenance::of(problem, solution).line();
-    write_file(path, |out| video.write(&picture, &source, out, done, cancel)).map_err(|error| stopped(error, cancel))
+    write_file(path, |out| mp4_cycle::write(shown, &picture, &source, out, done, cancel))
+        .map_err(|error| stopped(error, cancel))
 }
 
 /// How many frames [`write_video`] writes: if the options ask for fewer than the usual number, as many as [`frames`].
@@ -337,8 +338,8 @@ impl Movie {
 
     /// Writes an MP4 that has the cycle as often as [`LONG_ENOUGH`] asks. `done` is called after each frame.
     pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
-        let video = Mp4Cycle { size: [self.width, self.height], count: self.count(), seconds: self.seconds };
-        video.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
+        let shown = ([self.width, self.height], self.count(), self.seconds);
+        mp4_cycle::write(shown, &|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
     }
 
     /// Left, top, right and bottom of what differs from the frame before: at least one pixel.
@@ -417,7 +418,6 @@ impl Palette {
         bytes
     }
 
-    /// The nearest colour.
     fn index(&mut self, colour: [u8; 3]) -> u8 {
         if self.last.0 == colour {
             return self.last.1;

@@ -222,7 +222,6 @@ pub fn optimum(preset: &str, found: &Optimum) -> Value {
     })
 }
 
-/// An unknown at an optimum.
 fn scan(Scan { unknown, value, at, flat, .. }: &Scan) -> Value {
     json!({
         "key": unknown.parameter.key,
@@ -235,7 +234,6 @@ fn scan(Scan { unknown, value, at, flat, .. }: &Scan) -> Value {
     })
 }
 
-/// A limit of an optimum, and what is reached.
 fn limit(limit: &Limit, reached: Option<&Estimate>) -> Value {
     let [value, error] = [reached.map(|reached| reached.value), reached.map(|reached| reached.error)];
     json!({ "limit": limit.to_string(), "value": value, "numerical_error": error })

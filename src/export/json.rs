@@ -1,7 +1,7 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use super::estimates::{self, finite};
-use super::exact;
+use super::figure::extent;
 use super::torque::merit;
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::Comparison;
@@ -19,7 +19,6 @@ use serde_json::{Value, json};
 /// The version of the objects, and of the columns of tables.
 pub const SCHEMA: u32 = 1;
 
-/// Why a torque has no error.
 const NO_TORQUE_ERROR: &str = "the errors of torque, power, speed and efficiency are unknown (null in the JSON): they are estimated from nested \
                                grids, and this was solved on one mesh; that of α is stated";
 
@@ -122,7 +121,7 @@ impl Serialize for Summary {
             map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
         }
         map.serialize_entry("merit", &self.torque.as_ref().map(merit))?;
-        map.serialize_entry("exact", &self.exact.as_ref().map(exact::object))?;
+        map.serialize_entry("exact", &self.exact.as_ref().map(exact_object))?;
         map.serialize_entry("stats", &StatsObject { wall_s: self.wall_s, counted: self.stats })?;
         map.serialize_entry("model", &model_object(&self.model))?;
         map.serialize_entry("validity", &self.validity)?;
@@ -191,6 +190,32 @@ impl FloatingObject {
         object["small_load_mean_gap_um"] = self.small_load_mean_gap_um.into();
         object
     }
+}
+
+/// A plate beside what is known exactly: σ/Q, Q the factor by which slip raises the flow at the mean gap; spring and damping over p_a · area · ε, and the same as
+/// stiffness \[N/m, of a strip per metre of width\] and damping \[N s/m\]; `linear_…` is exact for ε → 0 (Langlois 1962 of a strip, Blech 1983
+/// of a rectangle), `trapped_…` for σ → ∞ (Langlois 1962, Salbu 1964; with slip); loads in the object's force unit, of gas that cannot
+/// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
+fn exact_object(found: &Comparison) -> Value {
+    let [boyle, viscous] = [&found.limits.boyle, &found.limits.viscous].map(|load| extent(load.iter().copied()));
+    let (linear, unit, absolute) = (found.linear, found.unit, found.stiffness_and_damping());
+    let mut object = json!({ "effective_squeeze_number": found.effective_squeeze_number });
+    for (name, of_unit, solved, exact) in [
+        ("spring", "", found.solved.map(|solved| solved.spring), linear.spring),
+        ("damping", "", found.solved.map(|solved| solved.damping), linear.damping),
+        ("stiffness", "_n_per_m", absolute.map(|solved| solved.spring), linear.spring * unit.spring),
+        ("damping", "_n_s_per_m", absolute.map(|solved| solved.damping), linear.damping * unit.damping),
+    ] {
+        estimates::add(&mut object, name, of_unit, solved);
+        object[format!("linear_{name}{of_unit}")] = exact.into();
+    }
+    estimates::add(&mut object, "mean_pressure_ratio", "", Some(found.mean_pressure));
+    object["trapped_mean_pressure_ratio"] = found.trapped_mean_pressure.into();
+    object["invariant_deviation"] = found.invariant_deviation.into();
+    object["boyle_load_min_n"] = boyle[0].into();
+    object["boyle_load_max_n"] = boyle[1].into();
+    object["incompressible_load_max_n"] = viscous[1].into();
+    object
 }
 
 /// What the solve cost: its wall time \[s\], and what was counted.

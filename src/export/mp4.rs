@@ -198,7 +198,6 @@ fn av01(video: &Video, samples: &[Vec<u8>]) -> io::Result<Av01Box> {
     })
 }
 
-/// The comment.
 fn about(comment: &str) -> io::Result<UnknownBox> {
     let bytes = |inner: UnknownBox| inner.encode_to_vec().map_err(failed);
     // Text in UTF-8, of no country.

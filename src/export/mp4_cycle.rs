@@ -14,41 +14,31 @@ pub const LONG_ENOUGH: f64 = 12.0;
 #[cfg(not(feature = "video"))]
 type Picture<'a> = dyn Fn(usize) -> io::Result<std::borrow::Cow<'a, [u8]>> + Sync + 'a;
 
-/// A cycle as an MP4.
-pub(super) struct Mp4Cycle {
-    pub(super) size: [u32; 2],
-    pub(super) count: usize,
-    pub(super) seconds: f64,
-}
-
-impl Mp4Cycle {
-    /// Writes it as often as [`LONG_ENOUGH`] asks. A program that was built without video cannot.
-    #[cfg_attr(not(feature = "video"), expect(unused_variables))]
-    pub(super) fn write(
-        &self,
-        picture: &Picture<'_>,
-        source: &str,
-        out: &mut dyn Write,
-        done: &dyn Fn(),
-        cancel: &Cancel,
-    ) -> io::Result<()> {
-        let Self { size, count, seconds } = *self;
-        #[cfg(feature = "video")]
-        {
-            // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
-            let step = (1000.0 * seconds).round() as u32;
-            let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
-            let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
-            let video = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
-            if cancel.is_cancelled() {
-                return Err(io::ErrorKind::Interrupted.into());
-            }
-            mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
+/// Writes a cycle of `count` pictures of a size as an MP4, as often as [`LONG_ENOUGH`] asks. A program that was built without video cannot.
+#[cfg_attr(not(feature = "video"), expect(unused_variables))]
+pub(super) fn write(
+    (size, count, seconds): ([u32; 2], usize, f64),
+    picture: &Picture<'_>,
+    source: &str,
+    out: &mut dyn Write,
+    done: &dyn Fn(),
+    cancel: &Cancel,
+) -> io::Result<()> {
+    #[cfg(feature = "video")]
+    {
+        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+        let step = (1000.0 * seconds).round() as u32;
+        let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
+        let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
+        let video = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
+        if cancel.is_cancelled() {
+            return Err(io::ErrorKind::Interrupted.into());
         }
-        #[cfg(not(feature = "video"))]
-        {
-            let what = format!("{count} pictures of {} × {} pixels in {seconds} s", size[0], size[1]);
-            Err(io::Error::other(format!("this program was built without video, and cannot write {what}")))
-        }
+        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
+    }
+    #[cfg(not(feature = "video"))]
+    {
+        let what = format!("{count} pictures of {} × {} pixels in {seconds} s", size[0], size[1]);
+        Err(io::Error::other(format!("this program was built without video, and cannot write {what}")))
     }
 }

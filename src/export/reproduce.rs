@@ -2,11 +2,52 @@
 //! sentences, as figures, and as one report.
 
 mod figures;
-mod objects;
 mod report;
 mod statements;
 
 pub use figures::figures;
-pub use objects::{object, row_object};
 pub use report::report;
 pub use statements::{Statement, statements};
+
+use crate::analysis::reproduce::{Both, Point, Reproduction, Row};
+use serde_json::{Value, json};
+
+/// A row of Table I as published, by the paper's algorithm on its own meshes, and converged; a difference is that of the film loads. What was not
+/// computed is null.
+pub fn row_object(row: &Row) -> Value {
+    let (paper, ours) = (Both::result(&row.both.paper), Both::result(&row.both.ours));
+    let published = &row.published;
+    json!({
+        "row": published.row,
+        "preset": published.preset,
+        "published_load_n": published.published_load_n,
+        "published_alpha": published.published_alpha,
+        "paper_load_n": paper.map(|result| result.film_load.value),
+        "paper_alpha": paper.map(|result| result.alpha.value),
+        "paper_alpha_error": paper.map(|result| result.alpha.error),
+        "paper_difference_percent": paper.map(|result| row.difference_percent(result)),
+        "film_load_n": ours.map(|result| result.film_load.value),
+        "alpha": ours.map(|result| result.alpha.value),
+        "alpha_error": ours.map(|result| result.alpha.error),
+        "difference_percent": ours.map(|result| row.difference_percent(result)),
+    })
+}
+
+/// The object of `--json`: Table I, Fig. 10, what the text says and what came of it, and how many solves did not converge. What was not
+/// computed is null.
+pub fn object(all: &Reproduction) -> Value {
+    json!({
+        "fidelity": all.settings.fidelity.to_string(),
+        "table1": all.rows.iter().map(row_object).collect::<Vec<_>>(),
+        "fig10": all.frequencies.iter().map(point).collect::<Vec<_>>(),
+        "statements": statements(all),
+        "unsolved": all.unsolved(),
+    })
+}
+
+/// A point of Fig. 10: α with its estimated numerical error, converged.
+fn point(point: &Point) -> Value {
+    let mut object = json!({ "frequency_khz": point.frequency_khz });
+    super::estimates::add(&mut object, "alpha", "", point.solved.as_ref().ok().map(|result| result.alpha));
+    object
+}

@@ -26,11 +26,9 @@ const COMMENT: u8 = b'#';
 /// What the first line says.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Head {
-    /// Fingerprint of the sweep.
     sweep: String,
     /// Which part, as `3/64`; the whole is `1/1`.
     part: String,
-    /// The scene that is varied.
     scene_toml: String,
     /// What is varied, as on the command line.
     vary: Vec<String>,

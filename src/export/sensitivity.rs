@@ -78,7 +78,6 @@ impl Found<'_> {
         (!self.uncertainties.is_empty()).then(|| self.sensitivity.propagated(output, self.uncertainties))
     }
 
-    /// The rows of one result.
     fn rows_of(&self, output: usize) -> Vec<Value> {
         let propagated = self.propagated(output);
         (0..self.sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect()

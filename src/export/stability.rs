@@ -56,7 +56,6 @@ pub fn detail(cell: &Cell) -> String {
     reasons.join("; ")
 }
 
-/// Colours of the verdicts.
 const COLOURS: [Colour; VERDICTS.len()] = [
     Colour(0x56, 0xb4, 0xe9),
     Colour(0xe6, 0x9f, 0x00),

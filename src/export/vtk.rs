@@ -139,7 +139,6 @@ fn piece(
         .collect()
 }
 
-/// A file of VTK.
 struct Vtk<'a>(&'a mut dyn Write);
 
 impl Vtk<'_> {

@@ -5,7 +5,6 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use std::sync::LazyLock;
 
-/// The file.
 const SOURCE: &str = include_str!("../../assets/glossary/glossary.toml");
 
 /// A term and what it means.

@@ -101,7 +101,6 @@ pub mod worker {
     /// What a worker sends.
     #[derive(Debug)]
     pub enum News {
-        /// A message.
         Message(Vec<u8>),
         /// The worker has failed, and has stopped.
         Failed(String),

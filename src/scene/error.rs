@@ -32,7 +32,6 @@ impl SceneError {
         self.faults.len() >= MOST_FAULTS
     }
 
-    /// Adds a fault.
     pub(super) fn push(&mut self, fault: impl Into<Fault>) {
         if self.is_full() { self.more += 1 } else { self.faults.push(fault.into()) }
     }

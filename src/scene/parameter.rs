@@ -211,7 +211,6 @@ impl Parameter {
         format!("{number} {}", self.unit).trim_end().to_owned()
     }
 
-    /// A value of this key in SI.
     pub(super) fn si(&self, value: f64) -> f64 {
         match UNITS.iter().find(|(_, unit, _)| *unit == self.unit) {
             Some((.., Per::Times(factor))) => value * factor,
@@ -276,7 +275,6 @@ impl Parameter {
         }
     }
 
-    /// The default in words.
     pub(super) fn default_words(&self) -> String {
         match (self.absent, self.default()) {
             (Some(meaning), _) => format!("absent: {meaning}"),

@@ -27,7 +27,6 @@ use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 use super::value::Value;
 use crate::rotor::ring::MATERIALS;
 
-/// The names of the materials.
 const NAMES: [&str; MATERIALS.len()] = {
     let mut names = [""; MATERIALS.len()];
     let mut i = 0;

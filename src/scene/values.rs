@@ -198,7 +198,6 @@ impl Scene {
         unknown(nearest_key(key, &known), siblings)
     }
 
-    /// The tables that this scene has.
     pub(super) fn tables(&self) -> Vec<&'static str> {
         tables().into_iter().filter(|table| self.parameters().any(|p| p.table() == *table)).collect()
     }
@@ -264,7 +263,6 @@ impl Scene {
         }
     }
 
-    /// The parameter of a key.
     pub(super) fn parameter(&self, key: &str) -> Result<&'static Parameter, What> {
         Parameter::find(key).ok_or_else(|| self.unknown_key(key))
     }

@@ -15,7 +15,6 @@ use std::str::FromStr;
 pub const LARGEST_TABLE: u64 = 10;
 /// The name of the table that is part of the program: Table I of Maeno and Bogy (1992).
 pub const TABLE1: &str = "table1";
-/// Most lines of a table.
 const MOST_LINES: usize = 10_000;
 
 /// The column of the rotor's speed, which goes with [`TORQUE`].

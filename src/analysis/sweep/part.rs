@@ -38,7 +38,6 @@ impl Part {
         start(self.number - 1)..start(self.number)
     }
 
-    /// Its points.
     pub(super) fn points(self, axes: &[Axis]) -> Range<usize> {
         let chunks = self.chunks(axes);
         start(axes, chunks.start)..start(axes, chunks.end)
@@ -64,7 +63,6 @@ fn start(axes: &[Axis], chunk: usize) -> usize {
     chunk / each * line(axes) + chunk % each * CHUNK
 }
 
-/// The points of a chunk.
 pub(super) fn chunk(axes: &[Axis], number: usize) -> Range<usize> {
     start(axes, number)..start(axes, number + 1)
 }

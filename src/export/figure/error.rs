@@ -33,7 +33,6 @@ pub enum FigureError {
     Write(#[from] crate::atomic::WriteError),
 }
 
-/// A figure in pixels.
 pub(in crate::export) struct Pixels {
     pub(in crate::export) width: u32,
     pub(in crate::export) height: u32,

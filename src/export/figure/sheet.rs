@@ -23,7 +23,6 @@ const AXES: f64 = 6.5;
 const INDENT: f64 = 1.4;
 /// Above a heading, a paragraph and a choice.
 const ABOVE: [f64; 3] = [0.8, 0.25, 0.2];
-/// Size of a heading.
 const HEADING: f64 = 1.15;
 
 /// A part of a sheet, below what comes before it.

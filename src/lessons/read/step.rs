@@ -7,7 +7,6 @@ use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question
 use crate::lessons::live::Live;
 use crate::scene::{Parameter, Scene, presets};
 
-/// The kinds of blocks.
 pub(super) const BLOCKS: [&str; 4] = [SETUP, QUESTION, TASK, OBSERVE];
 const SETUP: &str = "setup";
 const QUESTION: &str = "question";
