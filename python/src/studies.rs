@@ -141,15 +141,15 @@ pub(crate) fn startup(
     let settings = transient::Settings { fidelity, cycles, tolerance, ..Default::default() };
     apart_on_all_cores(py, told, move |cancel, tell| {
         let began = Instant::now();
-        let mut rows = Vec::new();
+        let mut seen = Vec::new();
         let mut each = |cycle: Fallen| {
-            rows.push(fallen::Row::from(cycle));
             tell(cycle.number as f64 / cycles as f64);
+            seen.push(cycle);
         };
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
             let wall_s = began.elapsed().as_secs_f64();
-            let object = fallen::object((&scene, &problem), fidelity, &ended, &rows, wall_s);
+            let object = fallen::object((&scene, &problem), fidelity, &ended, &seen, wall_s);
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();

@@ -9,10 +9,10 @@ use crate::analysis::validity::{Excess, beside_headline};
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Row, figure, floats, object, validity};
+use crate::export::fall::{figure, floats, object, row, validity};
 use crate::export::files::{Files, Folder};
 use crate::export::{csv, json};
-use crate::fall::{Fall, fall};
+use crate::fall::{Cycle, Fall, fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -30,28 +30,27 @@ pub(super) fn run(
     cancel: &Cancel,
     command: &[String],
 ) -> Result<Option<Exit>, CliError> {
-    let mut rows: Vec<Row> = Vec::new();
+    let mut seen: Vec<Cycle> = Vec::new();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
-        let mut each = |cycle: crate::fall::Cycle| {
-            let row = Row::from(cycle);
-            let share = row.cycle as f64 / cycles as f64;
-            bar.share_done(share, &format!("cycle {}: {} µm", row.cycle, significant(row.height_um, 4)));
-            rows.push(row);
+        let mut each = |cycle: Cycle| {
+            let (share, height) = (cycle.number as f64 / cycles as f64, significant(cycle.height.value * 1e6, 4));
+            bar.share_done(share, &format!("cycle {}: {height} µm", cycle.number));
+            seen.push(cycle);
         };
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
     let (floats, validity) = (floats(&ended), validity(problem, &ended));
-    let object = object((scene, problem), fidelity, &ended, &rows, wall_s);
+    let object = object((scene, problem), fidelity, &ended, &seen, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
-    let human = text(scene, &rows, &ended, tolerance, floats, &validity);
+    let human = text(scene, &seen, &ended, tolerance, floats, &validity);
     terminal::result(json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
         let mut files = Files::new(folder)?;
-        files.add("startup.csv", |out| csv::rows(&rows, out))?;
+        files.add("startup.csv", |out| csv::rows(seen.iter().map(row), out))?;
         files.json("startup.json", &object)?;
-        let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
+        let mut drawn = figure(problem, &seen, floats.map(|gap| gap.value));
         drawn.provenance.fidelity = fidelity.to_string();
         files.figure("startup", &drawn)?;
         files.text("scene.toml", &scene.to_toml())?;
@@ -62,13 +61,13 @@ pub(super) fn run(
 
 fn text(
     scene: &Scene,
-    rows: &[Row],
+    cycles: &[Cycle],
     ended: &Fall,
     tolerance: f64,
     floats: Option<Estimate>,
     validity: &[Excess],
 ) -> String {
-    let rests = rows.last().is_some_and(|row| row.rests);
+    let rests = cycles.last().is_some_and(|cycle| cycle.rests);
     let how = match ended.status {
         Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
         Status::Converged => {
@@ -91,16 +90,16 @@ fn text(
     let mut text = heading(&format!("{}, dropped on its vibration: {how}{beside}", show_text(&scene.name)));
     let mut columns = Columns::new();
     columns.row(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
-    let every = rows.len().div_ceil(SHOWN).max(1);
-    for row in rows {
-        if row.cycle % every != 0 && row.cycle + 1 != rows.len() {
+    let every = cycles.len().div_ceil(SHOWN).max(1);
+    for cycle in cycles {
+        if cycle.number % every != 0 && cycle.number + 1 != cycles.len() {
             continue;
         }
         columns.row([
-            row.cycle.to_string(),
-            significant(row.time_us, 4),
-            with_error(row.height_um, row.height_error_um),
-            significant(row.speed_mm_per_s, 3),
+            cycle.number.to_string(),
+            significant(cycle.time * 1e6, 4),
+            with_error(cycle.height.value * 1e6, cycle.height.error * 1e6),
+            significant(cycle.speed * 1e3, 3),
         ]);
     }
     text.push_str(&columns.text(&[0, 1, 2, 3]));

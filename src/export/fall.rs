@@ -8,37 +8,18 @@ use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Status;
-use serde::Serialize;
 use serde_json::{Value, json};
 
-/// The plate at the end of a cycle of the vibration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
-    /// From 1; 0 is the beginning.
-    pub cycle: usize,
-    /// Time.
-    pub time_us: f64,
-    /// Height: the gap without the vibration.
-    pub height_um: f64,
-    /// Its error.
-    pub height_error_um: f64,
-    /// Speed, upwards.
-    pub speed_mm_per_s: f64,
-    /// Whether it rested on its roughness in this cycle.
-    pub rests: bool,
-}
-
-impl From<Cycle> for Row {
-    fn from(cycle: Cycle) -> Self {
-        Self {
-            cycle: cycle.number,
-            time_us: cycle.time * 1e6,
-            height_um: cycle.height.value * 1e6,
-            height_error_um: cycle.height.error * 1e6,
-            speed_mm_per_s: cycle.speed * 1e3,
-            rests: cycle.rests,
-        }
-    }
+/// The plate at the end of a cycle of the vibration; cycle 0 is the beginning.
+pub fn row(cycle: &Cycle) -> Value {
+    json!({
+        "cycle": cycle.number,
+        "time_us": cycle.time * 1e6,
+        "height_um": cycle.height.value * 1e6,
+        "height_error_um": cycle.height.error * 1e6,
+        "speed_mm_per_s": cycle.speed * 1e3,
+        "rests": cycle.rests,
+    })
 }
 
 /// The object of `--json`: a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
@@ -47,7 +28,7 @@ pub fn object(
     (scene, problem): (&Scene, &Problem),
     fidelity: Fidelity,
     ended: &Fall,
-    rows: &[Row],
+    cycles: &[Cycle],
     wall_s: f64,
 ) -> Value {
     let floats = floats(ended);
@@ -59,7 +40,7 @@ pub fn object(
         "mean_gap_um": floats.map(|found| found.value),
         "mean_gap_error_um": floats.map(|found| found.error),
         "wall_s": wall_s,
-        "rows": rows,
+        "rows": cycles.iter().map(row).collect::<Vec<_>>(),
         "validity": validity(problem, ended),
         "warnings": ended.floats.as_ref().err().into_iter().collect::<Vec<_>>(),
     })
@@ -76,11 +57,10 @@ pub fn floats(ended: &Fall) -> Option<Estimate> {
 }
 
 /// Height over time, and where the periodic solve says that it ends, in µm.
-pub fn figure(problem: &Problem, rows: &[Row], floats: Option<f64>) -> Figure {
-    let band = rows
-        .iter()
-        .map(|row| [row.time_us * 1e-3, row.height_um - row.height_error_um, row.height_um + row.height_error_um]);
-    let line = rows.iter().map(|row| [row.time_us * 1e-3, row.height_um]);
+pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<f64>) -> Figure {
+    let at = |cycle: &Cycle| (cycle.time * 1e3, cycle.height * 1e6);
+    let band = cycles.iter().map(at).map(|(t, Estimate { value, error })| [t, value - error, value + error]);
+    let line = cycles.iter().map(at).map(|(t, height)| [t, height.value]);
     let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
         .layer(Band::new("error", band, Colour::FILM))
         .layer(Line::new("height", line, Style::solid(Colour::FILM)));

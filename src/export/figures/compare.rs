@@ -94,8 +94,8 @@ pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let mut figure = Figure::new(format!("t/T = {phase:.3}"));
     figure.panels = vec![
         surfaces(runs, phase).height(40.0),
-        contact_pressures(runs, phase, "(b) contact pressure").height(30.0),
-        film_pressures(runs, phase, "(c) film pressure, gauge").height(30.0),
+        pressures(runs, phase, "(b) contact pressure", |recording| &recording.contact).height(30.0),
+        pressures(runs, phase, "(c) film pressure, gauge", |recording| &recording.film).height(30.0),
     ];
     figure.share_x = true;
     figure.width = Width::Millimetres(150.0);
@@ -131,17 +131,8 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     panel.legend(Legend::Above)
 }
 
-/// Contact pressure, averaged over the contact width, of all runs.
-pub fn contact_pressures(runs: &[MotorRun<'_>], phase: f64, title: &str) -> Panel {
-    pressures(runs, phase, title, |recording| &recording.contact)
-}
-
-/// Gauge pressure of the film, averaged over the contact width, of all runs.
-pub fn film_pressures(runs: &[MotorRun<'_>], phase: f64, title: &str) -> Panel {
-    pressures(runs, phase, title, |recording| &recording.film)
-}
-
-fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: impl Fn(&Recording) -> &Vec<f64>) -> Panel {
+/// Pressure of the contact or of the film, averaged over the contact width, of all runs.
+pub fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: fn(&Recording) -> &Vec<f64>) -> Panel {
     let all = runs.iter().flat_map(|run| of(run.recording).iter().map(|load| load / run.scene.contact_width));
     let [low, high] = with_margin(span(all, 0.0), 0.06);
     let (unit, scale) = pressure_unit(high.max(-low));

@@ -5,7 +5,7 @@ use crate::estimate::Estimate;
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Width,
 };
-use crate::export::figures::compare::{MotorRun, contact_pressures, film_pressures};
+use crate::export::figures::compare::{MotorRun, pressures};
 use crate::export::figures::motor::{crest_in_the_middle, surfaces};
 use crate::problem::{RotorCompliance, Scenario};
 use crate::recording::Recording;
@@ -81,10 +81,12 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
         contact.push(run(PAPER, paper, style));
         film.push(run(PAPER, paper, style));
     }
+    let panel =
+        |runs: &[MotorRun<'_>], title: &str, of| pressures(runs, phase, title, of).height(28.0).legend(Legend::Above);
     let mut figure = Figure::new(title)
         .panel(surfaces(motor, ours, frame).height(36.0))
-        .panel(contact_pressures(&contact, phase, "(b) contact pressure").height(28.0).legend(Legend::Above))
-        .panel(film_pressures(&film, phase, "(c) film pressure, gauge").height(28.0).legend(Legend::Above));
+        .panel(panel(&contact, "(b) contact pressure", |recording| &recording.contact))
+        .panel(panel(&film, "(c) film pressure, gauge", |recording| &recording.film));
     figure.share_x = true;
     figure.width = Width::Millimetres(115.0);
     figure.provenance = Provenance::of(&both.problem, solution);
