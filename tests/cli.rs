@@ -855,6 +855,13 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     let table = run(&arguments);
     assert_eq!(table.status.code(), Some(0));
     assert!(rows.iter().all(|row| out(&table).contains(row["row"].as_str().unwrap())));
+
+    // A row that cannot be solved says so, and the others are solved.
+    let one_less = run(&[&arguments[..], &["--json", "--set", "rotor.model=ring"]].concat());
+    assert_eq!(one_less.status.code(), Some(2), "{}", err(&one_less));
+    assert!(err(&one_less).contains("rotor_width_0.6mm: rotor.model = \"ring\""), "{}", err(&one_less));
+    let rows: Vec<Value> = serde_json::from_slice(&one_less.stdout).unwrap();
+    assert_eq!(rows.iter().filter(|row| row["converged"] == true).count(), 13);
 }
 
 #[test]

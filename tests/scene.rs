@@ -139,7 +139,8 @@ fn plate_messages() {
     );
     assert_eq!(
         read("schema = 1\n[plate]\nlength_mm = 1\n").unwrap_err().to_string(),
-        "my.toml:2: the key scene is missing: write scene = \"plate\" at the top of the file; allowed \"motor\" or \"plate\""
+        "my.toml:2: the key scene is missing: write scene = \"plate\" at the top of the file; allowed \"motor\" or \"plate\", and \
+         without it the scene is a motor, which has no [plate]"
     );
 }
 

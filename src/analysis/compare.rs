@@ -90,6 +90,17 @@ pub fn runs(
 ) -> Result<Vec<ComparedRun>, AnalysisError> {
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     problems.iter().try_for_each(|problem| check(problem, settings))?;
+    Ok(each(scenes, problems, settings, cancel, finished))
+}
+
+/// The same of scenes with their problems; one that cannot be solved by the method asked for is a run that says so, too.
+pub(super) fn each(
+    scenes: &[Scene],
+    problems: Vec<Problem>,
+    settings: &Settings,
+    cancel: &Cancel,
+    finished: &(dyn Fn(&ComparedRun) + Sync),
+) -> Vec<ComparedRun> {
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
         let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);
@@ -97,7 +108,7 @@ pub fn runs(
         finished(&run);
         run
     });
-    Ok(solved.collect())
+    solved.collect()
 }
 
 /// The scenes' names; of several that are the same, all but the first are numbered.

@@ -3,10 +3,9 @@
 //! With [`Method::Paper`] the rows are computed at the paper's own meshes. With [`Method::Auto`] they are
 //! mesh-converged: a row's `[numerics]` table is dropped, so that `doubled-mesh` is then the fundamental case again.
 
-use super::compare::{ComparedRun, runs};
-use super::error::AnalysisError;
+use super::compare::{ComparedRun, each};
 use crate::control::Cancel;
-use crate::problem::Numerics;
+use crate::problem::{Numerics, Problem};
 use crate::scene::table1::{PublishedRow, published};
 use crate::scene::{Scene, SceneError, Value, presets};
 use crate::solution::{MotorResult, Outcome};
@@ -47,17 +46,18 @@ pub fn rows(
     settings: &Settings,
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
-) -> Result<Vec<Row>, AnalysisError> {
+) -> Result<Vec<Row>, SceneError> {
     let scene = |row: &PublishedRow| {
         let mut scene = presets::find(&row.preset)?;
         if settings.method == Method::Auto {
             scene.set_numerics(&Numerics::default())?;
         }
         scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
-        Ok(scene)
+        Ok((Problem::try_from(&scene)?, scene))
     };
-    let scenes = published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?;
-    let runs = runs(&scenes, settings, cancel, finished)?;
+    let (problems, scenes): (Vec<_>, Vec<_>) =
+        published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
+    let runs = each(&scenes, problems, settings, cancel, finished);
     Ok(published().into_iter().zip(runs).map(|(published, run)| Row { published, run }).collect())
 }
 

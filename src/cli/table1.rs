@@ -16,7 +16,7 @@ use crate::export::csv;
 use crate::export::json::text as json_text;
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
-use crate::solve::{Method, Settings};
+use crate::solve::{Method, Settings, check};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -64,7 +64,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let rows = solved?;
 
     // The worst of the rows decides.
-    let exit = Exit::worst(rows.iter().map(|row| Exit::from(&row.run.status())));
+    let exit = Exit::worst(rows.iter().map(|Row { run, .. }| match check(&run.problem, &settings) {
+        Err(error) if run.solved.is_err() && error.is_bad_input() => Exit::BadInput,
+        _ => Exit::from(&run.status()),
+    }));
     let human = text(&rows, &settings, &arguments.scene.changes);
     if exit == Exit::Other && cancel.is_cancelled() {
         terminal::note(&format!("cancelled; reached was\n\n{human}"));

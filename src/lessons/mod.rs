@@ -5,6 +5,7 @@
 //! passes the names that it has.
 
 pub mod check;
+mod error;
 pub mod formula;
 pub mod glossary;
 pub mod handout;
@@ -17,6 +18,7 @@ pub mod text;
 pub mod trial;
 pub mod work;
 
+pub use error::LessonError;
 pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};
@@ -24,18 +26,6 @@ use crate::scene::Scene;
 use picture::{Picture, PictureError};
 use read::Beside;
 use std::path::{Path, PathBuf};
-
-/// One fault of a lesson: file, line, and what is allowed instead. It never stops the program: the other lessons are read.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}:{} {what}", origin.display(), line.map_or_else(String::new, |line| format!("{line}:")))]
-pub struct LessonError {
-    /// The file or folder.
-    pub origin: PathBuf,
-    /// Line in the file, from 1.
-    pub line: Option<usize>,
-    /// What is wrong, and what is allowed or expected.
-    pub what: String,
-}
 
 /// Largest `lesson.md` read \[MB\].
 const LARGEST_FILE: u64 = 1;

@@ -3,7 +3,7 @@
 mod step;
 mod table;
 
-use super::LessonError;
+use super::error::LessonError;
 use super::lesson::{Lesson, Step, WindowNames};
 use std::path::Path;
 use step::{BLOCKS, Raw};

@@ -1,14 +1,12 @@
 //! A drawing as SVG, PNG and PDF, in memory and as a file.
 
-use super::colour::Colour;
 use super::description::Figure;
+use super::drawing::Drawing;
 use super::error::{FigureError, MOST, Pixels};
-use super::layout::Layout;
-use super::panel;
-use super::placed::{FOOT, MM, TITLE};
+use super::placed::MM;
 use super::plane::PRINT;
 use super::render;
-use super::svg::{Picture, Rect, Svg, Type, coordinate, escaped};
+use super::svg::{Picture, Rect, coordinate, escaped};
 use super::text::{FAMILIES, plain};
 
 use base64::Engine as _;
@@ -134,34 +132,7 @@ pub(in crate::export) fn png_bytes(
     Ok(bytes)
 }
 
-/// A figure as it is drawn: what the formats have in common.
-pub(super) struct Drawing {
-    /// Width and height \[pt\].
-    pub(super) size: [f64; 2],
-    /// Under everything else.
-    pub(super) pictures: Vec<Picture>,
-    /// The elements of an SVG, without its root.
-    pub(super) body: String,
-}
-
 impl Drawing {
-    pub(super) fn new(figure: &Figure) -> Self {
-        let layout = Layout::new(figure);
-        let mut svg = Svg::default();
-        let mut pictures = Vec::new();
-        for (at, line) in &layout.title {
-            svg.text(*at, line, &Type::new(TITLE, "start"));
-        }
-        for (placed, panel) in layout.panels.iter().zip(&figure.panels) {
-            pictures.extend(panel::pictures(placed, panel));
-            panel::draw(&mut svg, placed, panel);
-        }
-        for (at, line) in &layout.foot {
-            svg.text(*at, line, &Type { colour: Colour::QUIET, ..Type::new(FOOT, "start") });
-        }
-        Self { size: [layout.width, layout.height], pictures, body: svg.body }
-    }
-
     /// The SVG; without background and pictures for those who put them under it themselves.
     fn svg(&self, figure: &Figure, whole: bool) -> String {
         let [width, height] = self.size;

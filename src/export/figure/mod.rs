@@ -23,8 +23,8 @@
 //! | plotting areas that line up, legends | `placed`, `legend`, `layout` |
 //! | lines, areas, contours, cut to the axes | `geometry`, `isoline` |
 //! | fields as pictures | `plane` |
-//! | one panel as SVG, all of them | `svg`, `text`, `panel`, `files` |
-//! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `render` |
+//! | one panel as SVG, all of them | `svg`, `text`, `panel`, `drawing` |
+//! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `render`, `files` |
 //! | sheets of paper with text, to write and sketch on | `sheet` |
 //!
 //! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
@@ -35,6 +35,7 @@
 mod axis;
 mod colour;
 mod description;
+mod drawing;
 mod error;
 mod files;
 mod geometry;

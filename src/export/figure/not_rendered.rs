@@ -1,16 +1,19 @@
 //! What stands for pixels and pages in a program that is built without what draws them.
 
+use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
-use super::files::Drawing;
 
+/// None.
 pub(super) fn pixels(_: &Drawing, _: &str, _: f64, _: [f64; 2]) -> Result<Pixels, FigureError> {
     Err(FigureError::NotBuilt)
 }
 
+/// None.
 pub(super) fn pdf(_: &Drawing, _: &str, _: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }
 
+/// None.
 pub(super) fn svg_pages(_: &str, _: [f64; 2], _: &[String]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }

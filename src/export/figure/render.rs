@@ -1,7 +1,7 @@
 //! An SVG in pixels (resvg) and on a page (svg2pdf), with the bundled fonts.
 
+use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
-use super::files::Drawing;
 use super::svg::{Picture, Rect};
 use super::text::FAMILIES;
 use crate::platform::{dejavu, liberation};
@@ -77,6 +77,7 @@ struct Page<'a> {
     /// Width and height \[pt\].
     size: [f64; 2],
     pictures: &'a [Picture],
+    /// The drawing, an SVG.
     svg: &'a str,
 }
 

@@ -1,7 +1,7 @@
 //! The state of the reader of a lesson (its origin, the names it may use, the faults found so far), and how it reads the TOML of a block.
 
-use crate::lessons::LessonError;
 use crate::lessons::check::Reading;
+use crate::lessons::error::LessonError;
 use crate::lessons::lesson::WindowNames;
 use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
 use crate::scene::{Scene, SceneError};

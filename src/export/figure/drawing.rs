@@ -1,0 +1,37 @@
+//! A figure as it is drawn.
+
+use super::colour::Colour;
+use super::description::Figure;
+use super::layout::Layout;
+use super::panel;
+use super::placed::{FOOT, TITLE};
+use super::svg::{Picture, Svg, Type};
+
+/// A figure as it is drawn: what the formats have in common.
+pub(super) struct Drawing {
+    /// Width and height \[pt\].
+    pub(super) size: [f64; 2],
+    /// Under everything else.
+    pub(super) pictures: Vec<Picture>,
+    /// The elements of an SVG, without its root.
+    pub(super) body: String,
+}
+
+impl Drawing {
+    pub(super) fn new(figure: &Figure) -> Self {
+        let layout = Layout::new(figure);
+        let mut svg = Svg::default();
+        let mut pictures = Vec::new();
+        for (at, line) in &layout.title {
+            svg.text(*at, line, &Type::new(TITLE, "start"));
+        }
+        for (placed, panel) in layout.panels.iter().zip(&figure.panels) {
+            pictures.extend(panel::pictures(placed, panel));
+            panel::draw(&mut svg, placed, panel);
+        }
+        for (at, line) in &layout.foot {
+            svg.text(*at, line, &Type { colour: Colour::QUIET, ..Type::new(FOOT, "start") });
+        }
+        Self { size: [layout.width, layout.height], pictures, body: svg.body }
+    }
+}
