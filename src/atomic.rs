@@ -122,10 +122,7 @@ impl Staged {
         folder.unwrap_or(Path::new("")).join(format!("{index}{what}"))
     }
 
-    /// Writes a file into the scratch folder.
-    ///
-    /// # Errors
-    /// [`WriteError`] with the file's final path.
+    /// Writes a file into the scratch folder. A fault names its final path.
     pub fn add(
         &mut self,
         name: impl AsRef<Path>,

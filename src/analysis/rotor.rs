@@ -59,9 +59,6 @@ pub struct RotorCurves {
 
 impl RotorCurves {
     /// Of the rotor of `motor`; `None` if cancelled.
-    ///
-    /// # Errors
-    /// [`RotorError`] if it has no compliance.
     pub fn of(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
         match Self::computed(motor, cancel) {
             Err(error) if error.is_cancelled() => Ok(None),

@@ -115,10 +115,7 @@ pub struct Jacobian {
 }
 
 impl Variation {
-    /// Of keys of `scene` by name.
-    ///
-    /// # Errors
-    /// A key that the scene does not have, that has no derivative or no value, or that is named twice.
+    /// Of keys of `scene` by name: each has to have a value and a derivative, and is named once.
     pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, AnalysisError> {
         let all = Self::all(scene).parameters;
         let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
@@ -172,9 +169,6 @@ impl Variation {
     }
 
     /// What is to be solved at other values of the keys, in their units.
-    ///
-    /// # Errors
-    /// A value out of the range of its key, or a broken rule between keys.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
         let mut scene = self.scene.clone();
         for (parameter, value) in self.parameters.iter().zip(values) {

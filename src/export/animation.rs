@@ -82,9 +82,6 @@ impl Format {
 }
 
 /// Draws the cycle of a solve. `done` is called after each frame, from several threads.
-///
-/// # Errors
-/// [`ExportError`]: cancelled, no cycle, or a frame that cannot be drawn.
 pub fn cycle(
     problem: &Problem,
     solution: &Solution,
@@ -98,10 +95,7 @@ pub fn cycle(
 }
 
 /// Writes the cycle of a solve as an MP4 with at least [`SMOOTH`] frames a second on screen: where the solve has too few time
-/// steps, between them. Each frame is drawn when it is encoded, and `done` called after it.
-///
-/// # Errors
-/// [`ExportError`]; then no file is left, and an older one of that name is as it was.
+/// steps, between them. Each frame is drawn when it is encoded, and `done` called after it. The file has its name only when it is complete.
 pub fn write_video(
     path: &Path,
     problem: &Problem,
@@ -236,9 +230,6 @@ impl Movie {
 
     /// Writes the movie in the format of its path. A file has its name only when it is complete. Of an MP4
     /// `done` is called after each frame that is encoded.
-    ///
-    /// # Errors
-    /// [`ExportError`]; then no file is left, and an older one of that name is as it was.
     pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, ExportError> {
         let stopped = |error| stopped(error, cancel);
         match Format::of(path)? {

@@ -29,9 +29,6 @@ pub(super) struct Timing {
 }
 
 /// Writes a video, with a comment unless it is empty.
-///
-/// # Errors
-/// Those of the writer; a video that is no AV1, or too long.
 pub(super) fn write(video: &Video, timing: &Timing, comment: &str, out: &mut dyn Write) -> io::Result<()> {
     let samples = video.packets.iter().map(|packet| sample(packet)).collect::<Option<Vec<Vec<u8>>>>();
     let samples = samples.ok_or_else(|| io::Error::other("a packet is no AV1"))?;

@@ -30,9 +30,6 @@ pub struct Check {
 
 impl Check {
     /// Reads a check for steps on `scene`.
-    ///
-    /// # Errors
-    /// A name is unknown or belongs to another kind of scene, or the text is not a comparison.
     pub fn parse(source: &str, scene: &Scene) -> Result<Self, String> {
         Ok(Self { source: source.trim().to_owned(), comparisons: comparisons(source, scene)? })
     }
@@ -62,9 +59,6 @@ impl Reading {
     const DIGITS: usize = 3;
 
     /// Reads a number for steps on `scene`.
-    ///
-    /// # Errors
-    /// A name is unknown or belongs to another kind of scene, or the text is not an expression.
     pub fn parse(source: &str, scene: &Scene) -> Result<Self, String> {
         let (sum, digits) = match source.rsplit_once(':') {
             None => (source, Self::DIGITS),

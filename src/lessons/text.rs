@@ -66,9 +66,6 @@ pub enum Block {
 }
 
 /// Reads blocks from Markdown. An error comes with its line, from 0. Without `outside` a text has neither numbers of a run nor pictures.
-///
-/// # Errors
-/// A formula or a number that cannot be read, or a dollar without its partner.
 pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, (usize, TextError)> {
     let mut blocks = Vec::new();
     let mut lines = source.lines().enumerate().peekable();

@@ -65,10 +65,7 @@ fn find(key: &str) -> Option<&'static Parameter> {
 }
 
 impl Scene {
-    /// The place of the value that a key names in an array; `None` for any other key.
-    ///
-    /// # Errors
-    /// There is no such table.
+    /// The place of the value that a key names in an array, a fault if there is no such table; `None` for any other key.
     fn cell(&self, key: &str) -> Option<Result<Place, What>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
@@ -85,9 +82,6 @@ impl Scene {
     }
 
     /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
-    ///
-    /// # Errors
-    /// There is no such table.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), What>> {
         let put = |(array, mut records, [row, column]): Place| {
             let ParameterKind::Records { columns, fewest, .. } = array.kind else {

@@ -38,9 +38,6 @@ static RULES: &[Rule] = &[
 
 impl Scene {
     /// Checks the rules between keys; each key's own range is checked when it is set.
-    ///
-    /// # Errors
-    /// All rules that are broken.
     pub fn check(&self) -> Result<(), SceneError> {
         let mut faults = SceneError::none();
         self.broken_rules().for_each(|(_, what)| faults.push(what));

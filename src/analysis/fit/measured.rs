@@ -149,9 +149,6 @@ pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> Analysi
 
 impl Measured {
     /// The table of a `--data` argument, [`TABLE1`] or the path of a CSV file, for a fit of `scene`.
-    ///
-    /// # Errors
-    /// The file cannot be read, or is no such table.
     pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, AnalysisError> {
         if name_or_path == TABLE1 {
             return Ok(Self::table1(method)?);
@@ -366,9 +363,6 @@ impl Measured {
     }
 
     /// Without the lines of these names.
-    ///
-    /// # Errors
-    /// A name that no line has.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
         for label in labels {
             let before = self.measurements.len();

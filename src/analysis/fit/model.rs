@@ -53,9 +53,6 @@ struct Condition {
 impl<'a> Model<'a> {
     /// Checks the keys that are chosen, and every condition of a table: its keys, and that it can be solved at the values from which the
     /// search starts.
-    ///
-    /// # Errors
-    /// [`AnalysisError`], which names the key, the value and what is allowed.
     pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
             let found = bounds.len();

@@ -85,9 +85,6 @@ pub struct Goal {
 
 impl Goal {
     /// The greatest (or least) value of the number of this name in results of `scene`, within limits on others.
-    ///
-    /// # Errors
-    /// A name that the scene's results do not have.
     pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, AnalysisError> {
         let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
@@ -236,9 +233,6 @@ impl NonlinearInequalityValues for Search<'_> {
 
 /// Looks for the optimum of `goal` over the unknowns of `bounds`, from the scene's own values and, with `starts` above 1, from the best
 /// of as many points spread over the bounds and solved as drafts. `None` if cancelled.
-///
-/// # Errors
-/// [`AnalysisError`] of the bounds, or nothing could be solved.
 pub fn optimise(
     scene: &Scene,
     bounds: &[Bounds],

@@ -85,9 +85,6 @@ pub struct Unknown {
 
 impl Unknown {
     /// Checks bounds against the scene.
-    ///
-    /// # Errors
-    /// A key that the scene does not have, or is no number, or bounds that it does not take.
     pub fn new(scene: &Scene, bounds: &Bounds) -> Result<Self, AnalysisError> {
         let key = &bounds.key;
         let Some(parameter) = Parameter::find(key) else {

@@ -97,9 +97,6 @@ pub struct Axis {
 
 impl Axis {
     /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
-    ///
-    /// # Errors
-    /// [`AnalysisError`], which names the key, the value and what is allowed.
     pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, AnalysisError> {
         let key = &vary.key;
         let Some(parameter) = Parameter::find(key) else {

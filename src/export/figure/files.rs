@@ -75,9 +75,6 @@ pub fn to_bytes(figure: &Figure, format: Format) -> Result<Vec<u8>, FigureError>
 }
 
 /// Writes the figure in the format of the path's extension. The file has its name only when it is complete.
-///
-/// # Errors
-/// [`FigureError`]; then no file is left, and an older one of that name is as it was.
 pub fn write(figure: &Figure, path: &Path) -> Result<(), FigureError> {
     let bytes = to_bytes(figure, Format::of(path)?)?;
     crate::atomic::write_file(path, |out| out.write_all(&bytes))?;
