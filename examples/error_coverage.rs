@@ -3,12 +3,13 @@
 //! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
 //!
 //! ```text
-//! cargo run --release --example error_coverage [mild|wide|plates|closing|rough] [COUNT] [RESULT]
+//! cargo run --release --example error_coverage [mild|wide|plates|closing|rough|stiff] [COUNT] [RESULT]
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
 //! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap, `closing` those that come
-//! near to touching, at squeeze numbers from 10⁻² to 10²; `rough` are mild motors whose faces meet on asperities. Every draw is the same on every run. Scenes whose error is not covered, or that do
+//! near to touching, at squeeze numbers from 10⁻² to 10²; `rough` are mild motors whose faces meet on asperities, `stiff` those
+//! whose rotor has no local compliance, and a decay length from 0.3 to 10 mm. Every draw is the same on every run. Scenes whose error is not covered, or that do
 //! not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -66,7 +67,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         Some("plates") => draw_plate,
         Some("closing") => draw_closing,
         Some("rough") => draw_rough,
-        Some(other) => return Err(format!("{other}: expected mild, wide, plates, closing or rough").into()),
+        Some("stiff") => draw_stiff,
+        Some(other) => return Err(format!("{other}: expected mild, wide, plates, closing, rough or stiff").into()),
     };
     let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
     let named = |key: &String| Quantity::all().find(|one| one.name() == key).ok_or_else(|| format!("{key}: no result"));
@@ -143,6 +145,15 @@ fn draw_rough(random: &mut Random) -> Drawn {
     let (_, changes) = draw(random, 1.0);
     let rough = |(key, value)| (if key == DRAWN[0].0 { "surface.rms_nm" } else { key }, value);
     ("asperities", changes.into_iter().map(rough).collect())
+}
+
+/// Mild motors whose rotor has no local compliance, and a decay length from 0.3 to 10 mm.
+fn draw_stiff(random: &mut Random) -> Drawn {
+    let (preset, mut changes) = draw(random, 1.0);
+    changes.retain(|(key, _)| *key != "rotor.decay_length_mm");
+    changes.push(("rotor.decay_length_mm", (0.3 * 10f64.powf(1.5 * random.unit())).to_string()));
+    changes.push(("rotor.local_compliance_m2_per_n", "0".into()));
+    (preset, changes)
 }
 
 /// A strip, a rectangle or a disc.

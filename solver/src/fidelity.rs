@@ -44,8 +44,6 @@ pub struct Spec {
     pub edge_fraction: f64,
     /// Rotor harmonics are kept until they fall below this fraction of the local compliance.
     pub harmonic_fraction: f64,
-    /// Harmonics kept at most of a rotor without a local part.
-    pub most_harmonics: usize,
     /// Largest change of the trapped gas, and imbalance of the load, that counts as a repeating cycle; relative.
     pub tolerance: f64,
     /// Intervals across half a plate, each way.
@@ -109,7 +107,6 @@ impl Fidelity {
                 per_wave: 32,
                 edge_fraction: 0.7,
                 harmonic_fraction: 1e-1,
-                most_harmonics: 24,
                 tolerance: 8e-3,
                 plate: 12,
                 plate_steps: 32,
@@ -125,7 +122,6 @@ impl Fidelity {
                 per_wave: 64,
                 edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
-                most_harmonics: 32,
                 tolerance: 4e-3,
                 plate: 12,
                 plate_steps: 48,
@@ -141,7 +137,6 @@ impl Fidelity {
                 per_wave: 128,
                 edge_fraction: 0.5,
                 harmonic_fraction: 1e-2,
-                most_harmonics: 64,
                 tolerance: 4e-4,
                 plate: 16,
                 plate_steps: 64,
@@ -157,7 +152,6 @@ impl Fidelity {
                 per_wave: 256,
                 edge_fraction: 0.2,
                 harmonic_fraction: 1e-3,
-                most_harmonics: 96,
                 tolerance: 4e-5,
                 plate: 16,
                 plate_steps: 64,
@@ -193,7 +187,6 @@ impl Spec {
             per_wave: count(self.per_wave, fine.per_wave),
             edge_fraction: real(self.edge_fraction, fine.edge_fraction),
             harmonic_fraction: real(self.harmonic_fraction, fine.harmonic_fraction),
-            most_harmonics: count(self.most_harmonics, fine.most_harmonics),
             tolerance: real(self.tolerance, fine.tolerance),
             plate: count(self.plate, fine.plate),
             plate_steps: count(self.plate_steps, fine.plate_steps),

@@ -208,8 +208,9 @@ impl FilmCycle {
         }
         let defect = self.shift.clone();
         self.solver.solve(&self.leak, &self.leak.centre, &mut self.shift);
-        // What leaks the wrong way is no leak: a wedge that pumps from node to node within a cycle.
-        if crate::numerics::dot(&defect, &self.shift) < 0.0 {
+        // What leaks the wrong way is no leak: a wedge that pumps from node to node within a cycle. Of a node that only fills, no leak is known.
+        let leaks = crate::numerics::dot(&defect, &self.shift);
+        if !(0.0..f64::INFINITY).contains(&leaks) {
             self.shift.fill(0.0);
         }
         for k in 0..self.shift.len() {

@@ -413,8 +413,10 @@ impl Level {
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             residual = change.max(imbalance);
             self.residual = residual;
-            let change = self.force_of_change(&present, &image);
+            let change = self.force_of_change(&self.trapped, &self.next);
             self.drift = left(std::mem::replace(&mut last_change, change), change, 0.5, 1.0);
+            // The force is that of the gas before the slow shift.
+            self.drift += self.force_of_change(&self.line, &self.next);
             report.round(round, residual, self.mean_film_load());
             if residual < plan.tolerance && self.astray() <= self.allowed(plan.accuracy) {
                 return Ok(Status::Converged);
@@ -447,18 +449,14 @@ impl Level {
         self.ambient_pressure * (self.line[index] / self.film_thickness[index] - self.interior_width)
     }
 
-    /// Cycle mean of the force on one wavelength \[N\] by which the gas of two rounds differs, packed as by `pack`, all of it counted
+    /// Cycle mean of the force on one wavelength \[N\] by which two amounts of gas differ, ζ at every node of the lines, all of it counted
     /// one way.
     fn force_of_change(&self, before: &[f64], after: &[f64]) -> f64 {
         let (ux, lengths) = (self.grid().x.unknown(), &self.grid().x.lengths);
         let mut sum = 0.0;
-        for (line, (before, after)) in before.chunks_exact(ux.len()).zip(after.chunks_exact(ux.len())).enumerate() {
-            let at = line * self.nx;
-            if at >= self.line.len() {
-                break;
-            }
-            for ((ix, before), after) in ux.clone().zip(before).zip(after) {
-                sum += (after - before).abs() * self.line[at + ix] / self.film_thickness[at + ix] * lengths[ix];
+        for at in (0..self.line.len()).step_by(self.nx) {
+            for ix in ux.clone() {
+                sum += (after[at + ix] - before[at + ix]).abs() / self.film_thickness[at + ix] * lengths[ix];
             }
         }
         sum * self.ambient_pressure * self.teeth as f64 / (self.stored * self.steps) as f64

@@ -260,7 +260,7 @@ impl Scene for Search<'_> {
 
     fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
         let whole = stated(plan, found);
-        let grids = extrapolate_means(&found.headlines).error;
+        let grids = of_grids(plan, found).error;
         whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
 }
@@ -320,9 +320,15 @@ impl<'a> Transient<'a> {
     }
 }
 
+/// α with what the grids tell of its error.
+fn of_grids(plan: &Plan, found: &Found<Level>) -> Estimate {
+    let Estimate { value, error } = extrapolate_means(&found.headlines);
+    Estimate { value, error: error * plan.irregular }
+}
+
 /// α with its error.
 fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
-    let estimate = extrapolate_means(&found.headlines);
+    let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
     if level.floats() {

@@ -161,8 +161,6 @@ pub struct Plan {
     pub left_out: f64,
     /// The rotor; a plate has none.
     pub rotor: Compliances,
-    /// Rotor harmonics kept at most, of a rotor without a local part.
-    pub most_harmonics: usize,
     /// Rotor that decides how many harmonics are kept, if not `rotor`: a similar rotor then keeps the same number.
     pub counted: Option<Compliances>,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
@@ -181,6 +179,8 @@ pub struct Plan {
     pub round_limit: usize,
     /// Record the pressure maps of the cycle, the largest of the fields.
     pub maps: bool,
+    /// What the error that grids tell is multiplied by: 1, and more where contact is sharper than any grid.
+    pub irregular: f64,
     /// What was decided, part by part.
     pub decisions: Vec<Decision>,
 }
@@ -197,9 +197,9 @@ const SHARE: f64 = 0.2;
 const THINNEST_LAYER: f64 = 0.03;
 const ROUND_LIMIT: usize = 300;
 
-/// Harmonics kept at most of a rotor with a local part, down to this fraction of it: 30 over its third root. The beam's own number grows with the
+/// Harmonics kept at most, down to this fraction of the local compliance: 30 over its third root. The beam's own number grows with the
 /// fourth root, so that where this is less, grids differ more, and their differences show what is cut.
-fn most_with_local_part(fraction: f64) -> usize {
+fn most_harmonics(fraction: f64) -> usize {
     ((30.0 / fraction.cbrt()) as usize).min(MOST_HARMONICS)
 }
 
@@ -207,8 +207,7 @@ impl Plan {
     /// Rotor harmonics that are kept on a grid.
     pub fn harmonics(&self, grid: &Grid) -> usize {
         let (rotor, fraction) = (self.counted.as_ref().unwrap_or(&self.rotor), grid.harmonic_fraction);
-        let most = if rotor.has_local_part() { most_with_local_part(fraction) } else { self.most_harmonics };
-        cutoff(rotor, fraction, most)
+        cutoff(rotor, fraction, most_harmonics(fraction))
     }
 
     /// This plan for a scene near its own, whose rotor is `rotor`: nothing else differs.

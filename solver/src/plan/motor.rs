@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::reduction::{flow, time, wedge};
-use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, most_with_local_part, name};
+use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, most_harmonics, name};
 use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
@@ -49,8 +49,9 @@ impl Plan {
         let layer = numbers.boundary_layer;
         let in_layer = (motor.wavelength() / (TAU * layer)) as usize;
         let finest = spec.harmonic_fraction / (1 << (2 * MORE_GRIDS)) as f64;
-        let harmonics = in_layer.max(spec.most_harmonics).max(most_with_local_part(finest));
-        let rotor = motor.compliances(harmonics.min(MOST_HARMONICS), cancel)?;
+        let harmonics = in_layer.max(most_harmonics(finest));
+        let film = motor.least_thickness() / (motor.gas.ambient_pressure * motor.contact_width);
+        let rotor = motor.compliances(harmonics.min(MOST_HARMONICS), cancel)?.at_least(RIGID * film);
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
         let base = spec.along.max(per_wave);
@@ -92,6 +93,7 @@ impl Plan {
         // What the trapped limit leaves out, it leaves out once.
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
+        let irregular = 1.0 + (IRREGULAR - 1.0) / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));
         Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
@@ -111,7 +113,6 @@ impl Plan {
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             rotor,
-            most_harmonics: spec.most_harmonics,
             counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
@@ -121,10 +122,20 @@ impl Plan {
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
+            irregular,
             decisions,
         })
     }
 }
+
+/// Compliance of a rotor over that of the closed film, H_m/(p_a b), below which it might as well be rigid. What is stiffer by many orders
+/// than all else is lost in rounding.
+const RIGID: f64 = 1e-5;
+
+/// Local compliance over that of the closed film below which contact ends abruptly at the edges of teeth, so that its errors are not of
+/// second order; and what their estimate is multiplied by then (calibrated: docs/validation.md).
+const SHARP: f64 = 2e-3;
+const IRREGULAR: f64 = 3.0;
 
 /// Length \[m\] in the middle of a crowned tooth over which its crown opens the gap by H_m: the film that carries, at the least.
 fn crown_length(motor: &Motor) -> f64 {

@@ -97,7 +97,6 @@ impl Plan {
             trapped,
             left_out,
             rotor: Compliances::default(),
-            most_harmonics: spec.most_harmonics,
             counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
@@ -107,6 +106,7 @@ impl Plan {
             tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
+            irregular: 1.0,
             decisions,
         }
     }

@@ -8,9 +8,6 @@ use std::sync::Arc;
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
 const SMOOTH: usize = 10;
 
-/// Share of the first harmonic's compliance above which a local part counts: contact that is much stiffer than the rotor is lost in rounding.
-const LEAST_LOCAL: f64 = 1e-2;
-
 /// Why a rotor has no compliance.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RotorError {
@@ -81,9 +78,11 @@ impl Compliances {
         self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
     }
 
-    /// Whether short waves have a compliance of their own that counts beside that of the wave, so that the harmonics come to an end.
-    pub fn has_local_part(&self) -> bool {
-        self.local > LEAST_LOCAL * self.harmonic(1)
+    /// The same with no harmonic stiffer than `least` \[m²/N\], so that short waves have a limit and the harmonics come to an end.
+    #[must_use]
+    pub fn at_least(self, least: f64) -> Self {
+        let harmonics = self.harmonics.iter().map(|value| value.max(least)).collect();
+        Self { harmonics, local: self.local.max(least), ..self }
     }
 
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
