@@ -57,7 +57,7 @@ fn show_fit(window: &mut Window) {
 }
 
 fn labels(app: &App) -> Vec<String> {
-    app.state().pins.runs().iter().map(|run| run.label.clone()).collect()
+    app.state().pins.runs.iter().map(|run| run.label.clone()).collect()
 }
 
 /// A window in which the fundamental case and one with half the spacing are pinned.
@@ -80,12 +80,12 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     window.get_by_label("Compare (2)");
 
     // The numbers are those of the analysis, of runs that were solved by themselves.
-    let scenes: Vec<_> = window.known().pins.runs().iter().map(|run| run.scene.clone()).collect();
+    let scenes: Vec<_> = window.known().pins.runs.iter().map(|run| run.scene.clone()).collect();
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let alone = compare::runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap();
     let rows = compare::results(&alone);
     let alpha = rows.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
-    let shown = window.known().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+    let shown = window.known().pins.results.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
     let (ours, theirs) = (&shown.cells[1], &alpha.cells[1]);
     // The window starts from the last solve: the same to a fraction of the stated error.
     let [ours_less, theirs_less] = [ours, theirs].map(|cell| cell.difference_percent.unwrap());
@@ -108,10 +108,10 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
 #[test]
 fn fields_move_in_phase_and_maps_share_one_scale() {
     let mut window = two_pinned();
-    let pressure = window.known().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
+    let pressure = window.known().pins.runs.iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
     let all: Vec<f64> = pressure.flatten().copied().collect();
     let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
-    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.ranges.pressure[1]).collect();
+    let own: Vec<f64> = window.known().pins.pins.iter().map(|pin| pin.curves.scales.ranges.pressure[1]).collect();
     assert!(own[0] != own[1], "each alone would have another scale");
     for label in labels(window.state()) {
         let about = format!("Pressure map of {label}, colours from ");
@@ -132,7 +132,7 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     assert_ne!(window.known().view.phase, phase);
     window.key_press(Key::Home);
     window.press(Key::ArrowRight);
-    let frames = window.known().pins.runs()[0].solved.as_ref().unwrap().recording.frames;
+    let frames = window.known().pins.runs[0].solved.as_ref().unwrap().recording.frames;
     assert!((window.known().view.phase - 1.0 / frames as f64).abs() < 1e-12);
 }
 
@@ -149,9 +149,9 @@ fn pins_are_renamed_opened_and_removed() {
     window.ctrl(Key::Z);
     assert_eq!(spacing(&window), Value::Number(100.0));
     window.click_on("Remove as published");
-    assert_eq!(window.known().pins.runs().len(), 1);
+    assert_eq!(window.known().pins.runs.len(), 1);
     // What is left is what differences are from.
-    assert!(window.known().pins.results().iter().all(|row| row.cells[0].difference_percent.is_none()));
+    assert!(window.known().pins.results.iter().all(|row| row.cells[0].difference_percent.is_none()));
     window.get_by_label("Compare (1)");
 }
 
@@ -159,15 +159,15 @@ fn pins_are_renamed_opened_and_removed() {
 fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     let mut window = window("fundamental");
     window.ctrl(Key::Num2);
-    assert!(window.known().pins.runs().is_empty());
+    assert!(window.known().pins.runs.is_empty());
     window.get_by_label_contains("Pin a run, change the scene");
     let plate = presets::find("plate-crossover").unwrap().name;
     for preset in [&plate, &presets::find("levitating").unwrap().name] {
         window.click_part("Pin a preset");
         window.click_part(preset);
-        until(&mut window, preset, |app| app.state().pins.waiting().is_empty() && labels(app).contains(preset));
+        until(&mut window, preset, |app| app.state().pins.waiting.is_empty() && labels(app).contains(preset));
     }
-    let fidelities = window.known().pins.runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
+    let fidelities = window.known().pins.runs.iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
     assert!(fidelities.into_iter().all(|fidelity| fidelity == window.known().document.target().name()));
     window.get_by_label_contains("Motors and plates cannot be laid over each other");
     // Each has its own period: no time is that of all.
@@ -176,7 +176,7 @@ fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     // The scene being edited is as it was.
     assert_eq!(window.known().document.scene(), &presets::find("fundamental").unwrap());
     window.click_on("Remove all");
-    assert!(window.known().pins.runs().is_empty());
+    assert!(window.known().pins.runs.is_empty());
 }
 
 fn swept(app: &App) -> &Swept {
@@ -610,7 +610,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
     explains(faults, &window, "Exact", &exact);
     explains(faults, &window, "Exact, in units", &["Stiffness of the film", "Damping coefficient"]);
-    explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible (σ → 0)"]);
+    explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible"]);
     hovers(faults, &mut window, "Mean pressure / p_a", "comes to a limit");
     window.ctrl(Key::Num7);
     let held = ["Gap", "Leak time", "Slow motion", "Held plate", "Film pressure", "Force", "Loop", "Boyle"];
@@ -873,11 +873,11 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     window.click_part("Pin a preset");
     let levitating = presets::find("levitating").unwrap().name;
     window.click_part(&levitating);
-    until(&mut window, "a third", |app| app.state().pins.runs().len() == 3);
+    until(&mut window, "a third", |app| app.state().pins.runs.len() == 3);
     let changed = labels(window.state())[1].clone();
     window.click_on(&format!("Remove {changed}"));
     let kept = |app: &App| -> Vec<_> {
-        let pins = app.state().pins.pins().iter().zip(app.state().pins.runs());
+        let pins = app.state().pins.pins.iter().zip(&app.state().pins.runs);
         pins.map(|(pin, run)| {
             let fidelity = run.solved.as_ref().unwrap().model.fidelity.clone();
             (run.label.clone(), pin.slot, fidelity, run.scene.clone())
@@ -887,7 +887,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     let before = kept(window.state());
     assert_eq!(before.iter().map(|pin| pin.1).collect::<Vec<_>>(), [0, 2]);
     let alpha = |app: &App| {
-        let row = app.state().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+        let row = app.state().pins.results.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
         row.cells.iter().map(|cell| cell.found.map(|found| (found.value, found.error)).unwrap()).collect::<Vec<_>>()
     };
     let numbers = alpha(window.state());
@@ -898,14 +898,14 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     window.step();
     // A slow frame may see the first one solved already.
     let pins = &window.known().pins;
-    assert_eq!(pins.waiting().len() + pins.runs().len(), 2, "they are there at once, to be solved");
+    assert_eq!(pins.waiting.len() + pins.runs.len(), 2, "they are there at once, to be solved");
     // Closed before they are solved, they are there the next time.
     assert_eq!(left(&mut window).0["pins"], memory.0["pins"]);
     until(&mut window, "the pins", |app| {
         if app.state().run.as_deref().is_none_or(|run| run.fidelity < Fidelity::Fine) {
-            assert!(app.state().pins.runs().is_empty(), "the scene on screen comes first");
+            assert!(app.state().pins.runs.is_empty(), "the scene on screen comes first");
         }
-        app.state().pins.waiting().is_empty()
+        app.state().pins.waiting.is_empty()
     });
     assert_eq!(kept(window.state()), before);
     for ((ours, error), (theirs, other)) in alpha(window.state()).into_iter().zip(numbers) {
@@ -914,7 +914,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     // A new one comes after them.
     window.ctrl(Key::D);
     assert_eq!(labels(window.state())[..2], before.iter().map(|pin| pin.0.clone()).collect::<Vec<_>>());
-    assert_eq!(window.known().pins.runs().len(), 3);
+    assert_eq!(window.known().pins.runs.len(), 3);
     // What was forgotten does not come back.
     window.ctrl(Key::Num2);
     window.click_on("Remove all");
@@ -949,8 +949,8 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
         window.get_by_label_contains(said);
         window.click_on("Close");
         solved(&mut window);
-        until(&mut window, "the others", |app| app.state().pins.waiting().is_empty());
-        assert_eq!(window.known().pins.runs().len(), left_over);
+        until(&mut window, "the others", |app| app.state().pins.waiting.is_empty());
+        assert_eq!(window.known().pins.runs.len(), left_over);
     }
 }
 

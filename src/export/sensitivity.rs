@@ -155,36 +155,9 @@ impl Found<'_> {
             "Change of each result for one standard deviation (s.d.) more of each uncertain parameter"
         };
         let mut figure = self.figure_of(format!("{what}, with the error of the derivative."));
-        for (output, of) in self.sensitivity.outputs.iter().enumerate() {
-            let (shown, smaller) = self.sensitivity.tornado(output, Some(self.uncertainties));
-            let unit = of.unit(self.sensitivity.problem());
-            let axis = if certain {
-                Axis::new(format!("{}, % for 1 % more", of.words()), "")
-            } else {
-                Axis::new(format!("{}, for 1 s.d. more", of.words()), unit)
-            };
-            let mut names: Vec<(f64, String)> = Vec::new();
-            let mut panel = Panel::default();
-            for (row, (parameter, bar)) in shown.iter().enumerate() {
-                let y = -(row as f64);
-                names.push((y, parameter.words()));
-                let colour = if bar.value < 0.0 { Colour::CONTACT } else { Colour::FILM };
-                let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - 0.36, y + 0.36]);
-                panel = panel.layer(Band { opacity: 0.8, ..Band::new("", ends, colour) });
-                let error = [bar.value - bar.error, bar.value + bar.error].map(|x| [x, y]);
-                panel = panel.layer(Line::new("", error, Style { width: 0.8, ..Style::default() }));
-            }
-            if smaller > 0 {
-                panel.title = format!("{smaller} more below {} % of the longest", significant(100.0 * LEAST, 1));
-            }
-            let ends = shown.iter().flat_map(|(_, bar)| [-1.0, 1.0].map(|sign| bar.value + sign * bar.error));
-            let room = 1.03;
-            panel.x = axis.including(ends.map(|end| room * end).chain([0.0]));
-            panel.y = Axis { names, ..Axis::default().fixed(0.6 - shown.len() as f64, 0.6) };
-            panel.legend = Legend::None;
-            panel.height = 4.2 * shown.len().max(2) as f64;
-            figure = figure.panel(panel.layer(Mark::vertical(0.0, "")));
-        }
+        let uncertain = Some(self.uncertainties).filter(|_| !certain);
+        figure.panels =
+            (0..self.sensitivity.outputs.len()).map(|output| bars(self.sensitivity, output, uncertain)).collect();
         figure
     }
 
@@ -197,42 +170,78 @@ impl Found<'_> {
         );
         let mut figure = self.figure_of(caption);
         figure.provenance.note = format!("{} draws, seed {}", carlo.draws.len(), carlo.seed);
-        for (output, of) in self.sensitivity.outputs.iter().enumerate() {
-            let Some(spread) = carlo.spread(output) else { continue };
-            let (from, width, bins) = &spread.bins;
-            let bars = bins.iter().enumerate().flat_map(|(bin, count)| {
-                let left = from + bin as f64 * width;
-                [left, left + width].map(|x| [x, 0.0, *count as f64])
-            });
-            let unit = of.unit(self.sensitivity.problem());
-            let mut panel = Panel::new("", Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
-                .height(32.0)
-                .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) });
-            let linear = self.sensitivity.propagated(output, self.uncertainties).deviation.value;
-            if linear > 0.0 && *width > 0.0 {
-                let (middle, area) = (self.sensitivity.values[output].value, spread.count as f64 * width);
-                let density = |i: u32| {
-                    let away = f64::from(i) / 20.0 - 3.5;
-                    [
-                        middle + away * linear,
-                        area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp(),
-                    ]
-                };
-                panel = panel.layer(Line::new(
-                    "linear",
-                    (0..=140).map(density),
-                    Style::solid(Colour::CONTACT).dash(Dash::Dashed),
-                ));
-            }
-            let numerical = self.sensitivity.values[output];
-            panel = panel.layer(Mark::vertical(numerical.value, ""));
-            panel.title = format!(
-                "± {} by the parameters, ± {} numerical",
-                significant(spread.deviation, 2),
-                significant(numerical.error, 2)
-            );
-            figure = figure.panel(panel);
-        }
+        let panel = |output| distribution(self.sensitivity, output, self.uncertainties, carlo);
+        figure.panels = (0..self.sensitivity.outputs.len()).filter_map(panel).collect();
         Some(figure)
     }
+}
+
+/// The bars of a result: elasticities or, of `uncertain` keys, what each contributes.
+pub fn bars(sensitivity: &Sensitivity, output: usize, uncertain: Option<&Uncertainties>) -> Panel {
+    let of = sensitivity.outputs[output];
+    let (shown, smaller) = sensitivity.tornado(output, uncertain);
+    let axis = match uncertain {
+        None => Axis::new(format!("{}, % for 1 % more", of.words()), ""),
+        Some(_) => Axis::new(format!("{}, for 1 s.d. more", of.words()), of.unit(sensitivity.problem())),
+    };
+    let mut names: Vec<(f64, String)> = Vec::new();
+    let mut panel = Panel::default();
+    for (row, (parameter, bar)) in shown.iter().enumerate() {
+        let y = -(row as f64);
+        names.push((y, parameter.words()));
+        let colour = if bar.value < 0.0 { Colour::CONTACT } else { Colour::FILM };
+        let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - 0.36, y + 0.36]);
+        panel = panel.layer(Band { opacity: 0.8, ..Band::new("", ends, colour) });
+        let error = [bar.value - bar.error, bar.value + bar.error].map(|x| [x, y]);
+        panel = panel.layer(Line::new("", error, Style { width: 0.8, ..Style::default() }));
+    }
+    if smaller > 0 {
+        panel.title = format!("{smaller} more below {} % of the longest", significant(100.0 * LEAST, 1));
+    }
+    let ends = shown.iter().flat_map(|(_, bar)| [-1.0, 1.0].map(|sign| bar.value + sign * bar.error));
+    let room = 1.03;
+    panel.x = axis.including(ends.map(|end| room * end).chain([0.0]));
+    panel.y = Axis { names, ..Axis::default().fixed(0.6 - shown.len() as f64, 0.6) };
+    panel.legend = Legend::None;
+    panel.height = 4.2 * shown.len().max(2) as f64;
+    panel.layer(Mark::vertical(0.0, ""))
+}
+
+/// How the random draws of a result are distributed, beside the normal distribution of the first order; `None` without draws of it.
+pub fn distribution(
+    sensitivity: &Sensitivity,
+    output: usize,
+    uncertainties: &Uncertainties,
+    carlo: &MonteCarlo,
+) -> Option<Panel> {
+    let of = sensitivity.outputs[output];
+    let spread = carlo.spread(output)?;
+    let (from, width, bins) = &spread.bins;
+    let bars = bins.iter().enumerate().flat_map(|(bin, count)| {
+        let left = from + bin as f64 * width;
+        [left, left + width].map(|x| [x, 0.0, *count as f64])
+    });
+    let unit = of.unit(sensitivity.problem());
+    let mut panel = Panel::new("", Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
+        .height(32.0)
+        .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) });
+    let linear = sensitivity.propagated(output, uncertainties).deviation.value;
+    let numerical = sensitivity.values[output];
+    if linear > 0.0 && *width > 0.0 {
+        let area = spread.count as f64 * width;
+        let density = |i: u32| {
+            let away = f64::from(i) / 20.0 - 3.5;
+            let height = area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp();
+            [numerical.value + away * linear, height]
+        };
+        let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+        panel = panel.layer(Line::new("linear", (0..=140).map(density), style));
+    }
+    panel = panel.layer(Mark::vertical(numerical.value, ""));
+    panel.title = format!(
+        "± {} by the parameters, ± {} numerical",
+        significant(spread.deviation, 2),
+        significant(numerical.error, 2)
+    );
+    Some(panel)
 }

@@ -65,8 +65,8 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
 }
 
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
-/// names at the accuracies, and rings round the settings in `chosen`.
-pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
+/// names at the fidelities, and rings of this name and colour round some settings.
+pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize])) -> Panel {
     let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
     let label = format!("error of {}", tradeoff.of_what());
     // Room for points and names at the ends.
@@ -77,28 +77,34 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
     let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|point| point.best).filter_map(place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
-    for (family, name, colour, shape) in [
-        (Family::Fidelity, "accuracies", Colour::FILM, Shape::Circle),
+    for (family, of_family, colour, shape) in [
+        (Family::Fidelity, "fidelities", Colour::FILM, Shape::Circle),
         (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
         (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
     ] {
-        let of_family = tradeoff.points.iter().filter(|point| point.run.candidate.family == family);
-        let points: Vec<[f64; 2]> = of_family.filter_map(place).collect();
+        let members = tradeoff.points.iter().filter(|point| point.run.candidate.family == family);
+        let points: Vec<[f64; 2]> = members.filter_map(place).collect();
         if !points.is_empty() {
-            panel = panel.layer(Points::new(name, points, colour, Marker::solid(shape)));
+            panel = panel.layer(Points::new(of_family, points, colour, Marker::solid(shape)));
         }
     }
     let rings: Vec<[f64; 2]> = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place).collect();
     if !rings.is_empty() {
         let ring = Marker { size: 9.0, ..Marker::hollow(Shape::Circle) };
         // Under the points, so that they stay to be seen.
-        panel.layers.insert(1, Points::new("chosen", rings, Colour::BLACK, ring).into());
+        panel.layers.insert(1, Points::new(name, rings, colour, ring).into());
     }
     for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
         if let Some(at) = place(point) {
             panel = panel.layer(Text::new(at, point.run.candidate.name.clone()));
         }
     }
+    panel
+}
+
+/// Error against time as a figure, with rings round the settings in `chosen`.
+pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
+    let panel = panel(tradeoff, ("chosen", Colour::BLACK, chosen));
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
     let provenance = Provenance { note: format!("medians of {runs} runs"), ..Provenance::named(preset) };
     Figure { provenance, ..Figure::default() }.panel(panel)

@@ -41,7 +41,7 @@ impl Layout {
         let width = figure.width.points();
         let count = figure.panels.len();
         let columns = figure.columns.clamp(1, count.max(1));
-        let ranges = ranges(figure, columns);
+        let ranges = ranges(&figure.panels, columns, figure.share_x);
         let mut panels: Vec<Placed> = Vec::with_capacity(count);
         for (index, (panel, range)) in figure.panels.iter().zip(ranges).enumerate() {
             let lowest = index + columns >= count;
@@ -90,12 +90,20 @@ fn set(lines: Vec<String>, size: f64, y: &mut f64) -> Vec<([f64; 2], String)> {
 /// Ranges of a panel's axes: x, y and right.
 type Ranges = (Scaled, Scaled, Option<Scaled>);
 
-fn ranges(figure: &Figure, columns: usize) -> Vec<Ranges> {
+/// Where the axes of a panel begin and end by itself: x, and the one at the left.
+#[cfg(feature = "gui")]
+pub(crate) fn ends(panel: &Panel) -> [[f64; 2]; 2] {
+    let found = ranges(std::slice::from_ref(panel), 1, false);
+    found.first().map_or([[0.0, 1.0]; 2], |(x, y, _)| [x, y].map(|range| [range.from, range.to]))
+}
+
+/// `shared`: the panels of a column have one x axis.
+fn ranges(panels: &[Panel], columns: usize, shared: bool) -> Vec<Ranges> {
     let x = |index: usize, panel: &Panel| {
         let column = index % columns;
         let mut values = Vec::new();
-        for (i, other) in figure.panels.iter().enumerate() {
-            if i == index || (figure.share_x && i % columns == column) {
+        for (i, other) in panels.iter().enumerate() {
+            if i == index || (shared && i % columns == column) {
                 x_values(other, panel.x.scale, &mut values);
             }
         }
@@ -112,7 +120,7 @@ fn ranges(figure: &Figure, columns: usize) -> Vec<Ranges> {
     let of = |(index, panel): (usize, &Panel)| {
         (x(index, panel), y(panel, &panel.y, false), panel.right.as_ref().map(|axis| y(panel, axis, true)))
     };
-    figure.panels.iter().enumerate().map(of).collect()
+    panels.iter().enumerate().map(of).collect()
 }
 
 fn x_values(panel: &Panel, scale: Scale, values: &mut Vec<f64>) {

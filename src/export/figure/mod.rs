@@ -69,6 +69,8 @@ pub use svg::escaped;
 
 #[cfg(feature = "gui")]
 pub(crate) use geometry::{contour, is_contour};
+#[cfg(feature = "gui")]
+pub(crate) use layout::ends;
 
 pub(super) use axis::extent;
 pub(super) use error::Pixels;

@@ -1,6 +1,5 @@
 //! What is drawn, computed from runs and scenes: scales, curves, samples, texts. No egui in here, and no state.
 
-pub mod exact;
 pub mod format;
 pub mod ring;
 pub mod scales;

@@ -1,12 +1,18 @@
 //! What charts have in common.
 
-use crate::gui::ui::glossary;
-use crate::gui::ui::paint::{PlotStyle, widened};
+use super::glossary;
+use super::hint::text_width;
+use super::paint::{PlotStyle, widened};
+use super::theme::on_screen;
+use crate::digits::{power_of_ten, short};
+use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Panel, Scale, Shape, ends};
 use crate::ticks::{Steps, decades};
-use eframe::egui::{self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, TextStyle, UiBuilder, pos2, vec2};
+use eframe::egui::{
+    self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, Stroke, TextStyle, UiBuilder, Visuals, pos2, vec2,
+};
 use egui_plot::{
-    AxisHints, FilledArea, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse,
-    PlotTransform, PlotUi, Points, VLine,
+    AxisHints, FilledArea, GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotMemory,
+    PlotPoint, PlotPoints, PlotResponse, PlotTransform, PlotUi, Points, VLine,
 };
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
@@ -15,16 +21,18 @@ const NUMBERS: f32 = 3.6;
 const NUMBER_EVERY: f32 = 2.6;
 /// A number below at most every so many.
 const COLUMN_EVERY: f32 = 4.5;
-/// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
-pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
 /// Width of a line of a tab.
-pub(super) const WIDTH: f32 = 2.0;
+const WIDTH: f32 = 2.0;
+/// Significant digits of a value of a logarithmic axis, or of one that is pointed at.
+const DIGITS: usize = 4;
+/// Values of a logarithmic axis up to this many decades from 1 are written out.
+const PLAIN_DECADES: f64 = 3.5;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
 /// A plot: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn with the right button, and back with a
 /// double click. The wheel alone scrolls the tab that it is in.
-pub(super) fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
+fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
     Plot::new(name.to_owned())
         .id(id(name))
         .height(height)
@@ -55,71 +63,197 @@ fn framed<'a, R>(
     })
 }
 
-/// A line that does not answer to the pointer.
+/// A line that does not answer to the pointer. As one path a solid one would be drawn thinner where it is steep, and with spikes where it
+/// turns: it is a chain of segments.
 pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
+    let style = if style == LineStyle::Solid { LineStyle::Dashed { length: 1e6 } } else { style };
     Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
 }
 
-/// A chart of a tab, over its whole width, whose axes are explained on hover. Values are read below it.
+/// A chart of a tab, over its whole width, whose axes are explained on hover: a panel as figures describe it, in the colours of the window.
+/// Points that have a name tell their values; other values are read below it.
 pub(super) struct Chart<'n> {
     /// What tells it from other charts, and screen readers what it is.
     pub(super) name: &'n str,
     /// Its height, with the axis below.
     pub(super) height: f32,
-    /// Ranges of the axes until they are zoomed.
-    pub(super) bounds: [[f64; 2]; 2],
-    /// Name of the axis below; empty if there is none.
-    pub(super) below: &'n str,
+    /// Axes, and what is drawn, but for maps. Axes have these ranges until they are zoomed.
+    pub(super) panel: &'n Panel,
     /// What the glossary explains the axis below under, if it does, and the one at the left.
     pub(super) words: (Option<&'n str>, &'n str),
 }
 
-impl Chart<'_> {
-    /// Shows what `add` draws.
-    pub(super) fn show<'a, R>(self, ui: &mut egui::Ui, add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a) -> PlotResponse<R> {
-        self.show_with(ui, |plot| plot, add)
+impl<'n> Chart<'n> {
+    /// Shows it; the x that is pointed at.
+    pub(super) fn show(self, ui: &mut egui::Ui) -> Option<f64> {
+        self.show_with(ui, |plot| plot)
     }
 
-    /// As [`Self::show`], with changes to the plot, such as marks of its own.
-    pub(super) fn show_with<'a, R>(
-        self,
-        ui: &mut egui::Ui,
-        change: impl FnOnce(Plot<'a>) -> Plot<'a>,
-        add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
-    ) -> PlotResponse<R> {
-        let Self { name, height, bounds, below, words: (x, y) } = self;
-        let (whole, mut plot) = (place(ui, height), chart(ui, name, height));
-        if bounds[0][0] == 0.0 && bounds[1][0] == 0.0 {
-            // One zero is enough for both axes.
-            plot = plot.y_axis_formatter(|mark, range| {
+    /// As [`Self::show`], with changes to the plot.
+    pub(super) fn show_with(self, ui: &mut egui::Ui, change: impl FnOnce(Plot<'n>) -> Plot<'n>) -> Option<f64> {
+        let Self { name, height, panel, words } = self;
+        let (x, y) = (&panel.x, &panel.y);
+        let em = ui.text_style_height(&TextStyle::Body);
+        let whole = place(ui, height);
+        let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
+        let columns = f64::from((whole.width() / (COLUMN_EVERY * em)).max(1.0));
+        let ends = ends(panel);
+        let bounds = [ends[0].map(|end| on_axis(x, end)), ends[1].map(|end| on_axis(y, end))];
+        // One zero is enough for both axes.
+        let zeros = ends[0][0] == 0.0 && ends[1][0] == 0.0;
+        let named = y.names.iter().map(|(_, name)| text_width(ui, name) + 0.8 * em).fold(NUMBERS * em, f32::max);
+        let below = if x.unit.is_empty() { x.label.clone() } else { format!("{}, {}", x.label, x.unit) };
+        let plot = numbered(name, height, [AxisHints::new_x(), AxisHints::new_y()])
+            .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
+            .y_axis_min_width(named)
+            .x_grid_spacer(move |input| axis_marks(x, &input, columns))
+            .y_grid_spacer(move |input| axis_marks(y, &input, lines))
+            .x_axis_formatter(|mark, _| written(x, mark))
+            .y_axis_formatter(move |mark, range| {
                 let above = (mark.value - range.start()) / (range.end() - range.start());
-                if mark.value == 0.0 && above < 0.02 { String::new() } else { tick(mark) }
+                if zeros && mark.value == 0.0 && above < 0.02 { String::new() } else { written(y, mark) }
+            })
+            .label_formatter(|at| match at {
+                HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => Some(format!(
+                    "{plot_name}\n{}: {}",
+                    written(x, exactly(position.x)),
+                    written(y, exactly(position.y))
+                )),
+                _ => None,
             });
-        }
         let plot = if below.is_empty() { plot } else { plot.x_axis_label(below) };
-        let shown = framed(ui, (name, change(plot)), bounds, add);
+        let visuals = ui.visuals().clone();
+        let shown = framed(ui, (name, change(plot)), bounds, |plot| {
+            panel.layers.iter().for_each(|layer| draw(plot, panel, layer, &visuals));
+            plot.pointer_coordinate().map(|at| at.x)
+        });
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-        axes(ui, whole, *shown.transform.frame(), x, y);
-        shown
+        axes(ui, whole, *shown.transform.frame(), words.0, words.1);
+        names(ui, panel, &shown.transform);
+        shown.inner.filter(|_| shown.response.hovered())
     }
 }
 
-/// A plot with marks at round numbers, as far apart as they have to be.
-fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
-    let em = ui.text_style_height(&TextStyle::Body);
-    let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
-    let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
-    numbered(name, height, [AxisHints::new_x(), AxisHints::new_y()])
-        .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
-        .y_axis_min_width(NUMBERS * em)
-        .x_grid_spacer(move |input| round_ticks(&input, columns))
-        .y_grid_spacer(move |input| round_ticks(&input, lines))
-        .x_axis_formatter(|mark, _| tick(mark))
-        .y_axis_formatter(|mark, _| tick(mark))
+/// Where a value is on an axis: on a logarithmic one, its logarithm.
+fn on_axis(axis: &Axis, value: f64) -> f64 {
+    if axis.scale == Scale::Log { value.log10() } else { value }
+}
+
+/// Marks of an axis, at most about `most` where they are numbers.
+fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
+    match axis {
+        Axis { names, .. } if !names.is_empty() => names.iter().map(|(at, _)| exactly(*at)).collect(),
+        Axis { scale: Scale::Log, .. } => powers(input, most, true),
+        Axis { whole: true, .. } => whole(input, most),
+        _ => round_ticks(input, most),
+    }
+}
+
+/// What is written at a mark.
+fn written(axis: &Axis, mark: GridMark) -> String {
+    let name = axis.names.iter().find(|(at, _)| *at == mark.value);
+    match (name, axis.scale) {
+        (Some((_, name)), _) => name.clone(),
+        (None, Scale::Log) if mark.value.abs() > PLAIN_DECADES => power_of_ten(mark.value.round()),
+        (None, Scale::Log) => short(10f64.powf(mark.value), DIGITS),
+        (None, Scale::Linear) if mark.step_size == 0.0 => short(mark.value, DIGITS),
+        (None, Scale::Linear) => tick(mark),
+    }
+}
+
+/// A mark that no other is near.
+fn exactly(value: f64) -> GridMark {
+    GridMark { value, step_size: 0.0 }
+}
+
+fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) {
+    let at = |[x, y]: [f64; 2]| [on_axis(&panel.x, x), on_axis(&panel.y, y)];
+    let colour = |of: Colour| on_screen(of, visuals);
+    match layer {
+        Layer::Line(figure::Line { name, points, style, .. }) => {
+            let (colour, width) = (colour(style.colour), WIDTH * style.width as f32);
+            let pieces = pieces(panel, points);
+            for piece in &pieces {
+                plot.line(line(piece, colour, width, dashes(style.dash)));
+            }
+            if style.marker.is_some() {
+                plot.points(named_dots(name, pieces.concat(), colour, 2.0));
+            }
+        }
+        Layer::Band(band) => {
+            let columns = band.points.iter().map(|[x, low, high]| [on_axis(&panel.x, *x), *low, *high]);
+            plot.add(between(&columns.collect::<Vec<_>>(), colour(band.colour).gamma_multiply(band.opacity as f32)));
+        }
+        Layer::Points(figure::Points { name, points, errors, colour: of, marker }) => {
+            for ([x, y], error) in points.iter().zip(errors).filter(|(_, error)| error.is_finite()) {
+                let bar = [-1.0, 1.0].map(|sign| at([*x, y + sign * error]));
+                plot.line(line(&bar, colour(*of), 1.0, LineStyle::Solid));
+            }
+            let dots = named_dots(name, pieces(panel, points).concat(), colour(*of), 0.9 * marker.size as f32);
+            plot.points(dots.shape(shape(marker.shape)).filled(!marker.hollow));
+        }
+        Layer::Mark(Mark { direction, at: value, style, .. }) => {
+            let (colour, width, dash) = (colour(style.colour), 1.5 * style.width as f32, dashes(style.dash));
+            match direction {
+                Direction::Horizontal => plot.hline(level(on_axis(&panel.y, *value), colour, width).style(dash)),
+                Direction::Vertical => plot.vline(upright(on_axis(&panel.x, *value), colour, width).style(dash)),
+            }
+        }
+        Layer::Map(_) | Layer::Contours(_) | Layer::Categories(_) | Layer::Text(_) => {}
+    }
+}
+
+/// Where points are on the axes of a panel: what is not a number there interrupts a line.
+fn pieces(panel: &Panel, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let points: Vec<_> = points.iter().map(|[x, y]| [on_axis(&panel.x, *x), on_axis(&panel.y, *y)]).collect();
+    let pieces = points.split(|point| !point.iter().all(|part| part.is_finite()));
+    pieces.filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
+}
+
+/// Names of places, right of them and below; those that would lie on each other, one below the other.
+fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
+    let painter = ui.painter_at(*at.frame());
+    let mut taken: Vec<Rect> = Vec::new();
+    for layer in &panel.layers {
+        let Layer::Text(figure::Text { at: [x, y], text }) = layer else { continue };
+        let place = at.position_from_point(&PlotPoint::new(on_axis(&panel.x, *x), on_axis(&panel.y, *y)));
+        let font = TextStyle::Body.resolve(ui.style());
+        let galley = painter.layout_no_wrap(text.clone(), font, ui.visuals().text_color());
+        let mut rect = Rect::from_min_size(place + vec2(5.0, 3.0), galley.size());
+        while let Some(other) = taken.iter().find(|other| other.intersects(rect)) {
+            rect = rect.translate(vec2(0.0, other.bottom() - rect.top() + 1.0));
+        }
+        painter.galley(rect.min, galley, ui.visuals().text_color());
+        taken.push(rect);
+    }
+}
+
+/// Dots that say what they are when the pointer is near.
+fn named_dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
+    Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
+}
+
+fn dashes(dash: Dash) -> LineStyle {
+    match dash {
+        Dash::Solid => LineStyle::Solid,
+        Dash::Dashed => LineStyle::dashed_loose(),
+        Dash::Dotted => LineStyle::dotted_dense(),
+        Dash::DashDot => LineStyle::dashed_dense(),
+    }
+}
+
+fn shape(shape: Shape) -> MarkerShape {
+    match shape {
+        Shape::Circle => MarkerShape::Circle,
+        Shape::Square => MarkerShape::Square,
+        Shape::Triangle => MarkerShape::Up,
+        Shape::Diamond => MarkerShape::Diamond,
+        Shape::Cross => MarkerShape::Cross,
+    }
 }
 
 /// A plot with numbers at its axes, and no words at the pointer.
-pub(super) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
     // The spacers leave room for every number: none is to fade because others are near.
     let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
     bare(name, height)
@@ -253,12 +387,12 @@ pub(super) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
 }
 
 /// The place of the next chart of this height, with its axes.
-pub(super) fn place(ui: &egui::Ui, height: f32) -> Rect {
-    Rect::from_min_size(ui.cursor().min, egui::vec2(ui.available_width(), height))
+fn place(ui: &egui::Ui, height: f32) -> Rect {
+    Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), height))
 }
 
 /// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
-pub(super) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
+fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
     let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
     let left = Rect::from_x_y_ranges(place.left()..=frame.left(), frame.y_range());
     for (number, (rect, word)) in [(below, x), (left, Some(y))].into_iter().enumerate() {
@@ -277,16 +411,51 @@ pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
     glossary::here(ui, label, word);
 }
 
-/// Entries of a legend, which the glossary knows: name, colour, how the line is drawn.
-pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
+/// The names of what panels draw, each once, which the glossary knows.
+pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
+    let mut known: Vec<&str> = vec![""];
     ui.horizontal_wrapped(|ui| {
-        for (text, colour, style) in entries {
-            key(ui, text, SAMPLE + 0.35, 0.5, |painter, left, em| {
-                let ends = [left, left + egui::vec2(SAMPLE * em, 0.0)];
-                let stroke = egui::Stroke::new(2.0, *colour);
-                // A solid one is one dash.
-                let length = if let LineStyle::Dashed { length } = style { *length } else { 1e6 };
-                painter.extend(egui::Shape::dashed_line(&ends, stroke, length, 0.6 * length));
+        for layer in panels.iter().flat_map(|panel| &panel.layers) {
+            let (name, colour) = match layer {
+                Layer::Line(figure::Line { name, style, .. }) => (name, style.colour),
+                Layer::Points(figure::Points { name, colour, .. }) => (name, *colour),
+                Layer::Band(figure::Band { name, colour, .. }) => (name, *colour),
+                Layer::Mark(Mark { label, style, .. }) => (label, style.colour),
+                _ => continue,
+            };
+            if known.contains(&name.as_str()) {
+                continue;
+            }
+            known.push(name);
+            let colour = on_screen(colour, ui.visuals());
+            key(ui, name, SAMPLE + 0.35, 0.5, |painter, left, em| match layer {
+                Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
+                    let ends = [left, left + vec2(SAMPLE * em, 0.0)];
+                    // A solid one is one dash.
+                    let length = if let LineStyle::Dashed { length } = dashes(style.dash) { length } else { 1e6 };
+                    painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(2.0, colour), length, 0.6 * length));
+                }
+                Layer::Points(figure::Points { marker, .. }) => {
+                    let (at, radius) = (left + vec2(0.5 * SAMPLE * em, 0.0), 0.25 * em);
+                    let corner = |x: f32, y: f32| at + radius * vec2(x, y);
+                    match marker {
+                        figure::Marker { hollow: true, .. } => {
+                            painter.circle_stroke(at, 1.2 * radius, Stroke::new(2.0, colour));
+                        }
+                        figure::Marker { shape: Shape::Square, .. } => {
+                            painter.rect_filled(Rect::from_center_size(at, vec2(1.6, 1.6) * radius), 0.0, colour);
+                        }
+                        figure::Marker { shape: Shape::Triangle, .. } => {
+                            let corners = vec![corner(0.0, -1.1), corner(1.0, 0.8), corner(-1.0, 0.8)];
+                            painter.add(egui::Shape::convex_polygon(corners, colour, Stroke::NONE));
+                        }
+                        _ => drop(painter.circle_filled(at, radius, colour)),
+                    }
+                }
+                _ => {
+                    let area = Rect::from_center_size(left + vec2(0.5 * SAMPLE * em, 0.0), vec2(SAMPLE * em, 0.5 * em));
+                    painter.rect_filled(area, 1.0, colour);
+                }
             });
         }
     });
@@ -294,26 +463,20 @@ pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) 
 
 /// An entry of a legend, in one piece, so that it is a whole that goes to the next line. What `draw` draws from a place on, at half the
 /// height of the text, has `indent` before the text, which has `after` behind it, in heights of the text.
-pub(super) fn key(
-    ui: &mut egui::Ui,
-    text: &str,
-    indent: f32,
-    after: f32,
-    draw: impl FnOnce(&egui::Painter, egui::Pos2, f32),
-) {
+fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce(&egui::Painter, egui::Pos2, f32)) {
     let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
     let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
     let em = galley.size().y;
-    let size = egui::vec2(indent * em + galley.size().x + after * em, em);
+    let size = vec2(indent * em + galley.size().x + after * em, em);
     let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
     glossary::here(ui, response, text);
     draw(ui.painter(), area.left_center(), em);
-    ui.painter().galley(area.left_top() + egui::vec2(indent * em, 0.0), galley, colour);
+    ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }
 
 /// Marks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
-pub(super) fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
+fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     decades([from, to], most, between).into_iter().map(|value| GridMark { value, step_size: 1.0 }).collect()
 }
@@ -329,7 +492,7 @@ fn round_ticks(input: &GridInput, most: f64) -> Vec<GridMark> {
 }
 
 /// Marks at 1, 2 or 5 times a power of ten that is at least `least`.
-pub(super) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
+fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     if !(least.is_finite() && least > 0.0) {
         return Vec::new();
@@ -338,7 +501,7 @@ pub(super) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
 }
 
 /// Marks at whole numbers, at most about `most`.
-pub(super) fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
+fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
     apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
 }
 
@@ -356,9 +519,30 @@ pub(super) fn marks(ticks: Steps) -> Vec<GridMark> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::Progress;
+    use crate::export::figures::convergence;
 
     fn values(marks: &[GridMark]) -> Vec<f64> {
         marks.iter().map(|mark| mark.value).collect()
+    }
+
+    #[test]
+    fn every_grid_has_a_line_and_a_residual_of_zero_is_left_out() {
+        let round = |level, iteration, residual| Progress {
+            level,
+            levels: 2,
+            iteration,
+            residual,
+            tolerance: 1e-6,
+            film_load: 0.0,
+        };
+        let history = [round(0, 1, 1e-2), round(0, 2, 0.0), round(1, 1, 1e-4), round(1, 1, 1e-5)];
+        let panel = &convergence(&history).panels[0];
+        let drawn = panel.layers.iter().filter_map(|layer| match layer {
+            Layer::Line(line) => Some(pieces(panel, &line.points)),
+            _ => None,
+        });
+        assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0], [2.0, -5.0]]]]);
     }
 
     #[test]

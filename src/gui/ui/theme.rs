@@ -50,6 +50,26 @@ pub fn run_colour(slot: usize, dark: bool) -> Color32 {
     rgb(colours[slot % colours.len()])
 }
 
+/// What the accent of the window is in a description of a chart.
+pub const ACCENT: Colour = Colour(0xf0, 0xe4, 0x42);
+
+/// The colour of the window that means what this one does on paper.
+pub fn on_screen(colour: Colour, visuals: &egui::Visuals) -> Color32 {
+    let palette = palette(visuals.dark_mode);
+    let own = [
+        (Colour::BLACK, visuals.strong_text_color()),
+        (Colour::FILM, palette.film),
+        (Colour::CONTACT, palette.contact),
+        (Colour::ROTOR, palette.rotor),
+        (Colour::STATOR, palette.stator),
+        (Colour::QUIET, palette.quiet),
+        (ACCENT, palette.accent),
+    ];
+    let runs = (0..).zip(Colour::CYCLE).map(|(slot, of)| (of, run_colour(slot, visuals.dark_mode)));
+    let known = own.into_iter().chain(runs).find(|(of, _)| *of == colour);
+    known.map_or(Color32::from_rgb(colour.0, colour.1, colour.2), |(_, found)| found)
+}
+
 /// The colour of six hexadecimal digits.
 fn rgb(digits: u32) -> Color32 {
     let [_, red, green, blue] = digits.to_be_bytes();

@@ -217,7 +217,7 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     if !run.history.is_empty() {
         ui.add_space(6.0);
         cx.note(ui, "Change in each round, one line for each grid; dashed, where it may stop");
-        convergence::show(ui, &run.history, cx);
+        convergence::show(ui, &run.history);
     }
     ui.add_space(4.0);
 }

@@ -31,7 +31,7 @@ const HEADS: [f32; 2] = [11.0, 7.5];
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
-    if pins.runs().is_empty() && pins.waiting().is_empty() {
+    if pins.runs.is_empty() && pins.waiting.is_empty() {
         if pins.can_restore() && ui.button("Bring the pins back").hint("Those that were removed together").clicked() {
             cx.push(PinCommand::Restore);
         }
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     }
     chips(ui, cx);
     note(ui, cx);
-    if pins.runs().is_empty() {
+    if pins.runs.is_empty() {
         return;
     }
     ui.add_space(2.0);
@@ -73,7 +73,7 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
 /// What adds a pin.
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
-    let empty = cx.state.pins.pins().is_empty();
+    let empty = cx.state.pins.pins.is_empty();
     let button = button::first(ui, "Pin the run on screen", (empty, cx.state.run.is_some()), cx);
     if button.hint(keys::about(&pin)).clicked() {
         cx.push(pin);
@@ -96,7 +96,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         ui.separator();
         add_buttons(ui, cx);
-        if pins.runs().len() > 1 {
+        if pins.runs.len() > 1 {
             let about = "Takes all pins away; until there is another one they can be brought back";
             cx.button(ui, "Remove all", about, PinCommand::Clear);
             export_button(ui, COMPARISON, cx);
@@ -104,11 +104,11 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
     ui.add_space(2.0);
     ui.horizontal_wrapped(|ui| {
-        for (pin, run) in pins.pins().iter().zip(pins.runs()) {
+        for (pin, run) in pins.pins.iter().zip(&pins.runs) {
             let colour = run_colour(pin.slot, cx.state.dark);
             chip(ui, pin.id, run, colour, run.scene == *cx.state.document.scene(), cx);
         }
-        for waiting in pins.waiting() {
+        for waiting in &pins.waiting {
             frame(ui, cx.colours.quiet).show(ui, |ui| {
                 ui.spinner();
                 ui.label(&waiting.name);
@@ -194,8 +194,8 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
     // Bars that stay, so that columns beyond the edge are not missed.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     egui::ScrollArea::both().id_salt("numbers of pins").auto_shrink(false).show(ui, |ui| {
-        let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs().iter().any(|run| run.scene.scene() == kind));
-        if pins.runs().len() < 2 {
+        let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs.iter().any(|run| run.scene.scene() == kind));
+        if pins.runs.len() < 2 {
             ui.label(quiet("Pin another run to see differences"));
         } else {
             ui.label(quiet("Differences are from the first. The ± is the solver's estimate of its numerical error"));
@@ -214,9 +214,9 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
             cx.push(PinCommand::AllParameters(!differing));
         }
         let rows: Vec<&ParameterRow> =
-            pins.parameters().iter().filter(|row| pins.all_parameters || row.differs()).collect();
+            pins.parameters.iter().filter(|row| pins.all_parameters || row.differs()).collect();
         if rows.is_empty() {
-            let text = if pins.runs().len() < 2 { "There is nothing to differ from" } else { "None differs" };
+            let text = if pins.runs.len() < 2 { "There is nothing to differ from" } else { "None differs" };
             ui.label(quiet(text));
         } else {
             parameters(ui, &rows, cx);
@@ -229,7 +229,7 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn heads(ui: &mut Ui, [beside, roomy]: [bool; 2], cx: &DrawContext<'_>) {
     let em = ui.text_style_height(&TextStyle::Body);
     ui.label("");
-    for (i, (pin, run)) in cx.state.pins.pins().iter().zip(cx.state.pins.runs()).enumerate() {
+    for (i, (pin, run)) in cx.state.pins.pins.iter().zip(&cx.state.pins.runs).enumerate() {
         ui.scope(|ui| {
             ui.set_max_width(HEADS[usize::from(!roomy)] * em);
             let text = RichText::new(&run.label).color(run_colour(pin.slot, cx.state.dark)).strong();
@@ -255,11 +255,11 @@ fn fits_beside(ui: &Ui, count: usize) -> bool {
 }
 
 fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
-    let count = cx.state.pins.runs().len();
+    let count = cx.state.pins.runs.len();
     let beside = fits_beside(ui, count);
     grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
         heads(ui, [beside; 2], cx);
-        for row in cx.state.pins.results() {
+        for row in &cx.state.pins.results {
             let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
             glossary::term(ui, strong(capitalised(&row.label())), row.quantity.words());
@@ -287,8 +287,8 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
 }
 
 fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
-    let roomy = fits_beside(ui, cx.state.pins.runs().len());
-    grid("parameters of pins", cx.state.pins.runs().len() + 1).show(ui, |ui| {
+    let roomy = fits_beside(ui, cx.state.pins.runs.len());
+    grid("parameters of pins", cx.state.pins.runs.len() + 1).show(ui, |ui| {
         heads(ui, [false, roomy], cx);
         for row in rows {
             let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };

@@ -2,18 +2,20 @@
 
 use crate::digits::significant;
 use crate::estimate::Estimate;
+use crate::export::figure::{Axis, Band, Colour, Line, Mark, Panel, Style};
 use crate::fall::Fall;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::dropped::Dropped;
-use crate::gui::ui::chart::{Chart, SOLID, between, level, line};
+use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, Color32, RichText};
-use egui_plot::{Axis, Span};
 
 /// Height of the chart, a share of the tab.
 const SHARE: f32 = 0.75;
+/// Of the periodic solve.
+const GOOD: Colour = Colour::CYCLE[2];
 
 /// Shows the tab.
 pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
@@ -55,27 +57,21 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 /// Height over time, and the mean gap of the periodic solve.
 fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) {
-    let micrometres = |height: Estimate| [1e6 * height.value, 1e6 * height.error];
-    let (mut curve, mut band) = (Vec::new(), Vec::new());
-    for cycle in &dropped.cycles {
-        let (time, [height, error]) = (1e3 * cycle.time, micrometres(cycle.height));
-        curve.push([time, height]);
-        band.push([time, height + error, height - error]);
+    let micrometres =
+        |height: Estimate| [height.value - height.error, height.value, height.value + height.error].map(|h| 1e6 * h);
+    let cycles = dropped.cycles.iter().map(|cycle| (1e3 * cycle.time, micrometres(cycle.height)));
+    let last = dropped.cycles.last().map_or(1.0, |cycle| 1e3 * cycle.time);
+    let mut panel = Panel::new("", Axis::new("time", "ms").fixed(0.0, last), Axis::new("", "").including([0.0]));
+    if let Some([low, gap, high]) = periodic(dropped, cx).map(micrometres) {
+        panel = panel.layer(Band::new("", [0.0, last].map(|time| [time, low, high]), GOOD));
+        panel = panel.layer(Mark { style: Style::solid(GOOD), ..Mark::horizontal(gap, "") });
     }
-    let aim = periodic(dropped, cx).map(micrometres);
-    let highest = curve.iter().map(|point| point[1]).fold(0.0, f64::max);
-    let bounds = [[0.0, curve.last().map_or(1.0, |point| point[0])], [0.0, 1.1 * highest]];
-    let (film, good) = (cx.colours.film, cx.colours.good);
+    let panel = panel
+        .layer(Band::new("", cycles.clone().map(|(time, [low, _, high])| [time, low, high]), Colour::FILM))
+        .layer(Line::new("", cycles.map(|(time, [_, height, _])| [time, height]), Style::solid(Colour::FILM)));
     cx.note(ui, "Height of the plate, µm");
-    let (name, below, words) = ("Height of the plate over time", "time, ms", (None, "Floating plate"));
-    Chart { name, height, bounds, below, words }.show(ui, move |plot| {
-        if let Some([gap, error]) = aim {
-            plot.span(Span::new("", gap - error..=gap + error).axis(Axis::Y).fill(good.gamma_multiply(0.25)));
-            plot.hline(level(gap, good, 1.5));
-        }
-        plot.add(between(&band, film.gamma_multiply(0.25)));
-        plot.line(line(&curve, film, 1.8, SOLID));
-    });
+    let (name, words) = ("Height of the plate over time", (None, "Floating plate"));
+    Chart { name, height, panel: &panel, words }.show(ui);
 }
 
 /// The mean gap of the periodic solve: of the drop's own at its end, until then of the run on screen.

@@ -1,29 +1,33 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use crate::analysis::exact::{Harmonic, units};
+use crate::analysis::exact::{Comparison, Harmonic, units};
 use crate::digits::{percent, raised, significant};
 use crate::estimate::Estimate;
-use crate::gui::derived::exact::{ExactCurves, small_amplitude};
-use crate::gui::derived::format::{power_of_ten, uncertain};
+use crate::export::figures::exact::exact;
+use crate::gui::derived::format::uncertain;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, level, line, powers, title, upright};
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
 use crate::job::SolvedScene;
-use crate::problem::{Outline, Scenario};
+use crate::problem::Scenario;
+use crate::solution::{Outcome, PlateResult};
 use eframe::egui::{RichText, TextStyle, Ui};
-use egui_plot::LineStyle;
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 2] = [0.33, 0.27];
 const LEAST_LINES: [f32; 2] = [10.0, 9.0];
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
-const RADIUS: f32 = 5.0;
+/// The charts: what they are called, and what the glossary explains that and their axes under.
+const CHARTS: [(&str, &str, (Option<&str>, &str)); 2] = [
+    ("Spring and damping against the squeeze number", "Squeeze number", (Some("σ/Q"), "Spring and damping")),
+    ("Load over the cycle and its limits", "Film load", (Some("t/T"), "Film load")),
+];
 
 /// All that this tab explains below its table, as in lessons: text, and formulae that are set.
 mod notes {
@@ -104,18 +108,25 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
 pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let height = ui.available_height();
-    let known = once(ui, "exact", (run.number, run.fidelity), || ExactCurves::new(run, plate));
+    let known = once(ui, "exact", (run.number, run.fidelity), || {
+        let result = if let Outcome::Plate(result) = run.solution.outcome { result } else { PlateResult::default() };
+        let found = Comparison::of(plate, &result, &run.solution.recording);
+        let panels = exact(plate, &found, &run.solution.recording).panels;
+        (found, panels)
+    });
+    let (found, panels) = &*known;
     scrolled(ui, "exact", 14.0, |ui| {
         let em = ui.text_style_height(&TextStyle::Body);
-        let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         cx.say_if_stale(ui, run);
-        title(ui, "Spring and damping against the squeeze number", "Squeeze number");
-        coefficients(ui, &known, plate.outline(), tall(0), cx);
-        ui.add_space(4.0);
-        title(ui, &format!("Load over the cycle, {}", known.unit), "Film load");
-        cycle(ui, &known, tall(1), cx);
-        ui.add_space(4.0);
-        table(ui, &known, units(plate), cx);
+        for (i, panel) in panels.iter().enumerate() {
+            let (name, word, words) = CHARTS[i];
+            let unit = if panel.y.unit.is_empty() { String::new() } else { format!(", {}", panel.y.unit) };
+            title(ui, &format!("{name}{unit}"), word);
+            legend(ui, &[panel]);
+            Chart { name, height: (SHARES[i] * height).max(LEAST_LINES[i] * em), panel, words }.show(ui);
+            ui.add_space(4.0);
+        }
+        table(ui, found, units(plate), cx);
         ui.add_space(12.0);
         let look = Look::usual(ui);
         rich::blocks(ui, notes::of(plate.outline()), look);
@@ -123,71 +134,8 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-fn coefficients(ui: &mut Ui, known: &ExactCurves, outline: Outline, height: f32, cx: &DrawContext<'_>) {
-    let (spring, damping) = (("spring S", cx.colours.film), ("damping D", cx.colours.contact));
-    // They stay as long as the outline and the window do.
-    let curves = once(ui, "small amplitude", (outline, known.window), || small_amplitude(outline, known.window));
-    legend(
-        ui,
-        &[
-            (spring.0, spring.1, SOLID),
-            (damping.0, damping.1, SOLID),
-            ("present σ/Q, points as computed", cx.colours.accent, SOLID),
-        ],
-    );
-    let em = ui.text_style_height(&TextStyle::Body);
-    let most = f64::from((ui.available_width() / (4.0 * em)).max(2.0));
-    let name = "Spring and damping against the squeeze number";
-    let computed = known.comparison.solved.map(|found| [found.spring.value, found.damping.value]);
-    let top = computed.into_iter().flatten().fold(1.0, f64::max);
-    let (bounds, words) = ([known.window, [0.0, 1.12 * top]], (Some("σ/Q"), "Spring and damping"));
-    Chart { name, height, bounds, below: "σ/Q", words }.show_with(
-        ui,
-        |plot| {
-            plot.x_grid_spacer(move |input| powers(&input, most, false))
-                .x_axis_formatter(|mark, _| power_of_ten(mark.value.round()))
-        },
-        |plot| {
-            let present = known.comparison.effective_squeeze_number.log10();
-            plot.vline(upright(present, cx.colours.accent, 1.5));
-            for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
-                plot.line(line(points, colour, WIDTH, SOLID));
-            }
-            for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
-                plot.points(dots(vec![[present, value]], colour, RADIUS));
-            }
-        },
-    );
-}
-
-fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
-    let (boyle, viscous) = (cx.colours.contact, cx.colours.rotor);
-    let dash = LineStyle::dashed_loose();
-    legend(
-        ui,
-        &[
-            ("computed", cx.colours.film, SOLID),
-            ("gas trapped, Boyle (σ → ∞)", boyle, dash),
-            ("incompressible (σ → 0)", viscous, LineStyle::dashed_dense()),
-        ],
-    );
-    let (name, below, words) = ("Load over the cycle and its limits", "t/T", (Some("t/T"), "Film load"));
-    Chart { name, height, bounds: [[0.0, 1.0], known.bounds], below, words }.show(ui, |plot| {
-        plot.hline(level(0.0, cx.colours.quiet, 1.0));
-        let lines = [
-            (&known.boyle, boyle, dash),
-            (&known.viscous, viscous, LineStyle::dashed_dense()),
-            (&known.load, cx.colours.film, SOLID),
-        ];
-        for (points, colour, style) in lines {
-            plot.line(line(points, colour, WIDTH, style));
-        }
-    });
-}
-
 /// Computed beside exact.
-fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_>) {
-    let found = &known.comparison;
+fn table(ui: &mut Ui, found: &Comparison, units: [&str; 2], cx: &DrawContext<'_>) {
     let both = |solved: Option<Harmonic<Estimate>>| match solved {
         Some(solved) => [solved.spring, solved.damping].map(uncertain),
         None => ["nothing vibrates"; 2].map(str::to_owned),

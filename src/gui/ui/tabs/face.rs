@@ -1,12 +1,13 @@
 //! A measured face below the rotor: its heights as a map, the profile where the pointer is, and what it comes to.
 
 use crate::digits::significant;
+use crate::export::figure::{Axis, Colour, Line, Panel, Style};
 use crate::gui::command::{Command, FaceCommand};
 use crate::gui::derived::scales::span;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::face::Face;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, line, title};
+use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, field_colours, title_with_ends};
@@ -38,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     });
     if let Some(face) = state.found.as_ref() {
         let row = if face.map.ny > 1 { map(ui, face, height) } else { 0 };
-        profile(ui, &face.map, row, height, cx);
+        profile(ui, &face.map, row, height);
         numbers(ui, face, cx);
     }
 }
@@ -88,17 +89,15 @@ fn picture(map: &HeightMap, [low, high]: [f64; 2]) -> ColorImage {
     ColorImage::new(size, (0..size[0] * size[1]).map(colour).collect())
 }
 
-fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32, cx: &DrawContext<'_>) {
+fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {
     let name = "Profile along x, nm";
     title(ui, name, "Measured face");
-    let step = map.nx.div_ceil(POINTS);
     let point = |i: usize| [i as f64 * map.spacing[0] * 1e6, map.heights[row * map.nx + i] * 1e9];
-    let points: Vec<[f64; 2]> = (0..map.nx).step_by(step).map(point).collect();
+    let points = (0..map.nx).step_by(map.nx.div_ceil(POINTS)).map(point);
     let [low, high] = span(map.heights.iter().map(|height| height * 1e9));
-    let length = (map.nx - 1) as f64 * map.spacing[0] * 1e6;
-    let (bounds, words, colour) = ([[0.0, length], [low, high]], (None, "Measured face"), cx.colours.film);
-    let chart = Chart { name, height: 0.6 * height, bounds, below: "x, µm", words };
-    chart.show(ui, move |plot| plot.line(line(&points, colour, 1.5, SOLID)));
+    let panel = Panel::new("", Axis::new("x", "µm"), Axis::new("", "").fixed(low, high));
+    let panel = panel.layer(Line::new("", points, Style::solid(Colour::FILM)));
+    Chart { name, height: 0.6 * height, panel: &panel, words: (None, "Measured face") }.show(ui);
 }
 
 /// Its statistics, and what follows from two faces like it.

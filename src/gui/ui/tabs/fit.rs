@@ -1,14 +1,15 @@
 //! Keys chosen to agree with measurements, or for the optimum of a number: the table, what is asked for, and what was found.
 
 use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, Measured, Optimum};
-use crate::analysis::quantity::Quantity;
 use crate::digits::{capitalised, percent, signed, significant, with_error};
+use crate::export::figure::Panel;
+use crate::export::fit::{figures, optimum_figure};
 use crate::gui::command::{Command, FitCommand};
-use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses, quantities};
-use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, title, whole};
+use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses};
+use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, field, list};
 use crate::gui::ui::hint::Hint;
@@ -19,13 +20,13 @@ use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::{button, glossary};
 use crate::problem::Problem;
 use eframe::egui::{Grid, RichText, TextStyle, Ui};
-use egui_plot::Plot;
+use std::sync::Arc;
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
 const SHARE: f32 = 0.3;
 const LEAST_LINES: f32 = 9.0;
-/// Radius of a point.
-const RADIUS: f32 = 3.5;
+/// Height of a measurement in the chart of residuals, in heights of the text.
+const ROW: f32 = 1.3;
 /// Width of the lists and of the field for limits, in heights of the text.
 const WIDE: f32 = 13.0;
 /// Rows that are listed: all are in the files of the command line.
@@ -37,9 +38,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let state = &cx.state.fit;
     outline_fields(ui);
     scrolled(ui, "fit", 8.0, |ui| {
-        let mut form = state.form().clone();
+        let mut form = state.form.clone();
         sought(ui, &mut form, cx);
-        let agreement = state.form().sought == Sought::Agreement;
+        let agreement = state.form.sought == Sought::Agreement;
         if agreement {
             measurements(ui, state, cx);
         }
@@ -47,7 +48,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if asks {
             keys(ui, &mut form, cx);
         }
-        if form != *state.form() {
+        if form != state.form {
             cx.push(FitCommand::Form(form.clone()));
         }
         if asks {
@@ -65,9 +66,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             if state.asks_for_another() {
                 cx.say(ui, format!("Found for another question: {}", question(found)), cx.colours.alarm);
             }
+            // Both are built once for what was found.
+            let drawn = once(ui, "fit", Arc::as_ptr(found) as usize, || drawn(found));
             match &**found {
-                Found::Fit(measured, fitted) => result(ui, measured, fitted, height, cx),
-                Found::Optimum(found) => optimum(ui, found, height, cx),
+                Found::Fit(measured, fitted) => result(ui, measured, fitted, &drawn, height, cx),
+                Found::Optimum(found) => optimum(ui, found, &drawn, height, cx),
             }
         }
         ui.add_space(8.0);
@@ -110,11 +113,11 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
         if sought == Sought::Agreement {
             return;
         }
-        let known = quantities(cx.state.document.scene());
+        let known = &cx.state.fit.quantities;
         let words = known.iter().find(|(other, _)| Some(*other) == name).map_or("", |(_, words)| words.as_str());
         let called = ("Number that is sought", "The result whose optimum is sought");
         list(ui, "quantity", called, (words, WIDE), |ui| {
-            for (other, words) in &known {
+            for (other, words) in known {
                 ui.selectable_value(&mut form.quantity, Some(*other), words);
             }
         });
@@ -122,7 +125,7 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
         let about = "Limits on other results, divided by commas: alpha<0.3, stall_torque_nm>0.2. Their names are those of the columns that are exported";
         field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
-    if let (Some(fault), true) = (cx.state.fit.goal_fault(), sought != Sought::Agreement) {
+    if let (Some(fault), true) = (&cx.state.fit.goal_fault, sought != Sought::Agreement) {
         cx.say(ui, fault, cx.colours.alarm);
     }
 }
@@ -162,7 +165,7 @@ fn keys(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
             if ui.horizontal_wrapped(|ui| key(ui, form, i, cx)).inner {
                 less = Some(i);
             }
-            if let Some(fault) = cx.state.fit.faults().get(i).and_then(Option::as_ref) {
+            if let Some(fault) = cx.state.fit.faults.get(i).and_then(Option::as_ref) {
                 cx.say(ui, fault, cx.colours.alarm);
             }
         });
@@ -192,7 +195,7 @@ fn key(ui: &mut Ui, form: &mut FitForm, i: usize, cx: &DrawContext<'_>) -> bool 
 
 fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     let state = &cx.state.fit;
-    let agreement = state.form().sought == Sought::Agreement;
+    let agreement = state.form.sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.work.running() {
             cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
@@ -204,14 +207,14 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
             });
             return;
         }
-        let good = state.faults().iter().all(Option::is_none) && !state.form().axes.is_empty();
-        let good = good && (agreement || state.goal_fault().is_none());
+        let good = state.faults.iter().all(Option::is_none) && !state.form.axes.is_empty();
+        let good = good && (agreement || state.goal_fault.is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";
         let text = if agreement { "Fit the scene" } else { "Find the optimum" };
         if button::first(ui, text, (state.found.is_none(), good), cx).hint(about).clicked() {
             cx.push(FitCommand::Start);
         }
-        if state.form().has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
+        if state.form.has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
             form.add(cx.state.document.scene());
             cx.push(FitCommand::Form(form));
         }
@@ -223,8 +226,33 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     }
 }
 
+/// Charts of what was found, and the words for its numbers.
+#[derive(Default)]
+struct Drawn {
+    panels: Vec<Panel>,
+    /// Of an optimum, what is sought and what is limited.
+    words: Vec<String>,
+}
+
+fn drawn(found: &Found) -> Drawn {
+    // It was solved as it is.
+    let Ok(problem) = Problem::try_from(found.scene()) else { return Drawn::default() };
+    match found {
+        Found::Fit(measured, fitted) => {
+            let figures = figures(&problem, fitted, measured).into_iter();
+            let panels = figures.filter(|(name, _)| ["fit", "residuals"].contains(name));
+            Drawn { panels: panels.flat_map(|(_, figure)| figure.panels).collect(), words: Vec::new() }
+        }
+        Found::Optimum(found) => {
+            let limited = found.goal.limits.iter().map(|(_, quantity)| *quantity);
+            let words = std::iter::once(found.goal.quantity).chain(limited).map(|quantity| quantity.label(&problem));
+            Drawn { panels: optimum_figure(&problem, found).panels, words: words.collect() }
+        }
+    }
+}
+
 /// What was found.
-fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
+fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
     Grid::new("values").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
         for one in &found.unknowns {
@@ -244,7 +272,7 @@ fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &Dr
     };
     cx.note(ui, how);
     ui.add_space(4.0);
-    charts(ui, measured, found, height, cx);
+    charts(ui, drawn, height);
     rows(ui, measured, found, cx);
 }
 
@@ -258,11 +286,10 @@ fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
 }
 
 /// The optimum that was found.
-fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
+fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
-    let Ok(problem) = Problem::try_from(&found.scene) else { return };
+    let Some((sought, limited)) = drawn.words.split_first() else { return };
     let strong = ui.visuals().strong_text_color();
-    let words = |quantity: Quantity| quantity.label(&problem);
     Grid::new("optimum").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
         let row = |ui: &mut Ui, name: &str, about: &str, value: String, beside: String| {
             ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
@@ -275,9 +302,9 @@ fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
             |before| format!("{before} as the scene was"),
         );
         let value = found.value.to_string();
-        row(ui, &words(found.goal.quantity), "The result that is sought, with its numerical error", value, before);
-        for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
-            row(ui, &words(*quantity), "A result that is limited", reached.to_string(), format!("allowed: {limit}"));
+        row(ui, sought, "The result that is sought, with its numerical error", value, before);
+        for (((limit, _), words), reached) in found.goal.limits.iter().zip(limited).zip(&found.limited) {
+            row(ui, words, "A result that is limited", reached.to_string(), format!("allowed: {limit}"));
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
@@ -294,24 +321,10 @@ fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
     });
     take(ui, cx);
     ui.add_space(4.0);
-    let unit = words(found.goal.quantity);
-    for scan in &found.lines {
-        let parameter = scan.unknown.parameter;
-        let name = format!("{unit} over {}", label(parameter));
-        let points: Vec<[f64; 2]> = scan.points.iter().filter_map(|(x, y)| Some([*x, (*y)?])).collect();
-        let [low, high] = span(points.iter().map(|point| point[1]).chain([found.value.value]));
-        let [left, right] = span(points.iter().map(|point| point[0]));
-        let margin = 0.08 * (high - low).max(1e-12);
-        title(ui, &name, "Line through the optimum");
-        let below = format!("{}, {}", label(parameter), parameter.unit);
-        let below = below.trim_end_matches([',', ' ']);
-        let (film, contact, at) = (cx.colours.film, cx.colours.contact, vec![[scan.value, found.value.value]]);
-        let bounds = [[left, right], [low - margin, high + margin]];
-        let words = (None, "Line through the optimum");
-        Chart { name: &name, height: 0.7 * height, bounds, below, words }.show(ui, move |plot| {
-            plot.line(line(&points, film, 2.0, SOLID));
-            plot.points(dots(at, contact, RADIUS));
-        });
+    for (scan, panel) in found.lines.iter().zip(&drawn.panels) {
+        let (name, word) = (format!("{sought} over {}", label(scan.unknown.parameter)), "Line through the optimum");
+        title(ui, &name, word);
+        Chart { name: &name, height: 0.7 * height, panel, words: (None, word) }.show(ui);
     }
 }
 
@@ -335,46 +348,19 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
     });
 }
 
-/// Measured against computed, both as shares of the largest of their kind, and residuals row by row.
-fn charts(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
-    let largest = |name: &str| {
-        let alike = measured.measurements.iter().filter(|one| one.what.name() == name);
-        alike.map(|one| one.value.abs()).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
-    };
-    let points: Vec<[f64; 2]> = measured
-        .measurements
-        .iter()
-        .zip(&found.rows)
-        .filter_map(|(one, row)| {
-            let unit = largest(one.what.name());
-            Some([row.computed.as_ref().ok()?.value / unit, one.value / unit])
-        })
-        .collect();
-    let ends =
-        points.iter().flatten().fold([0.0_f64, 1.0_f64], |[low, high], end| [low.min(*end), high.max(1.05 * end)]);
-    legend(ui, &[("measured", cx.colours.contact, SOLID), ("as computed", cx.colours.quiet, SOLID)]);
-    let name = "Measured against computed";
-    title(ui, name, name);
-    let below = "computed, a share of the largest measured";
-    let (contact, quiet) = (cx.colours.contact, cx.colours.quiet);
-    Chart { name, height, bounds: [ends, ends], below, words: (Some(name), name) }.show(ui, move |plot| {
-        plot.line(line(&[[ends[0], ends[0]], [ends[1], ends[1]]], quiet, 1.0, SOLID));
-        plot.points(dots(points, contact, RADIUS));
-    });
-    let residuals: Vec<[f64; 2]> =
-        (1..).zip(&found.rows).filter_map(|(i, row): (u32, _)| Some([f64::from(i), row.residual?])).collect();
-    let widest = residuals.iter().fold(2.0, |widest: f64, one| widest.max(1.1 * one[1].abs()));
-    title(ui, "Residuals: computed minus measured, in standard errors", "Residual");
-    let bounds = [[0.5, found.rows.len() as f64 + 0.5], [-widest, widest]];
-    let (name, below, words) = ("Residuals", "measurement", (Some("Residual"), "Residual"));
-    let chart = Chart { name, height: 0.7 * height, bounds, below, words };
-    let counted = |plot: Plot<'static>| plot.x_grid_spacer(|input| whole(&input, 10.0));
-    chart.show_with(ui, counted, move |plot| {
-        for at in [-1.0, 0.0, 1.0] {
-            plot.hline(level(at, quiet, 1.0));
-        }
-        plot.points(dots(residuals, contact, RADIUS));
-    });
+/// Measured against computed, a chart for each kind of measurement, torques over the speed; and residuals row by row.
+fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
+    let Some((residuals, kinds)) = drawn.panels.split_last() else { return };
+    for panel in kinds {
+        let (name, word) = (format!("Measured against computed: {}", panel.x.label), "Measured against computed");
+        title(ui, &name, word);
+        legend(ui, &[panel]);
+        Chart { name: &name, height, panel, words: (Some(word), word) }.show(ui);
+    }
+    let (name, word) = ("Residuals: computed minus measured, in standard errors", "Residual");
+    title(ui, name, word);
+    let named = ROW * residuals.y.names.len() as f32 * ui.text_style_height(&TextStyle::Body);
+    Chart { name, height: named.max(0.7 * height), panel: residuals, words: (Some(word), word) }.show(ui);
 }
 
 /// The measurements beside what is computed.

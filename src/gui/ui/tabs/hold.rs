@@ -57,7 +57,7 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
             cx.push(HoldCommand::To(gap * 1e-6));
         }
-        let floats = hold.plate().load.is_some();
+        let floats = hold.plate.load.is_some();
         let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
         let (text, about, vibrates) = match hold.free {
             Some(true) => ("Stop", "The vibration ends, and the plate sinks", false),

@@ -14,7 +14,7 @@ pub const LOW: f32 = 480.0;
 /// The labels above the middle, and at their right what pins the run.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
-    let (present, pinned, solved) = (state.view.tab, state.pins.runs().len(), state.run.is_some());
+    let (present, pinned, solved) = (state.view.tab, state.pins.runs.len(), state.run.is_some());
     let plate = state.document.scene().kind() == Kind::Plate;
     let labels = |ui: &mut egui::Ui| {
         for &(tab, _) in Tab::ALL.iter().filter(|(tab, _)| *tab != Tab::Rotor || !plate) {

@@ -3,13 +3,12 @@
 //! (`face`).
 
 use super::{face, surface};
-use crate::analysis::rotor::{Bent, Curve, RotorCurves};
+use crate::analysis::rotor::{Bent, RotorCurves};
 use crate::digits::{percent, significant};
+use crate::export::figure::{Axis, Colour, Dash, Line, Marker, Panel, Style};
 use crate::gui::command::Command;
-use crate::gui::derived::format::power_of_ten;
-use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, powers, title};
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::Axes;
@@ -17,8 +16,7 @@ use crate::gui::ui::scroll::scrolled;
 use crate::problem::{Problem, Scenario};
 use crate::scene::edges::{lengths, reach, with_edge};
 use crate::scene::{Parameter, Value};
-use eframe::egui::{self, Color32, CursorIcon, Rect, Sense, Stroke, TextStyle, Ui, vec2};
-use egui_plot::LineStyle;
+use eframe::egui::{self, CursorIcon, Rect, Sense, Stroke, TextStyle, Ui, vec2};
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.3, 0.3, 0.5];
@@ -39,7 +37,7 @@ const STEP: f64 = 0.01;
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();
-    let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::try_from(scene) else {
+    let Some(Problem { scenario: Scenario::Motor(motor), .. }) = &cx.state.problem else {
         cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
         return;
     };
@@ -48,7 +46,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         match known {
             None => drop(ui.label("Computing the rotor…")),
             // Of curves their numbers say it, so that what is dragged does not move away.
-            Some(Err(_)) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
+            Some(Err(_)) if !cx.state.rotor.is_of(motor) => cx.note(ui, "Of the rotor before this edit"),
             Some(_) => {}
         }
         if let Some(Err(why)) = known {
@@ -58,90 +56,50 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         if let Some(found) = found {
-            curves(ui, found, [tall(0), tall(1)], cx);
-            numbers(ui, found, cx.state.rotor.is_of(&motor), cx);
+            curves(ui, found, [tall(0), tall(1)]);
+            numbers(ui, found, cx.state.rotor.is_of(motor), cx);
         }
         if let Some(Value::Records(parts)) = scene.get("rotor.part") {
             ui.add_space(4.0);
             title(ui, "Cross-section of the rotor, mm: drag an edge", "Cross-section");
-            let bent = found.and_then(|found| found.bent.as_ref()).filter(|_| cx.state.rotor.is_of(&motor));
+            let bent = found.and_then(|found| found.bent.as_ref()).filter(|_| cx.state.rotor.is_of(motor));
             section(ui, &parts, [motor.contact_radius, motor.contact_width], bent, tall(2), cx);
         }
-        surface::show(ui, &motor, tall(1), cx);
+        surface::show(ui, motor, tall(1), cx);
         face::show(ui, tall(1), cx);
     });
 }
 
-fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<'_>) {
-    let (film, contact, rotor) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
-    let styles = [(film, SOLID), (contact, LineStyle::dashed_loose()), (rotor, LineStyle::dashed_dense())];
-    let styled: Vec<_> = found.curves.iter().zip(styles).collect();
-    let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (&*curve.name, *colour, *style)).collect();
-    legend(ui, &entries);
-    let em = ui.text_style_height(&TextStyle::Body);
-    if ui.available_width() > BESIDE * em {
-        ui.columns(2, |columns| {
-            compliance(&mut columns[0], &styled, heights[0]);
-            green(&mut columns[1], &styled, heights[0]);
-        });
-    } else {
-        compliance(ui, &styled, heights[0]);
-        green(ui, &styled, heights[1]);
+fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2]) {
+    let colours = [Colour::FILM, Colour::CONTACT, Colour::ROTOR];
+    let styles = colours.into_iter().zip([Dash::Solid, Dash::Dashed, Dash::DashDot]);
+    let styles =
+        styles.map(|(colour, dash)| Style { marker: Some(Marker::default()), ..Style::solid(colour).dash(dash) });
+    let x = Axis::new("harmonic n of the wave", "").log();
+    let mut compliance = Panel::new("", x, Axis::new("", "").log());
+    let mut green = Panel::new("", Axis::new("x from the force", "mm"), Axis::new("", ""));
+    for (curve, style) in found.curves.iter().zip(styles) {
+        let points = (1..).zip(&curve.compliance).take(SHOWN).map(|(n, c)| [f64::from(n), *c]);
+        compliance = compliance.layer(Line::new(&*curve.name, points, style));
+        let half = curve.green.iter().map(|[x, g]| [1e3 * x, 1e6 * g]);
+        let both = half.clone().rev().map(|[x, g]| [-x, g]).chain(half.skip(1));
+        green = green.layer(Line::new(&*curve.name, both, Style { marker: None, ..style }));
     }
-}
-
-type Styled<'a> = [(&'a Curve, (Color32, LineStyle))];
-
-fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
-    let name = "Compliance by harmonic, m²/N";
-    title(ui, name, "Compliance");
-    let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
-        .iter()
-        .map(|(curve, (colour, style))| {
-            let points = (1..).zip(&curve.compliance).take(SHOWN);
-            (points.map(|(n, c)| [f64::from(n).log10(), c.log10()]).collect(), *colour, *style)
-        })
-        .collect();
-    let [low, high] = span(lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1])));
-    let bounds = [[0.0, (SHOWN as f64).log10()], [low - 0.1, high + 0.1]];
-    let (below, words) = ("harmonic n of the wave", (Some("Harmonic"), "Compliance"));
-    Chart { name, height, bounds, below, words }.show_with(
-        ui,
-        |plot| {
-            plot.x_grid_spacer(|input| powers(&input, 6.0, true))
-                .y_grid_spacer(|input| powers(&input, 6.0, false))
-                .x_axis_formatter(|mark, _| format!("{:.0}", 10f64.powf(mark.value)))
-                .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()))
-        },
-        |plot| {
-            for (points, colour, style) in &lines {
-                plot.line(line(points, *colour, WIDTH, *style));
-                plot.points(dots(points.clone(), *colour, 2.0));
-            }
-        },
-    );
-}
-
-fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
-    let name = "Deflection under a unit force, µm/N";
-    title(ui, name, "Green's function");
-    let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
-        .iter()
-        .map(|(curve, (colour, style))| {
-            let half = curve.green.iter().map(|[x, g]| [1e3 * x, 1e6 * g]);
-            let both = half.clone().rev().map(|[x, g]| [-x, g]).chain(half.skip(1));
-            (both.collect(), *colour, *style)
-        })
-        .collect();
-    let points = || lines.iter().flat_map(|(points, ..)| points.iter());
-    let [[_, end], [least, top]] = [0, 1].map(|i| span(points().map(|point| point[i])));
-    let bounds = [[-end, end], [least - 0.05 * (top - least), 1.05 * top]];
-    let (below, words) = ("x from the force, mm", (None, "Green's function"));
-    Chart { name, height, bounds, below, words }.show(ui, |plot| {
-        for (points, colour, style) in &lines {
-            plot.line(line(points, *colour, WIDTH, *style));
-        }
-    });
+    legend(ui, &[&compliance]);
+    let charts = [
+        ("Compliance by harmonic, m²/N", &compliance, "Compliance", Some("Harmonic")),
+        ("Deflection under a unit force, µm/N", &green, "Green's function", None),
+    ];
+    let show = |ui: &mut Ui, i: usize, height: f32| {
+        let (name, panel, word, below) = charts[i];
+        title(ui, name, word);
+        Chart { name, height, panel, words: (below, word) }.show(ui);
+    };
+    if ui.available_width() > BESIDE * ui.text_style_height(&TextStyle::Body) {
+        ui.columns(2, |columns| (0..2).for_each(|i| show(&mut columns[i], i, heights[0])));
+    } else {
+        (0..2).for_each(|i| show(ui, i, heights[i]));
+    }
 }
 
 fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>) {

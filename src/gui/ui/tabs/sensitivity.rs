@@ -1,30 +1,25 @@
 //! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
 
-use crate::analysis::sensitivity::{LEAST, Sensitivity, Uncertainties};
-use crate::digits::{percent, short, significant};
+use crate::analysis::sensitivity::{Sensitivity, Uncertainties};
+use crate::digits::{capitalised, percent, short, significant};
+use crate::export::sensitivity::{bars, distribution};
 use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::uncertain;
-use crate::gui::derived::scales::span;
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::sensitivity::SensitivityState;
-use crate::gui::ui::chart::{Chart, between, line, title, upright};
+use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::hint::{Hint, text_width};
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
 use crate::gui::ui::{button, glossary};
 use crate::scene::Parameter;
 use eframe::egui::{self, RichText, TextStyle, Ui};
-use egui_plot::{GridMark, LineStyle};
 
 /// Height of a bar with the space to the next, in heights of the text; and of the histogram.
 const BAR: f32 = 1.35;
 const HISTOGRAM: f32 = 11.0;
-/// Half the thickness of a bar, of the space from one to the next.
-const HALF: f64 = 0.36;
-/// Around the bars, a share of their range.
-const MARGIN: f64 = 0.03;
 /// Random scenes that can be asked for.
 const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
 
@@ -150,55 +145,20 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
 
 fn tornado(ui: &mut Ui, shown: Shown<'_>) {
     let Shown { found, output, cx, .. } = shown;
-    let (bars, smaller) = found.tornado(output, None);
     ui.add_space(4.0);
     title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
-    if bars.is_empty() {
+    let mut panel = bars(found, output, None);
+    if panel.y.names.is_empty() {
         cx.note(ui, "It depends on none of them");
         return;
     }
-    let names: Vec<&str> = bars.iter().map(|(parameter, _)| label(parameter)).collect();
-    let (count, em) = (bars.len() as f64, ui.text_style_height(&TextStyle::Body));
-    let gutter = names.iter().map(|name| text_width(ui, name)).fold(0.0, f32::max) + 0.8 * em;
-    let height = BAR * em * count as f32 + 1.6 * em;
-    let ends = bars.iter().flat_map(|(_, bar)| [bar.value - bar.error, bar.value + bar.error]);
-    let [low, high] = span(ends.chain([0.0]));
-    let room = MARGIN * (high - low);
-    let name = "Tornado chart";
-    let rows: Vec<GridMark> = (0..bars.len()).map(|row| GridMark { value: -(row as f64), step_size: 1.0 }).collect();
-    let named = names.clone();
-    let strong = ui.visuals().strong_text_color();
-    let quiet = cx.colours.quiet;
-    let (up, down) = (cx.colours.film, cx.colours.contact);
-    let drawn = bars.clone();
-    let (bounds, words) = ([[low - room, high + room], [0.6 - count, 0.6]], (Some("Elasticity"), "Elasticity"));
-    Chart { name, height, bounds, below: "", words }.show_with(
-        ui,
-        |plot| {
-            plot.y_axis_min_width(gutter)
-                .y_grid_spacer(move |_| rows.clone())
-                .y_axis_formatter(move |mark, _| {
-                    let row = (-mark.value).round();
-                    let name = named.get(row.max(0.0) as usize).filter(|_| row >= 0.0);
-                    name.map_or_else(String::new, |name| (*name).to_owned())
-                })
-                .allow_zoom(false)
-                .allow_drag(false)
-        },
-        move |plot| {
-            for (row, (_, bar)) in drawn.iter().enumerate() {
-                let y = -(row as f64);
-                let colour = if bar.value < 0.0 { down } else { up };
-                let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - HALF, y + HALF]);
-                plot.add(between(&ends, colour));
-                let error = [[bar.value - bar.error, y], [bar.value + bar.error, y]];
-                plot.line(line(&error, strong, 1.5, LineStyle::Solid));
-            }
-            plot.vline(upright(0.0, quiet, 1.0));
-        },
-    );
-    if smaller > 0 {
-        cx.note(ui, format!("{smaller} more are below {} % of the longest", significant(100.0 * LEAST, 1)));
+    panel.x.label = String::new();
+    panel.y.names.iter_mut().for_each(|(_, name)| *name = capitalised(name));
+    let height = (BAR * panel.y.names.len() as f32 + 1.6) * ui.text_style_height(&TextStyle::Body);
+    let chart = Chart { name: "Tornado chart", height, panel: &panel, words: (Some("Elasticity"), "Elasticity") };
+    chart.show_with(ui, |plot| plot.allow_zoom(false).allow_drag(false));
+    if !panel.title.is_empty() {
+        cx.note(ui, &panel.title);
     }
 }
 
@@ -232,37 +192,12 @@ fn monte_carlo(ui: &mut Ui, shown: Shown<'_>) {
         let what = "were outside of what is allowed and were drawn again, which makes the spread smaller";
         cx.note(ui, format!("{} {what}", carlo.redrawn));
     }
-    let Some(spread) = carlo.spread(output) else { return };
-    let (from, width, bins) = &spread.bins;
-    let (value, linear) = (found.values[output].value, found.propagated(output, uncertainties).deviation.value);
-    let bars: Vec<[f64; 3]> = bins
-        .iter()
-        .enumerate()
-        .flat_map(|(bin, count)| [0.0, 1.0].map(|end| [from + (bin as f64 + end) * width, 0.0, *count as f64]))
-        .collect();
-    let area = spread.count as f64 * width / (linear * std::f64::consts::TAU.sqrt());
-    let normal = |i: i32| {
-        let away = f64::from(i) / 20.0;
-        [value + away * linear, area * (-0.5 * away * away).exp()]
-    };
-    let curve: Vec<[f64; 2]> = if linear > 0.0 { (-70..=70).map(normal).collect() } else { Vec::new() };
-    let ends = bars.iter().map(|bar| bar[0]).chain(curve.iter().map(|point| point[0]));
-    let [low, high] = span(ends);
-    let top = bars.iter().map(|bar| bar[2]).chain(curve.iter().map(|point| point[1])).fold(0.0, f64::max);
+    let Some(panel) = distribution(found, output, uncertainties, carlo) else { return };
     let name = "Histogram of the random scenes";
     title(ui, name, "Random scenes");
     let height = HISTOGRAM * ui.text_style_height(&TextStyle::Body);
-    let below = found.outputs[output].label(found.problem());
     let words = (Some(found.outputs[output].words()), "Random scenes");
-    let (film, contact, quiet) = (cx.colours.film, cx.colours.contact, cx.colours.quiet);
-    let bounds = [[low, high], [0.0, 1.08 * top]];
-    Chart { name, height, bounds, below: &below, words }.show(ui, move |plot| {
-        for bar in bars.chunks_exact(2) {
-            plot.add(between(bar, film.gamma_multiply(0.7)));
-        }
-        plot.line(line(&curve, contact, 2.0, LineStyle::dashed_dense()));
-        plot.vline(upright(value, quiet, 1.5));
-    });
+    Chart { name, height, panel: &panel, words }.show(ui);
     cx.note(ui, "Dashed: the normal distribution that the derivatives give. The line: the result of the scene itself.");
 }
 

@@ -128,7 +128,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
 /// What is drawn of the points: changing it solves nothing.
 fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     let swept = cx.state.sweep.swept().map(|swept| swept.sweep.problem());
-    let Some(problem) = swept.or_else(|| cx.state.sweep.problem()) else { return };
+    let Some(problem) = swept.or(cx.state.problem.as_ref()) else { return };
     let all: Vec<Quantity> = Quantity::of(problem).collect();
     let present = cx.state.sweep.quantity(&all);
     let called = ("Result shown", "Which result is drawn; another one solves nothing anew");

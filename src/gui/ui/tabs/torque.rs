@@ -4,17 +4,18 @@
 use crate::analysis::torque::TorqueCurves;
 use crate::digits::{as_given, significant};
 use crate::estimate::Estimate;
+use crate::export::figure::{Axis, Colour, Dash, Layer, Line, Mark, Marker, Panel, Points, Style};
 use crate::gui::derived::format::uncertain;
-use crate::gui::ui::chart::{Chart, SOLID, WIDTH, dots, legend, line, title, upright};
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
+use crate::gui::ui::theme::ACCENT;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
 use crate::solution::{Performance, Point};
-use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
-use egui_plot::LineStyle;
+use eframe::egui::{self, RichText, TextStyle, Vec2b};
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
@@ -27,8 +28,6 @@ const ALL: f64 = 104.0;
 const HEADROOM: f64 = 1.08;
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
-/// Radius of a measured point.
-const MEASURED: f32 = 3.5;
 /// Titles of the charts, and what the glossary explains them under.
 const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
@@ -56,62 +55,31 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
         return;
     }
-    let (film, dry, heat) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
     let (measured, elsewhere) = cx.state.fit.torques();
-    let entry = ("measured", cx.colours.stator, SOLID);
-    legend(
-        ui,
-        &[
-            ("with film", film, SOLID),
-            ("without film", dry, LineStyle::dashed_loose()),
-            ("friction heat, with film", heat, LineStyle::dashed_dense()),
-            ("rotor speed of the scene", cx.colours.accent, SOLID),
-            entry,
-        ][..if measured.is_empty() { 4 } else { 5 }],
-    );
+    let panels = panels(merit, measured);
+    legend(ui, &[&panels[1], &panels[0]]);
     let em = ui.text_style_height(&TextStyle::Body);
     let mut pointed = None;
-    let curve = |of: &Performance, value: &dyn Fn(&Point) -> Option<f64>| -> Vec<[f64; 2]> {
-        of.curve.iter().filter_map(|point| Some([merit.rpm(point.speed), value(point)?])).collect()
-    };
-    let (with, without) = (&merit.with_film, &merit.without_film);
-    type Value<'a> = &'a dyn Fn(&Point) -> Option<f64>;
-    let torque: Value<'_> = &|point| Some(point.torque.value);
-    let output: Value<'_> = &|point| Some(point.output.value);
-    let friction: Value<'_> = &|point| Some(point.friction.value);
-    let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share.value);
-    let dash = LineStyle::dashed_loose();
-    let charts = [
-        (CHARTS[0], vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
-        (
-            CHARTS[1],
-            vec![
-                (curve(with, friction), heat, LineStyle::dashed_dense()),
-                (curve(without, output), dry, dash),
-                (curve(with, output), film, SOLID),
-            ],
-        ),
-        (CHARTS[2], vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, SOLID)]),
-    ];
-    let side_by_side = ui.available_width() > BESIDE * em;
     let mut one = |ui: &mut egui::Ui, i: usize, bottom: bool| {
-        let ((name, word), lines) = &charts[i];
+        let (name, word) = CHARTS[i];
         title(ui, name, word);
-        let tall = (SHARES[i] * height).max(LEAST_LINES[i] * em);
-        let top = if i == 2 { Some(ALL) } else { None };
-        let points = if i == 0 { &measured[..] } else { &[] };
-        pointed = panel(ui, (name, word), tall, (lines, points), top, bottom, merit, cx).or(pointed);
+        let mut panel = panels[i].clone();
+        if !bottom {
+            (panel.x.label, panel.x.unit) = Default::default();
+        }
+        let height = (SHARES[i] * height).max(LEAST_LINES[i] * em);
+        let chart = Chart { name, height, panel: &panel, words: (Some("Rotor speed"), word) };
+        let linked = egui::Id::unique("torque charts");
+        let x = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
+        pointed = x.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
     };
+    let side_by_side = ui.available_width() > BESIDE * em;
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
     cx.mark(ui, "torque", first.response.rect);
     if side_by_side {
-        ui.columns(2, |columns| {
-            one(&mut columns[0], 1, true);
-            one(&mut columns[1], 2, true);
-        });
+        ui.columns(2, |columns| (1..3).for_each(|i| one(&mut columns[i - 1], i, true)));
     } else {
-        one(ui, 1, false);
-        one(ui, 2, true);
+        (1..3).for_each(|i| one(ui, i, i == 2));
     }
     readout(ui, merit, pointed, cx);
     if elsewhere > 0 {
@@ -124,42 +92,48 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
     ui.add_space(8.0);
 }
 
-/// Points, and how they are drawn.
-type Curve = (Vec<[f64; 2]>, Color32, LineStyle);
-
-/// One chart over the speed, which is named below it if it is at the `bottom`; the speed under the pointer \[rpm\].
-fn panel(
-    ui: &mut egui::Ui,
-    (name, word): (&str, &str),
-    height: f32,
-    (lines, measured): (&[Curve], &[[f64; 2]]),
-    top: Option<f64>,
-    bottom: bool,
-    merit: &TorqueCurves,
-    cx: &DrawContext<'_>,
-) -> Option<f64> {
-    let fastest = merit.rpm(merit.stator_speed);
+/// Torque, power and efficiency over the speed, and over the first what was `measured`.
+fn panels(merit: &TorqueCurves, measured: Vec<[f64; 2]>) -> [Panel; 3] {
+    type Value = fn(&Point) -> f64;
+    let (torque, output): (Value, Value) = (|point| point.torque.value, |point| point.output.value);
+    let friction: Value = |point| point.friction.value;
+    let efficiency: Value = |point| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);
     let present = merit.rpm(merit.with_film.present.speed);
-    let drawn = lines.iter().flat_map(|(points, ..)| points).chain(measured);
-    let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
-    let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
-    let below = if bottom { "speed of the rotor, rpm" } else { "" };
-    let (bounds, words) = ([[0.0, fastest], [0.0, top]], (Some("Rotor speed"), word));
-    let shown = Chart { name, height, bounds, below, words }.show_with(
-        ui,
-        |plot| plot.link_cursor(egui::Id::unique("torque charts"), Vec2b::new(true, false)).show_x(true),
-        |plot| {
-            if (0.0..=fastest).contains(&present) {
-                plot.vline(upright(present, cx.colours.accent, 1.5));
-            }
-            for (points, colour, style) in lines {
-                plot.line(line(points, *colour, WIDTH, *style));
-            }
-            plot.points(dots(measured.to_vec(), cx.colours.stator, MEASURED));
-            plot.pointer_coordinate().map(|at| at.x)
-        },
-    );
-    shown.inner.filter(|_| shown.response.hovered()).filter(|speed| (0.0..=fastest).contains(speed))
+    let panel = |top: Option<f64>, values: &[Value], mut layers: Vec<Layer>| {
+        let curve = |name: &str, of: &Performance, value: Value, style: Style| {
+            let points = of.curve.iter().map(|point| [merit.rpm(point.speed), value(point)]);
+            Layer::Line(Line::new(name, points, style))
+        };
+        let dashed = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+        layers.extend([
+            curve("without film", &merit.without_film, values[0], dashed),
+            curve("with film", &merit.with_film, values[0], Style::solid(Colour::FILM)),
+        ]);
+        let heat = Style::solid(Colour::ROTOR).dash(Dash::DashDot);
+        layers.extend(values.get(1).map(|value| curve("friction heat, with film", &merit.with_film, *value, heat)));
+        let fastest = merit.rpm(merit.stator_speed);
+        if (0.0..=fastest).contains(&present) {
+            layers.push(
+                Mark { style: Style::solid(ACCENT), ..Mark::vertical(present, "rotor speed of the scene") }.into(),
+            );
+        }
+        let drawn = layers.iter().flat_map(|layer| match layer {
+            Layer::Line(line) => line.points.as_slice(),
+            Layer::Points(points) => points.points.as_slice(),
+            _ => &[],
+        });
+        // What brakes the rotor is below the axis.
+        let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
+        let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
+        let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
+        Panel { layers, ..Panel::new("", x, Axis::new("", "").fixed(0.0, top)) }
+    };
+    let measured = (!measured.is_empty()).then(|| Points::new("measured", measured, Colour::STATOR, Marker::default()));
+    [
+        panel(None, &[torque], measured.into_iter().map(Layer::from).collect()),
+        panel(None, &[output, friction], Vec::new()),
+        panel(Some(ALL), &[efficiency], Vec::new()),
+    ]
 }
 
 /// The values at the speed under the pointer.

@@ -3,36 +3,29 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
-use crate::digits::{self, short};
+use crate::digits::{self, capitalised, short};
+use crate::export::figure::{Dash, Line, Mark, Style};
+use crate::export::tradeoff::panel;
 use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
-use crate::gui::derived::scales::span;
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
-use crate::gui::ui::chart::{axes, key, level, line, numbered, place as chart_place, powers, upright};
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::scroll::scrolled;
 use crate::gui::ui::table;
+use crate::gui::ui::theme::ACCENT;
 use crate::gui::ui::{button, glossary};
 use crate::solve::Method;
-use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{AxisHints, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points};
+use eframe::egui::{self, RichText, TextStyle};
+use egui_plot::HoverPosition;
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
 const LEAST_LINES: f32 = 12.0;
-/// Radius of a point, and of the ring round the present setting.
-const RADIUS: f32 = 4.5;
-const RING: f32 = 9.0;
-/// Around the points, a share of their range.
-const MARGIN: egui::Vec2 = egui::vec2(0.12, 0.12);
-/// Width of a letter of a name, in heights of the text.
-const NAME_WIDTH: f32 = 0.5;
 /// Between a number and its unit, which stay on one line.
 const NO_BREAK: char = '\u{a0}';
-/// Width of a tick's text, in heights of the text.
-const TICK_WIDTH: f32 = 5.0;
 /// What can be asked for: per cent, and ms.
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
@@ -48,10 +41,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         };
         state(ui, measured, cx);
         let tradeoff = &measured.tradeoff;
-        if !tradeoff.points.iter().any(|point| place(point).is_some()) {
+        if !tradeoff.points.iter().any(|point| point.error.is_some()) {
             return;
         }
-        legend(ui, tradeoff, cx);
         let least = LEAST_LINES * ui.text_style_height(&TextStyle::Body);
         plot(ui, tradeoff, (PLOT_SHARE * height).max(least), cx);
         ui.add_space(4.0);
@@ -123,151 +115,31 @@ fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
     is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
 }
 
-/// Where the families stand, in colour and shape.
-fn style(family: Family, cx: &DrawContext<'_>) -> (&'static str, Color32, MarkerShape) {
-    match family {
-        Family::Fidelity => ("fidelities", cx.colours.film, MarkerShape::Circle),
-        Family::Grid => ("other grids", cx.colours.good, MarkerShape::Up),
-        Family::Paper => ("the paper's method", cx.colours.contact, MarkerShape::Square),
-    }
-}
-
-fn legend(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
-    let em = ui.text_style_height(&TextStyle::Body);
-    ui.horizontal_wrapped(|ui| {
-        let shown = |family: &Family| tradeoff.points.iter().any(|point| point.run.candidate.family == *family);
-        for family in [Family::Fidelity, Family::Grid, Family::Paper].into_iter().filter(shown) {
-            let (name, colour, shape) = style(family, cx);
-            sign(ui, name, |painter, at| match shape {
-                MarkerShape::Square => {
-                    painter.rect_filled(egui::Rect::from_center_size(at, egui::Vec2::splat(1.6 * RADIUS)), 0, colour);
-                }
-                MarkerShape::Up => {
-                    let corner = |x: f32, y: f32| at + RADIUS * egui::vec2(x, y);
-                    let corners = vec![corner(0.0, -1.1), corner(1.0, 0.8), corner(-1.0, 0.8)];
-                    painter.add(egui::Shape::convex_polygon(corners, colour, egui::Stroke::NONE));
-                }
-                _ => drop(painter.circle_filled(at, RADIUS, colour)),
-            });
-        }
-        sign(ui, "present setting", |painter, at| {
-            painter.circle_stroke(at, 0.6 * RING, egui::Stroke::new(2.0, cx.colours.accent));
-        });
-        sign(ui, "best", |painter, at| {
-            let end = egui::vec2(0.5 * em, 0.0);
-            let stroke = egui::Stroke::new(1.5, cx.colours.quiet);
-            painter.extend(egui::Shape::dashed_line(&[at - end, at + end], stroke, 4.0, 3.0));
-        });
-    });
-}
-
-/// An entry of the legend, whose sign is drawn round a place.
-fn sign(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
-    key(ui, text, 1.3, 0.0, |painter, left, em| draw(painter, left + egui::vec2(0.5 * em, 0.0)));
-}
-
-/// log₁₀ of time \[s\] and of the error \[%\]; `None` without either.
-fn place(point: &Point) -> Option<[f64; 2]> {
-    let [time, error] = [point.median, 100.0 * point.error?].map(f64::log10);
-    (time.is_finite() && error.is_finite()).then_some([time, error])
-}
-
+/// Error against time as the exported figure has it, with lines at what is asked for and bars from quartile to quartile.
 fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
+    let used = (0..tradeoff.points.len()).filter(|i| in_use(&tradeoff.points[*i].run.candidate, cx));
+    let mut panel = panel(tradeoff, ("present setting", ACCENT, &used.collect::<Vec<_>>()));
+    for mark in [Mark::horizontal(100.0 * cx.state.view.accuracy, ""), Mark::vertical(cx.state.view.budget, "")] {
+        panel.layers.push(Mark { style: Style::quiet().dash(Dash::Dashed), ..mark }.into());
+    }
+    for Point { quartiles: (low, high), error, .. } in &tradeoff.points {
+        let bar = [*low, *high].map(|time| [time, 100.0 * error.unwrap_or(f64::NAN)]);
+        panel.layers.push(Line::new("", bar, Style { width: 0.5, ..Style::quiet() }).into());
+    }
     let judged = format!("error of {}", tradeoff.of_what());
-    let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
-    let em = ui.text_style_height(&TextStyle::Body);
-    let width = ui.available_width();
-    let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
-    let whole = chart_place(ui, height);
-    // For screen readers the table below says it all.
-    let plot = numbered("trade-off plot", height, [AxisHints::new_x(), AxisHints::new_y()])
-        .show_x(true)
-        .show_y(true)
-        .grid_color(grid)
-        .x_axis_label("solve time")
-        .y_axis_label(judged.as_str())
-        .x_grid_spacer(move |input| powers(&input, most, true))
-        .y_grid_spacer(|input| powers(&input, 12.0, true))
-        .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
-        .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value - 2.0)))
-        .label_formatter(|at| match at {
-            HoverPosition::NearDataPoint { plot_name, .. } if !plot_name.is_empty() => {
-                let point = tradeoff.points.iter().find(|point| point.run.candidate.name == *plot_name)?;
-                let error = point.error.map_or_else(String::new, |error| format!("\nerror {}", percent(error)));
-                Some(format!("{plot_name}{error}\ntime {}", duration(point.median)))
-            }
-            _ => None,
-        })
-        .set_margin_fraction(MARGIN);
-    let shown_plot = plot.show(ui, |plot| {
-        let guide = LineStyle::dashed_loose();
-        let quiet = cx.colours.quiet;
-        let within = |low: f64, value: f64, high: f64| value > low && value < high;
-        let range = |axis: usize| span(tradeoff.points.iter().filter_map(place).map(|at| at[axis]));
-        let ([left, right], [bottom, top]) = (range(0), range(1));
-        // Room for the names, at the left of their points.
-        for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
-            let letters = point.run.candidate.name.len() as f32;
-            if let Some([time, error]) = place(point) {
-                let room = f64::from(NAME_WIDTH * em * letters / width) * (right - left);
-                plot.points(Points::new("", vec![[time - room, error]]).radius(0.0).allow_hover(false));
-            }
-        }
-        // Wishes beyond all points would only squeeze them together.
-        let (accuracy, budget) = ((100.0 * cx.state.view.accuracy).log10(), cx.state.view.budget.log10());
-        if within(bottom, accuracy, top) {
-            plot.hline(level(accuracy, quiet, 1.0).style(guide));
-        }
-        if within(left, budget, right) {
-            plot.vline(upright(budget, quiet, 1.0).style(guide));
-        }
-        let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|p| p.best).filter_map(place).collect();
-        front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        plot.line(line(&front, quiet, 1.5, LineStyle::dashed_dense()));
-        for point in &tradeoff.points {
-            let Some([time, error]) = place(point) else { continue };
-            let candidate = &point.run.candidate;
-            let (_, colour, shape) = style(candidate.family, cx);
-            let (low, high) = point.quartiles;
-            if low > 0.0 && high > low {
-                let bar = [[low.log10(), error], [high.log10(), error]];
-                plot.line(line(&bar, colour, 1.0, LineStyle::Solid));
-            }
-            plot.points(
-                Points::new(candidate.name.clone(), vec![[time, error]]).color(colour).shape(shape).radius(RADIUS),
-            );
-            if in_use(candidate, cx) {
-                let ring = Points::new("", vec![[time, error]]).color(cx.colours.accent).radius(RING).filled(false);
-                plot.points(ring.allow_hover(false));
-            }
-        }
-    });
-    names(ui, tradeoff, &shown_plot.transform, cx);
-    axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), &judged);
+    let name = format!("{} against solve time, %", capitalised(&judged));
+    title(ui, &name, &judged);
+    legend(ui, &[&panel]);
+    let chart = Chart { name: &name, height, panel: &panel, words: (Some("Solve time"), &judged) };
+    chart.show_with(ui, |plot| plot.label_formatter(|at| told(tradeoff, at)));
 }
 
-/// Names of the fidelities, below and left of their points, right of them at the edge, where a point of the front has no other; names that
-/// would lie on each other, one below the other.
-fn names(ui: &egui::Ui, tradeoff: &Tradeoff, transform: &PlotTransform, cx: &DrawContext<'_>) {
-    let painter = ui.painter_at(*transform.frame());
-    let (font, colour) = (TextStyle::Body.resolve(ui.style()), style(Family::Fidelity, cx).1);
-    let fidelities = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
-    let mut places: Vec<_> = fidelities.filter_map(|point| Some((point, place(point)?))).collect();
-    places.sort_by(|(_, a), (_, b)| b[1].total_cmp(&a[1]));
-    let mut taken: Vec<egui::Rect> = Vec::new();
-    for (point, [time, error]) in places {
-        let galley = painter.layout_no_wrap(point.run.candidate.name.clone(), font.clone(), colour);
-        let at = transform.position_from_point(&PlotPoint::new(time, error));
-        let mut rect = Align2::RIGHT_TOP.anchor_size(at + egui::vec2(-RADIUS, RADIUS), galley.size());
-        if rect.left() < transform.frame().left() {
-            rect = Align2::LEFT_TOP.anchor_size(at + egui::Vec2::splat(RADIUS), galley.size());
-        }
-        while let Some(other) = taken.iter().find(|other| other.intersects(rect)) {
-            rect = rect.translate(egui::vec2(0.0, other.bottom() - rect.top() + 1.0));
-        }
-        painter.galley(rect.min, galley, colour);
-        taken.push(rect);
-    }
+/// The setting that is pointed at, in words.
+fn told(tradeoff: &Tradeoff, at: &HoverPosition<'_>) -> Option<String> {
+    let HoverPosition::NearDataPoint { position, .. } = at else { return None };
+    let point = tradeoff.points.iter().find(|point| point.median.log10() == position.x)?;
+    let error = point.error.map_or_else(String::new, |error| format!("\nerror {}", percent(error)));
+    Some(format!("{}{error}\ntime {}", point.run.candidate.name, duration(point.median)))
 }
 
 /// A target, what serves it, and the way to use that.
@@ -323,7 +195,11 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
         ui.end_row();
         for point in order {
             let candidate = &point.run.candidate;
-            let (family, colour, _) = style(candidate.family, cx);
+            let (family, colour) = match candidate.family {
+                Family::Fidelity => ("fidelities", cx.colours.film),
+                Family::Grid => ("other grids", cx.colours.good),
+                Family::Paper => ("the paper's method", cx.colours.contact),
+            };
             glossary::term(ui, RichText::new(&candidate.name).color(colour), family);
             ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
             ui.label(point.error.map_or_else(String::new, percent));
