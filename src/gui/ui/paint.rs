@@ -221,23 +221,6 @@ impl Axes {
         painter.rect_filled(self.rect, 2.0, style.palette.canvas);
     }
 
-    /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
-    pub(super) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
-        let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
-        let range = [self.y[0] / unit, self.y[1] / unit];
-        let ticks = Steps::several(range, range[0], about, f64::from(self.rect.height() / style.row));
-        for value in ticks.values() {
-            let y = self.py(value * unit);
-            painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));
-            // A label may not reach into the title above or the axis below.
-            let label = y.min(self.rect.bottom() - 0.35 * style.row).max(self.rect.top() + 0.35 * style.row);
-            if (label - y).abs() < 0.4 * style.row {
-                let at = pos2(self.rect.left() - 4.0, label);
-                style.write(painter, at, Align2::RIGHT_CENTER, &ticks.format(value), style.palette.quiet);
-            }
-        }
-    }
-
     /// Vertical grid lines.
     pub(super) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         for value in self.x_values(style, unit).values() {

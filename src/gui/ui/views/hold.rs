@@ -9,12 +9,15 @@ use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
+use crate::gui::ui::chart::{Inset, between, dots, level, line};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, band, field_colours, room, scale_bar, shaded, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, field_colours, room, scale_bar, shaded, title_with_bar};
 use crate::hold::Reading;
+use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
 use eframe::egui::{self, Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui_plot::LineStyle;
 
 /// Parts of the drawing below the stator's face, and above the highest underside of the plate.
 const BELOW: f32 = 0.10;
@@ -33,24 +36,13 @@ const BESIDE: f32 = 0.55;
 /// Samples of Boyle's hyperbola.
 const SAMPLES: usize = 80;
 
-/// The held plate and what all of its drawings need.
-struct HoldFrame<'a> {
-    hold: &'a HoldState,
-    ambient: f64,
-    half: f64,
-    unit: (&'static str, f64),
-}
-
 /// Draws into what is left of `ui`.
 pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let Some(area) = room(ui) else { return };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
-    let plate = hold.plate();
-    let ambient = plate.gas.ambient_pressure;
-    // One unit whatever the hand does: that of ambient pressure on a tenth of the plate.
-    let unit = load_unit(0.1 * ambient * plate.area(), plate.is_strip());
-    let shown = HoldFrame { hold, ambient, half: 0.5 * plate.length, unit };
+    let plate = &hold.plate;
+    let (unit, half) = (unit(plate), 0.5 * plate.length);
     let (title, axis) = (style.title, style.axis);
     let with_map = plate.width.is_some();
     let parts: &[f32] = if with_map { &PARTS_WITH_MAP } else { &PARTS };
@@ -65,14 +57,14 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let mut next = |part: f32| column.next(title, part * body);
     let drawing = next(parts[0]);
     let profile_place = next(parts[1]);
-    let axes = draw_plate(&painter, &style, drawing, &shown);
-    profile(&painter, &style, profile_place, &shown);
+    let axes = draw_plate(&painter, &style, drawing, hold);
+    profile(ui, &style, profile_place, hold);
     let mut last = profile_place;
     if with_map {
         last = next(parts[2]);
-        map(ui, &painter, &style, last, &shown);
+        map(ui, &painter, &style, last, hold);
     }
-    Axes::new(last, [-shown.half, shown.half], [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
+    Axes::new(last, [-half, half], [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
 
     let top = charts.top() + title;
     let (right, bottom) = (charts.right() - 0.5 * style.row, charts.bottom() - axis);
@@ -84,14 +76,13 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let left_end = middle - 0.5 * style.row;
     let gap_chart = place(charts.left(), left_end, top, top + between);
     let force_chart = place(charts.left(), left_end, top + between + title, bottom);
-    chart(&painter, &style, gap_chart, &shown, "Gap, µm", 1e-6, style.palette.rotor, |r| [r.gap, 0.0], None);
-    let text = format!("Force, {}", unit.0);
-    let force = Some(hold.force_range);
-    let axes_of_force =
-        chart(&painter, &style, force_chart, &shown, &text, unit.1, style.palette.film, |r| [r.force, r.error], force);
-    time_labels(&painter, &style, &axes_of_force, &shown);
+    let rotor = style.palette.rotor;
+    chart(ui, &style, gap_chart, hold, ("Gap, µm", 1e-6, rotor), |r| [r.gap, 0.0], hold.reach(), plate.mean_gap);
+    let (text, film) = (format!("Force, {}", unit.0), style.palette.film);
+    chart(ui, &style, force_chart, hold, (&text, unit.1, film), |r| [r.force, r.error], hold.force_range, 0.0);
+    time_labels(&painter, &style, force_chart, hold.window());
     let boyle_chart = place(middle + 0.5 * style.row, right, top, bottom);
-    boyle(&painter, &style, boyle_chart, &shown);
+    boyle(ui, &style, boyle_chart, hold);
     for (name, rect) in [("held plate", drawing), ("boyle", boyle_chart)] {
         cx.mark_plot(ui, name, rect);
     }
@@ -125,15 +116,21 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     response.on_hover_and_drag_cursor(CursorIcon::Grab);
 }
 
-fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) -> Axes {
-    let Reading { gap, force, error, ratio, mean_pressure, .. } = shown.hold.shown().reading;
-    let highest = shown.hold.reach()[1];
+/// The unit of forces, one whatever the hand does: that of ambient pressure on a tenth of the plate.
+fn unit(plate: &Plate) -> (&'static str, f64) {
+    load_unit(0.1 * plate.gas.ambient_pressure * plate.area(), plate.is_strip())
+}
+
+fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
+    let Reading { gap, force, error, ratio, mean_pressure, .. } = hold.shown().reading;
+    let highest = hold.reach()[1];
     let part = f64::from(1.0 - BELOW - ABOVE);
     let bottom = -highest * f64::from(BELOW) / part;
-    let axes = Axes::new(rect, [-shown.half, shown.half], [bottom, bottom + highest / part]);
+    let half = 0.5 * hold.plate.length;
+    let axes = Axes::new(rect, [-half, half], [bottom, bottom + highest / part]);
     axes.canvas(painter, style);
     scale_bar(painter, style, &axes);
-    let (name, unit) = shown.unit;
+    let (name, unit) = unit(&hold.plate);
     let force_text = with_known_digits(force / unit, error / unit);
     let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));
     let more = format!("   load ratio {}   mean pressure {} kPa absolute", number(ratio), number(mean_pressure / 1e3));
@@ -145,29 +142,29 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
 
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, under) = (axes.py(0.0), axes.py(gap));
-    film(inside, &axes, [under, wall], shown);
+    film(inside, &axes, [under, wall], hold);
     let thickness = PLATE * rect.height();
     wall_and_plate(inside, style, rect, [wall, under], thickness);
     // Where it was before it was taken.
-    let mean = axes.py(shown.hold.plate().mean_gap);
+    let mean = axes.py(hold.plate.mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
     inside.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, style.palette.quiet), 6.0, 5.0));
     tag(inside, style, pos2(rect.right() - 6.0, mean), Align2::RIGHT_CENTER, "mean gap");
-    arrow(inside, style, rect, under - 0.5 * thickness, force, shown);
+    arrow(inside, style, rect, under - 0.5 * thickness, force, hold);
     axes
 }
 
 /// The film, coloured by the pressure at mid-width.
-fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.pressure_range;
+fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
+    let [low, high] = hold.pressure_range;
     let colours = field_colours();
     let colour = |pressure: f64| colours[(255.0 * (pressure - low) / (high - low)).clamp(0.0, 255.0) as usize];
-    shaded(painter, profile_points(shown).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
+    shaded(painter, profile_points(hold).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
 }
 
 /// (x, absolute pressure) at mid-width, from end to end.
-fn profile_points<'a>(shown: &'a HoldFrame<'_>) -> impl Iterator<Item = (f64, f64)> + 'a {
-    let now = shown.hold.shown();
+fn profile_points(hold: &HoldState) -> impl Iterator<Item = (f64, f64)> {
+    let now = hold.shown();
     let across = now.y.len().max(1);
     let half = move |i: usize| (now.x[i], now.pressure[i * across]);
     let mirrored = (1..now.x.len()).rev().map(move |i| (-half(i).0, half(i).1));
@@ -175,10 +172,10 @@ fn profile_points<'a>(shown: &'a HoldFrame<'_>) -> impl Iterator<Item = (f64, f6
 }
 
 /// The force of the film on the plate: up where it pushes, down where it pulls.
-fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64, shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.force_range;
+fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64, hold: &HoldState) {
+    let [low, high] = hold.force_range;
     // A tenth of the ambient pressure is seen, and what was greatest is as long as there is room.
-    let greatest = high.max(-low).max(0.1 * shown.ambient * shown.hold.plate().area());
+    let greatest = high.max(-low).max(0.1 * hold.plate.gas.ambient_pressure * hold.plate.area());
     let length = ARROW * rect.height() * (force / greatest) as f32;
     let colour = style.palette.film;
     let at = pos2(rect.left() + 0.12 * rect.width(), from);
@@ -192,7 +189,7 @@ fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64
         let corners = vec![tip, tip + head, tip + vec2(-head.x, head.y)];
         painter.add(Shape::convex_polygon(corners, colour, Stroke::new(1.0, style.palette.canvas)));
     }
-    let (name, unit) = shown.unit;
+    let (name, unit) = unit(&hold.plate);
     let text = format!("{} {name}", number(force / unit));
     tag(painter, style, at + vec2(0.9 * style.row, 0.0), Align2::LEFT_CENTER, &text);
 }
@@ -206,32 +203,24 @@ fn tag(painter: &Painter, style: &PlotStyle, at: Pos2, anchor: Align2, text: &st
 }
 
 /// Pressure along x at mid-width.
-fn profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
-    let [low, high] = shown.hold.pressure_range;
+fn profile(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
+    let [low, high] = hold.pressure_range.map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
-    let axes = Axes::new(rect, [-shown.half, shown.half], [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    let wide = shown.hold.plate().width.is_some();
-    title_with_bar(
-        painter,
-        style,
-        rect,
-        "Film pressure",
-        &[if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"],
-        [low, high],
-    );
-    let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(inside, style, 1e-3);
-    inside.hline(rect.x_range(), axes.py(shown.ambient), Stroke::new(1.0, style.palette.quiet));
-    let line: Vec<Pos2> = profile_points(shown).map(|(x, pressure)| axes.at(x, pressure)).collect();
-    inside.line(line, Stroke::new(1.8, style.palette.film));
+    let wide = hold.plate.width.is_some();
+    let titles = [if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"];
+    title_with_bar(ui.painter(), style, rect, "Film pressure", &titles, hold.pressure_range);
+    let bounds = [[-0.5, 0.5].map(|end| 1e3 * end * hold.plate.length), [low - margin, high + margin]];
+    Inset { name: "Pressure along the held plate", rect, bounds, below: None }.show(ui, style, |plot| {
+        plot.hline(level(hold.plate.gas.ambient_pressure * 1e-3, style.palette.quiet, 1.0));
+        let points: Vec<_> = profile_points(hold).map(|(x, pressure)| [x * 1e3, pressure * 1e-3]).collect();
+        plot.line(line(&points, style.palette.film, 1.8, LineStyle::Solid));
+    });
 }
 
 /// The pressure over the whole plate.
-fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
-    let now = shown.hold.shown();
-    let length = 2.0 * shown.half;
+fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldState) {
+    let now = hold.shown();
+    let length = hold.plate.length;
     let recording = Recording {
         lines: LineLoads { frames: 1, length, teeth: 1, stored_teeth: 1, pitch: length, ..LineLoads::default() },
         map_x: now.x.clone(),
@@ -241,88 +230,80 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFr
         pressure: now.pressure.clone(),
         ..Recording::default()
     };
-    let range = shown.hold.pressure_range;
-    let x = [-shown.half, shown.half];
+    let range = hold.pressure_range;
+    let x = [-0.5 * length, 0.5 * length];
     let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x, range };
     let axes = field::draw(ui, style, painter, rect, &recording, "held plate", stamp);
     style.title(painter, rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
     y_labels(painter, style, &axes);
 }
 
-/// What was read off lately, against time. `of`: the value and its error; `range`: what the axis holds at least.
+/// What was read off lately, against time. `of`: the value and its error; `reach`: what the axis holds at least; `rest`: the value at rest.
 fn chart(
-    painter: &Painter,
+    ui: &mut Ui,
     style: &PlotStyle,
     rect: Rect,
-    shown: &HoldFrame<'_>,
-    title: &str,
-    unit: f64,
-    colour: Color32,
+    hold: &HoldState,
+    (title, unit, colour): (&str, f64, Color32),
     of: fn(&Reading) -> [f64; 2],
-    range: Option<[f64; 2]>,
-) -> Axes {
-    let hold = shown.hold;
+    reach: [f64; 2],
+    rest: f64,
+) {
     let end = hold.now().reading.time;
-    let reach = range.unwrap_or(hold.reach());
-    let [low, high] = span(reach.into_iter().chain([of(&hold.now().reading)[0]]));
+    let [low, high] = span(reach.into_iter().chain([of(&hold.now().reading)[0]])).map(|value| value / unit);
     let margin = 0.08 * (high - low);
-    let axes = Axes::new(rect, [end - hold.window(), end], [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, unit);
-    style.title(painter, rect, title.split(',').next().unwrap_or(title), &[title], &[]);
-    let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    let quiet = Stroke::new(1.0, style.palette.quiet);
-    inside.hline(rect.x_range(), axes.py(if range.is_some() { 0.0 } else { hold.plate().mean_gap }), quiet);
-    let columns = hold.trail().map(|reading| {
-        let [value, error] = of(reading);
-        (axes.px(reading.time), axes.py(value + error), axes.py(value - error))
+    let name = title.split(',').next().unwrap_or(title);
+    style.title(ui.painter(), rect, name, &[title], &[]);
+    let bounds = [[-hold.window(), 0.0], [low - margin, high + margin]];
+    Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
+        let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
+        let band = hold.trail().map(|reading| {
+            let ([time, value], error) = (at(reading), of(reading)[1] / unit);
+            [time, value + error, value - error]
+        });
+        plot.hline(level(rest / unit, style.palette.quiet, 1.0));
+        plot.add(between(&band.collect::<Vec<_>>(), colour.gamma_multiply(0.3)));
+        plot.line(line(&hold.trail().map(at).collect::<Vec<_>>(), colour, 1.6, LineStyle::Solid));
+        plot.points(dots(vec![at(&hold.shown().reading)], colour, 3.0));
     });
-    band(inside, columns, colour.gamma_multiply(0.3));
-    let line: Vec<Pos2> = hold.trail().map(|reading| axes.at(reading.time, of(reading)[0])).collect();
-    inside.line(line, Stroke::new(1.6, colour));
-    let now = hold.shown().reading;
-    painter.circle_filled(axes.at(now.time, of(&now)[0]), 3.0, colour);
-    axes
 }
 
-/// How far the chart goes back.
-fn time_labels(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &HoldFrame<'_>) {
-    let window = shown.hold.window();
+/// How far the charts go back.
+fn time_labels(painter: &Painter, style: &PlotStyle, chart: Rect, window: f64) {
     let (scale, unit) = if window < 1e-2 { (1e6, "µs") } else { (1e3, "ms") };
-    let top = axes.rect.bottom() + 1.0;
+    let top = chart.bottom() + 1.0;
     let text = format!("{} {unit} ago", number(window * scale));
-    style.write(painter, pos2(axes.rect.left(), top), Align2::LEFT_TOP, &text, style.palette.quiet);
-    style.write(painter, pos2(axes.rect.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
+    style.write(painter, pos2(chart.left(), top), Align2::LEFT_TOP, &text, style.palette.quiet);
+    style.write(painter, pos2(chart.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
 }
 
 /// Mean pressure against the gap: the way just gone, and Boyle's hyperbola, which gas follows that has no time to leave.
-fn boyle(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
-    let hold = shown.hold;
+fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     let [near, far] = hold.reach();
-    let law = |gap: f64| shown.ambient * hold.plate().mean_gap / gap;
+    let law = |gap: f64| hold.plate.gas.ambient_pressure * hold.plate.mean_gap / gap;
     let means = hold.trail().map(|reading| reading.mean_pressure);
-    let [low, high] = span(means.chain([law(far), 2.0 * shown.ambient]));
+    let [low, high] =
+        span(means.chain([law(far), 2.0 * hold.plate.gas.ambient_pressure])).map(|pressure| pressure * 1e-3);
     let side = 0.04 * (far - near);
-    let axes = Axes::new(rect, [near - side, far + side], [0.9 * low, 1.06 * high]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    axes.x_labels(painter, style, 1e-6, "gap, µm");
-    let (film, quiet) = (style.palette.film, style.palette.quiet);
+    let (film, contact) = (style.palette.film, style.palette.contact);
     let titles = [
         "Mean pressure against the gap, kPa absolute",
         "Mean pressure, kPa absolute",
         "Mean p, kPa absolute",
         "p, kPa",
     ];
-    style.title(painter, rect, "Loop", &titles, &[("film", film), ("Boyle", style.palette.contact)]);
-    let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(inside, style, 1e-6);
-    inside.hline(rect.x_range(), axes.py(shown.ambient), Stroke::new(1.0, quiet));
-    let at = |i: usize| near + (far - near) * (i as f64 / SAMPLES as f64).powi(2);
-    let hyperbola: Vec<Pos2> = (0..=SAMPLES).map(|i| axes.at(at(i), law(at(i)))).collect();
-    inside.extend(Shape::dashed_line(&hyperbola, Stroke::new(1.4, style.palette.contact), 6.0, 4.0));
-    let line: Vec<Pos2> = hold.trail().map(|reading| axes.at(reading.gap, reading.mean_pressure)).collect();
-    inside.line(line, Stroke::new(1.6, film));
-    let now = hold.shown().reading;
-    painter.circle(axes.at(now.gap, now.mean_pressure), 4.0, film, Stroke::new(1.0, style.palette.canvas));
+    style.title(ui.painter(), rect, "Loop", &titles, &[("film", film), ("Boyle", contact)]);
+    let bounds = [[near - side, far + side].map(|gap| gap * 1e6), [0.9 * low, 1.06 * high]];
+    let name = "Mean pressure against the gap of the held plate";
+    Inset { name, rect, bounds, below: Some("gap, µm") }.show(ui, style, |plot| {
+        let at = |gap: f64, pressure: f64| [gap * 1e6, pressure * 1e-3];
+        let gap = |i: usize| near + (far - near) * (i as f64 / SAMPLES as f64).powi(2);
+        let hyperbola: Vec<_> = (0..=SAMPLES).map(|i| at(gap(i), law(gap(i)))).collect();
+        let way: Vec<_> = hold.trail().map(|reading| at(reading.gap, reading.mean_pressure)).collect();
+        let now = hold.shown().reading;
+        plot.hline(level(hold.plate.gas.ambient_pressure * 1e-3, style.palette.quiet, 1.0));
+        plot.line(line(&hyperbola, contact, 1.4, LineStyle::dashed_dense()));
+        plot.line(line(&way, film, 1.6, LineStyle::Solid));
+        plot.points(dots(vec![at(now.gap, now.mean_pressure)], film, 4.0));
+    });
 }
