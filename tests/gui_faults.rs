@@ -99,7 +99,7 @@ fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
     }
     let state = window.known();
     assert_eq!(value(window.state(), key), Value::Number(12.0));
-    assert!(state.pins.runs().is_empty() && state.view.tab == tab && state.dark);
+    assert!(state.pins.runs.is_empty() && state.view.tab == tab && state.dark);
     window.ctrl(Key::T);
     assert!(!window.known().dark);
     window.click_on("Keep editing");
@@ -227,11 +227,11 @@ fn pins_that_were_removed_together_come_back() {
         window.ctrl(Key::D);
     }
     window.ctrl(Key::Num2);
-    assert_eq!(window.known().pins.runs().len(), 2);
+    assert_eq!(window.known().pins.runs.len(), 2);
     window.click_on("Remove all");
-    assert!(window.known().pins.runs().is_empty());
+    assert!(window.known().pins.runs.is_empty());
     window.click_on("Bring the pins back");
-    assert_eq!(window.known().pins.runs().len(), 2);
+    assert_eq!(window.known().pins.runs.len(), 2);
 }
 
 #[test]

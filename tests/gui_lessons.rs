@@ -229,10 +229,10 @@ fn look(window: &mut Window, observe: &Question, title: &str) {
 /// Walks a lesson: at each task first what does not do, then what does.
 fn walk(lesson: usize) {
     let mut window = window("fundamental");
-    let title = window.known().lessons.lessons()[lesson].title.clone();
+    let title = window.known().lessons.lessons[lesson].title.clone();
     let before = window.known().document.scene().clone();
     open(&mut window, &title);
-    let steps = window.known().lessons.lessons()[lesson].steps.len();
+    let steps = window.known().lessons.lessons[lesson].steps.len();
     for number in 0..steps {
         let (at, step) = step(&window);
         assert_eq!(at, number);
@@ -305,7 +305,7 @@ fn walk(lesson: usize) {
     }
     // The recap: everything was right but the first looks.
     let lesson_state = &window.known().lessons;
-    let (running, followed) = (lesson_state.running().unwrap(), &lesson_state.lessons()[lesson]);
+    let (running, followed) = (lesson_state.running().unwrap(), &lesson_state.lessons[lesson]);
     assert_eq!(running.step, steps);
     let score = Score::of(followed.steps.iter().zip(&running.work));
     assert_eq!((score.observations[0], score.skipped[0]), (0, 0));
@@ -317,7 +317,7 @@ fn walk(lesson: usize) {
     solved(&mut window);
     let app = window.state();
     assert!(app.state().lessons.running().is_none() && app.state().document.scene() == &before);
-    assert!(app.state().lessons.progress(&app.state().lessons.lessons()[lesson]).done);
+    assert!(app.state().lessons.progress(&app.state().lessons.lessons[lesson]).done);
     window.get_by_label("share of the load carried by air");
 }
 
@@ -669,7 +669,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
         window.run_steps(5);
     }
     let running = window.known().lessons.running().unwrap();
-    assert_eq!(running.step, window.known().lessons.lessons()[0].steps.len());
+    assert_eq!(running.step, window.known().lessons.lessons[0].steps.len());
 }
 
 #[test]
@@ -704,7 +704,7 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     write(folder.path(), "mine", &two);
     let mut window = window("fundamental");
     window.state_mut().load_lessons(folder.path());
-    let place = window.known().lessons.lessons().len() - 1;
+    let place = window.known().lessons.lessons.len() - 1;
     window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 2 });
     window.run_steps(4);
     assert!(window.shows("As it was."));
@@ -976,7 +976,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
     window.get_by_label("This did not work");
     window.get_by_label_contains("task.chek is not known");
     window.click_on("Close");
-    let titles: Vec<&str> = window.known().lessons.lessons().iter().map(|lesson| lesson.title.as_str()).collect();
+    let titles: Vec<&str> = window.known().lessons.lessons.iter().map(|lesson| lesson.title.as_str()).collect();
     assert_eq!(&titles[lessons::BUILT_IN.len()..], ["A lesson of my own", "Another of my own"]);
     open(&mut window, "Another of my own");
     assert_eq!(window.known().document.scene().scene(), "plate");

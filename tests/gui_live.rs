@@ -146,7 +146,7 @@ fn ratio(app: &App) -> f64 {
 }
 
 fn gap(app: &App) -> f64 {
-    held(app).now().reading.gap / held(app).plate().mean_gap
+    held(app).now().reading.gap / held(app).plate.mean_gap
 }
 
 fn at_rest(window: &mut Window) {
@@ -194,7 +194,7 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     }
     until(&mut window, "it pushes back", |app| ratio(app) > 0.2);
     let app = window.state();
-    assert!(gap(app) < 0.9 && held(app).target() < 0.8 * held(app).plate().mean_gap);
+    assert!(gap(app) < 0.9 && held(app).target() < 0.8 * held(app).plate.mean_gap);
     // Held there, the pressure falls though nothing moves.
     until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
     let kept = gap(window.state());
@@ -305,7 +305,7 @@ fn the_charts_begin_at_rest() {
     }
     until(&mut window, "it is pushed down", |app| gap(app) < 0.62);
     let first = held(window.state()).trail().next().unwrap();
-    assert_eq!((first.time, first.gap, first.force), (0.0, held(window.state()).plate().mean_gap, 0.0));
+    assert_eq!((first.time, first.gap, first.force), (0.0, held(window.state()).plate.mean_gap, 0.0));
 }
 
 #[test]
@@ -322,7 +322,7 @@ fn numbers_and_pressure_of_a_plate_let_go_are_of_one_instant() {
         let lowest = shown.pressure.iter().copied().fold(f64::INFINITY, f64::min);
         let Reading { mean_pressure: mean, error, .. } = shown.reading;
         // The mean is extrapolated.
-        let off = 3.0 * error / held(window.state()).plate().area();
+        let off = 3.0 * error / held(window.state()).plate.area();
         assert!(lowest <= mean + off && mean <= highest + off, "{lowest} {mean} {highest}");
         window.press(Key::ArrowLeft);
     }
@@ -377,5 +377,5 @@ fn keys_and_slider_move_it_within_its_reach_only() {
     // Elsewhere the same keys do nothing to it.
     window.ctrl(Key::Num1);
     window.press(Key::ArrowDown);
-    assert!((held(window.state()).target() / held(window.state()).plate().mean_gap - 3.0).abs() < 1e-9);
+    assert!((held(window.state()).target() / held(window.state()).plate.mean_gap - 3.0).abs() < 1e-9);
 }

@@ -46,13 +46,16 @@ pub struct FitForm {
 pub struct FitState {
     /// The table.
     pub measured: Option<Arc<Measured>>,
-    form: FitForm,
+    /// What is asked for.
+    pub form: FitForm,
     /// What is wrong with each key of the form.
-    faults: Vec<Option<String>>,
+    pub faults: Vec<Option<String>>,
+    /// Numbers whose optimum can be sought: name, and words with the unit.
+    pub quantities: Vec<(&'static str, String)>,
     /// Of which scene the form was judged.
     judged: Option<Scene>,
     /// What is wrong with the limits.
-    goal_fault: Option<String>,
+    pub goal_fault: Option<String>,
     /// The search: it tells how many points were tried, and the best so far.
     pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
     /// The scene that it is of.
@@ -117,7 +120,7 @@ impl FitState {
 
     /// Looks whether the form is one of `scene`, and what is wrong with it; only if one of them has changed.
     pub fn review(&mut self, scene: &Scene) {
-        let Self { form: FitForm { axes, quantity, .. }, .. } = self;
+        let Self { form: FitForm { axes, quantity, .. }, quantities: known, .. } = self;
         if self.judged.as_ref() == Some(scene) && self.faults.len() == axes.len() {
             return;
         }
@@ -131,26 +134,16 @@ impl FitState {
             if twice { Some("Chosen twice: take another key".to_owned()) } else { bounds(scene, axis).err() }
         };
         self.faults = axes.iter().enumerate().map(fault).collect();
-        let known = quantities(scene);
+        *known = quantities(scene);
         let present = quantity.filter(|name| known.iter().any(|(other, _)| other == name));
         *quantity = present.or_else(|| known.first().map(|(name, _)| *name));
         self.goal_fault = self.goal(scene).err();
         self.judged = Some(scene.clone());
     }
 
-    /// What is asked for.
-    pub fn form(&self) -> &FitForm {
-        &self.form
-    }
-
     /// Asks for this.
     pub fn ask(&mut self, form: FitForm) {
         (self.form, self.judged) = (form, None);
-    }
-
-    /// What is wrong with the limits.
-    pub fn goal_fault(&self) -> Option<&str> {
-        self.goal_fault.as_deref()
     }
 
     /// The optimum that is sought; `None` of agreement.
@@ -176,11 +169,6 @@ impl FitState {
                 (*sought, *quantity) != (asked, Some(of.name())) || self.form.limits() != Ok(limits)
             }
         })
-    }
-
-    /// What is wrong with each key of the form.
-    pub fn faults(&self) -> &[Option<String>] {
-        &self.faults
     }
 
     /// The bounds that the form says.
@@ -217,8 +205,7 @@ impl FitState {
     }
 }
 
-/// Numbers whose optimum can be sought: name, and words with the unit.
-pub fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
+fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
     let Ok(problem) = Problem::try_from(scene) else { return Vec::new() };
     measurable(&problem).into_iter().map(|quantity| (quantity.name(), quantity.label(&problem))).collect()
 }

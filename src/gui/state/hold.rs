@@ -22,7 +22,8 @@ const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
 pub struct HoldState {
     job: HeldPlate,
     scene: Scene,
-    plate: Plate,
+    /// The plate.
+    pub plate: Plate,
     /// Seconds that the leak time takes.
     pub seconds: f64,
     /// Where it is held \[m\].
@@ -180,11 +181,6 @@ impl HoldState {
     /// Whether `scene` has another plate.
     pub fn stale(&self, scene: &Scene) -> bool {
         !self.scene.same_model(scene)
-    }
-
-    /// The plate.
-    pub fn plate(&self) -> &Plate {
-        &self.plate
     }
 
     /// Gaps that it can be held at \[m\].

@@ -63,8 +63,10 @@ impl Highlights {
 /// Lessons, tour and glossary.
 #[derive(Debug, Default)]
 pub struct LessonState {
-    lessons: Vec<Lesson>,
-    faults: Vec<LessonError>,
+    /// All lessons.
+    pub lessons: Vec<Lesson>,
+    /// What is wrong with lessons that could not be read.
+    pub faults: Vec<LessonError>,
     /// Folders that lessons were read from, in full.
     folders: Vec<PathBuf>,
     running: Option<RunningLesson>,
@@ -83,16 +85,6 @@ impl LessonState {
         let (lessons, faults) = window_names(lessons::built_in);
         let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
         Self { lessons, faults, progress, ..Self::default() }
-    }
-
-    /// All lessons.
-    pub fn lessons(&self) -> &[Lesson] {
-        &self.lessons
-    }
-
-    /// What is wrong with lessons that could not be read.
-    pub fn faults(&self) -> &[LessonError] {
-        &self.faults
     }
 
     /// Whether lessons were read from folders, which can be read again.

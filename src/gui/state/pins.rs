@@ -75,11 +75,16 @@ pub enum Note {
 /// All pins, the first being what differences are from.
 #[derive(Debug, Default)]
 pub struct Pins {
-    pins: Vec<Pin>,
-    runs: Vec<ComparedRun>,
-    results: Vec<ResultRow>,
-    parameters: Vec<ParameterRow>,
-    waiting: Vec<Waiting>,
+    /// Beside their runs.
+    pub pins: Vec<Pin>,
+    /// The pinned runs.
+    pub runs: Vec<ComparedRun>,
+    /// Their numbers, computed when the pins change.
+    pub results: Vec<ResultRow>,
+    /// Their parameters.
+    pub parameters: Vec<ParameterRow>,
+    /// Those that are being solved, or will be.
+    pub waiting: Vec<Waiting>,
     next: u64,
     /// What is shown.
     pub page: Page,
@@ -92,31 +97,6 @@ pub struct Pins {
 }
 
 impl Pins {
-    /// The pins, in the order of [`Self::runs`].
-    pub fn pins(&self) -> &[Pin] {
-        &self.pins
-    }
-
-    /// The pinned runs.
-    pub fn runs(&self) -> &[ComparedRun] {
-        &self.runs
-    }
-
-    /// Their numbers, computed when the pins change.
-    pub fn results(&self) -> &[ResultRow] {
-        &self.results
-    }
-
-    /// Their parameters.
-    pub fn parameters(&self) -> &[ParameterRow] {
-        &self.parameters
-    }
-
-    /// Those that are being solved, or will be.
-    pub fn waiting(&self) -> &[Waiting] {
-        &self.waiting
-    }
-
     /// A pin by its number.
     pub fn run(&self, id: u64) -> Option<&ComparedRun> {
         Some(&self.runs[self.place(id)?])
@@ -360,7 +340,7 @@ mod tests {
         pins.add(plate(&[], Fidelity::Standard));
         pins.add(plate(&[], Fidelity::Draft));
         let name = &presets::find("plate-crossover").unwrap().name;
-        let labels: Vec<&str> = pins.runs().iter().map(|run| run.label.as_str()).collect();
+        let labels: Vec<&str> = pins.runs.iter().map(|run| run.label.as_str()).collect();
         assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
         assert!(matches!(&pins.note, Some(Note::Remark(text)) if text.contains("already")));
     }
@@ -371,25 +351,25 @@ mod tests {
         for spacing in ["2", "3", "4"] {
             pins.add(solved("plate-crossover", &[("plate.frequency_khz", spacing)], Fidelity::Draft));
         }
-        let second = pins.pins()[1].id;
+        let second = pins.pins[1].id;
         pins.remove(second);
         pins.add(solved("plate-viscous", &[], Fidelity::Draft));
-        let slots: Vec<usize> = pins.pins().iter().map(|pin| pin.slot).collect();
+        let slots: Vec<usize> = pins.pins.iter().map(|pin| pin.slot).collect();
         assert_eq!(slots, [0, 2, 1]);
-        let last = pins.pins()[2].id;
+        let last = pins.pins[2].id;
         assert!(last > second);
         pins.rename(last, "one");
-        let first = pins.pins()[0].id;
+        let first = pins.pins[0].id;
         pins.rename(first, "one");
         assert_eq!(pins.run(first).unwrap().label, "one (2)");
         pins.rename(first, " one (2)  ");
         assert_eq!(pins.run(first).unwrap().label, "one (2)");
-        assert_eq!(pins.results()[0].cells.len(), 3);
+        assert_eq!(pins.results[0].cells.len(), 3);
         pins.clear();
-        assert!(pins.runs().is_empty() && pins.results().is_empty());
+        assert!(pins.runs.is_empty() && pins.results.is_empty());
         // All come back, until there is another one.
         pins.restore_cleared();
-        assert_eq!((pins.runs().len(), pins.results()[0].cells.len()), (3, 3));
+        assert_eq!((pins.runs.len(), pins.results[0].cells.len()), (3, 3));
         assert!(!pins.can_restore());
         pins.clear();
         pins.add(solved("plate-viscous", &[], Fidelity::Draft));

@@ -236,7 +236,6 @@ struct Checked {
     scene: Scene,
     /// What is wrong with each axis that is asked for.
     faults: Vec<Option<String>>,
-    problem: Option<Problem>,
 }
 
 /// What the tab knows.
@@ -263,11 +262,6 @@ impl SweepState {
     /// What is wrong with each axis that is asked for.
     pub fn faults(&self) -> &[Option<String>] {
         self.checked.as_ref().map_or(&[], |checked| &checked.faults)
-    }
-
-    /// The scene that would be swept.
-    pub fn problem(&self) -> Option<&Problem> {
-        self.checked.as_ref()?.problem.as_ref()
     }
 
     /// Whether its points are being made: there is no row to show yet.
@@ -300,7 +294,7 @@ impl SweepState {
             self.before = Some(std::mem::replace(form, next));
         }
         let faults = form.axes().iter().map(|axis| axis.vary(scene).err()).collect();
-        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::try_from(scene).ok() }));
+        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults }));
     }
 
     /// Draws this from now on.

@@ -23,6 +23,7 @@ use super::tradeoff::TradeoffState;
 use super::view::{Tab, View};
 use crate::job::SolvedScene;
 use crate::platform::HAS_FILES;
+use crate::problem::Problem;
 use crate::recording::Recording;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,6 +37,8 @@ const RECENT: usize = 10;
 pub struct State {
     /// The scene being edited.
     pub document: Document,
+    /// The same, checked and in SI units, since it was last changed; none if it is refused.
+    pub problem: Option<Problem>,
     /// The most time that a solve may take, if that is limited: then the best so far is shown.
     pub budget: Option<Duration>,
     /// Edits that the scene did not take.
@@ -119,7 +122,7 @@ impl State {
 
     /// What moves in the middle: its frames are those of the timeline.
     pub fn on_timeline(&self) -> Option<&Recording> {
-        let pinned = || self.pins.runs().iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
+        let pinned = || self.pins.runs.iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
         let recording = match self.view.tab {
             Tab::Motion => self.run.as_ref().map(|run| &run.solution.recording),
             Tab::Startup => self.startup.as_ref().and_then(StartupState::run).map(|run| &run.solution.recording),
@@ -131,7 +134,7 @@ impl State {
 
     /// The shortest and the longest period of what moves with `recording` \[s\]: pinned runs need not have the same.
     pub fn periods(&self, recording: &Recording) -> [f64; 2] {
-        let pinned = self.pins.runs().iter().filter(|_| self.view.tab == Tab::Compare);
+        let pinned = self.pins.runs.iter().filter(|_| self.view.tab == Tab::Compare);
         let periods = pinned.filter_map(|run| Some(run.solved.as_ref().ok()?.recording.period));
         periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
     }
@@ -151,7 +154,7 @@ impl State {
         match export {
             Export::Data | Export::Figures | Export::Fields | Export::Report => self.run.is_some(),
             Export::Animation => cfg!(feature = "render") && self.run.is_some(),
-            Export::Comparison | Export::ComparisonReport => self.pins.runs().len() > 1,
+            Export::Comparison | Export::ComparisonReport => self.pins.runs.len() > 1,
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
                 self.sweep.swept().is_some_and(|swept| !swept.rows.is_empty())
             }

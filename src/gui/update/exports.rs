@@ -57,10 +57,10 @@ impl Updater {
             Export::Fields => of_run(OfRun::Fields),
             Export::Animation => of_run(OfRun::Animation),
             Export::Report => Some(Content::Runs(OfRuns::Report, vec![to_compare(&self.named()?)])),
-            Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs().to_vec())),
+            Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs.to_vec())),
             Export::Comparison => {
                 let all = self.state.pins.all_parameters;
-                Some(Content::Runs(OfRuns::Comparison { all }, self.state.pins.runs().to_vec()))
+                Some(Content::Runs(OfRuns::Comparison { all }, self.state.pins.runs.to_vec()))
             }
             Export::Sweep => of_sweep(|_| OfSweep::Data),
             Export::SweepTable => of_sweep(|_| OfSweep::Table),

@@ -31,7 +31,7 @@ impl Updater {
     }
 
     fn say_faults(&mut self) {
-        let faults: Vec<String> = self.state.lessons.faults().iter().map(ToString::to_string).collect();
+        let faults: Vec<String> = self.state.lessons.faults.iter().map(ToString::to_string).collect();
         if !faults.is_empty() {
             self.state.fail(faults.join("\n"));
         }

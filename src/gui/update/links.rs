@@ -18,7 +18,7 @@ impl Updater {
         let link = match state.lessons.running() {
             Some(running) => {
                 // The recap behind the last step has no number.
-                let steps = state.lessons.lessons()[running.lesson].steps.len();
+                let steps = state.lessons.lessons[running.lesson].steps.len();
                 Link::to_lesson(running.lesson + 1, (running.step + 1).min(steps))
             }
             None => Link::to(state.document.scene(), state.view.tab),
@@ -62,8 +62,8 @@ impl Updater {
                 tab.into_iter().for_each(|tab| self.carry_out(Command::Show(tab)));
             }
             Link::Lesson { lesson, step } => {
-                let Some(found) = self.state.lessons.lessons().get(lesson - 1) else {
-                    let most = self.state.lessons.lessons().len();
+                let Some(found) = self.state.lessons.lessons.get(lesson - 1) else {
+                    let most = self.state.lessons.lessons.len();
                     return self.state.fail(format!("lesson {lesson}: allowed is 1 to {most}"));
                 };
                 let most = found.steps.len();

@@ -14,7 +14,7 @@ use crate::job::rotor::RotorWork;
 use crate::job::startup::StartupWork;
 use crate::job::torque::TorqueWork;
 use crate::job::work::Posed;
-use crate::problem::{Problem, Scenario};
+use crate::problem::Scenario;
 use crate::startup;
 use std::sync::Arc;
 use std::time::Duration;
@@ -50,13 +50,13 @@ impl Updater {
     /// Computes the rotor of the present scene while its tab is shown.
     pub fn follow_rotor(&mut self) {
         let Tab::Rotor = self.state.view.tab else { return };
-        let scene = self.state.document.scene();
-        let Ok(problem) = Problem::try_from(scene) else { return };
+        let Some(problem) = &self.state.problem else { return };
         let Scenario::Motor(motor) = &problem.scenario else { return };
         if self.state.rotor.lacks(motor) {
-            let posed = Posed { scene: scene.clone(), problem: problem.clone() };
+            let motor = motor.clone();
+            let posed = Posed { scene: self.state.document.scene().clone(), problem: problem.clone() };
             let task = self.start_work("The rotor cannot be computed", RotorWork(posed), Duration::ZERO);
-            self.state.rotor.begin(motor, task);
+            self.state.rotor.begin(&motor, task);
         }
     }
 
@@ -69,12 +69,12 @@ impl Updater {
         }
         // A plate that floats has its mean gap from the run, and waits for it.
         let run = state.run.as_ref().filter(|run| run.scene.same_model(scene));
-        let problem = || run.map_or_else(|| Problem::try_from(scene).ok(), |run| Some(run.problem.clone()));
+        let problem = run.map(|run| &run.problem).or(state.problem.as_ref());
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
         if state.view.tab == Tab::Hold
             && state.hold.is_none()
             && known
-            && let Some(Scenario::Plate(plate)) = problem().map(|problem| problem.scenario)
+            && let Some(Scenario::Plate(plate)) = problem.map(|problem| problem.scenario.clone())
         {
             let wake = self.ctx.clone();
             let slow = slowed(&plate, FIRST_SECONDS);
@@ -93,7 +93,7 @@ impl Updater {
 
     pub(super) fn hold(&mut self, command: HoldCommand) {
         let Some(hold) = &mut self.state.hold else { return };
-        let mean_gap = hold.plate().mean_gap;
+        let mean_gap = hold.plate.mean_gap;
         match command {
             HoldCommand::To(gap) => hold.move_to(gap),
             HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),

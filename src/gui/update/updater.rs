@@ -82,8 +82,10 @@ impl Updater {
 
     /// Asks for the present scene at these fidelities, each within the budget.
     pub(super) fn solve(&mut self, fidelities: Vec<Fidelity>, budget: Option<Duration>) {
-        let State { document, activity, .. } = &mut self.state;
-        match Problem::try_from(document.scene()) {
+        let State { document, problem, activity, .. } = &mut self.state;
+        let posed = Problem::try_from(document.scene());
+        *problem = posed.as_ref().ok().cloned();
+        match posed {
             Ok(problem) => {
                 let scene = document.scene().clone();
                 activity.number = self.solver.submit(Request { scene, problem, fidelities, budget });

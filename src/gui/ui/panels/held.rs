@@ -11,7 +11,7 @@ use eframe::egui;
 
 /// Shows what is read off `hold`.
 pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
-    let (plate, now) = (hold.plate(), hold.shown());
+    let (plate, now) = (&hold.plate, hold.shown());
     let (reading, ambient) = (now.reading, plate.gas.ambient_pressure);
     let (unit, area) = if plate.is_strip() { ("N/m", "Load / (p_a · length)") } else { ("N", "Load / (p_a · area)") };
     scrolled(ui, "held", 8.0, |ui| {

@@ -16,7 +16,7 @@ use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, T
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let lessons = &cx.state.lessons;
     let Some(running) = lessons.running() else { return };
-    let Some(lesson) = lessons.lessons().get(running.lesson) else { return };
+    let Some(lesson) = lessons.lessons.get(running.lesson) else { return };
     ui.add_space(6.0);
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -142,7 +142,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = &cx.state.lessons;
-    for (i, lesson) in state.lessons().iter().enumerate() {
+    for (i, lesson) in state.lessons.iter().enumerate() {
         let progress = state.progress(lesson);
         let steps = lesson.steps.len();
         let skipped = lesson.steps.iter().zip(&progress.work).filter(|(step, work)| work.is_skipped(step)).count();
@@ -166,7 +166,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
     }
     export_item(ui, Export::Answers, cx.state.can_export(Export::Answers), cx);
-    if !state.faults().is_empty() {
+    if !state.faults.is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }
 }

@@ -5,8 +5,8 @@ use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
 use crate::recording::Recording;
-use eframe::egui::{Rect, Ui};
-use egui_plot::{LineStyle, PlotResponse, Span};
+use eframe::egui::{Color32, Rect, Ui};
+use egui_plot::{LineStyle, PlotResponse, PlotUi, Span};
 
 /// Name of the chart.
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
@@ -32,34 +32,39 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
         plot.span(column);
         plot.hline(level(0.0, style.palette.quiet, 1.0));
-        if let Some(first) = &shown.first {
-            let Frame { recording, of: motor, lines, .. } = &**first;
-            for tooth in 0..recording.teeth {
-                for field in [&lines.contact, &lines.film] {
-                    let curve = curve(recording, motor, tooth, &field[lines.of(tooth)]);
-                    plot.line(line(&curve, style.palette.quiet, 1.2, LineStyle::Solid));
-                }
+        let width = shown.of.contact_width;
+        if let Some(Frame { recording, of: motor, lines, .. }) = shown.first.as_deref() {
+            for field in [&lines.contact, &lines.film] {
+                pressure(plot, (recording, motor.contact_width), field, 1e3, (style.palette.quiet, 0.0));
             }
         }
-        for tooth in 0..shown.recording.teeth {
-            let nodes = shown.lines.of(tooth);
-            let curve = |field: &[f64]| curve(shown.recording, shown.of, tooth, &field[nodes.clone()]);
-            let touching = curve(&shown.lines.contact);
-            if touching.iter().any(|at| at[1] != 0.0) {
-                let columns: Vec<[f64; 3]> = touching.iter().map(|at| [at[0], at[1], 0.0]).collect();
-                plot.add(between(&columns, contact.gamma_multiply(0.35)));
-                plot.line(line(&touching, contact, 1.8, LineStyle::Solid));
-            }
-            plot.line(line(&curve(&shown.lines.film), film, 1.8, LineStyle::Solid));
-        }
+        pressure(plot, (shown.recording, width), &shown.lines.contact, 1e3, (contact, 0.35));
+        pressure(plot, (shown.recording, width), &shown.lines.film, 1e3, (film, 0.0));
         if let Some(x) = shown.view.cursor_x {
             plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
         }
     })
 }
 
-/// The line loads of a tooth as pressures: (x \[mm\], pressure \[kPa\]).
-fn curve(recording: &Recording, motor: &Motor, tooth: usize, loads: &[f64]) -> Vec<[f64; 2]> {
-    let (middle, kilo) = (tooth as f64 * recording.pitch, 1e-3 / motor.contact_width);
-    recording.x.iter().zip(loads).map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect()
+/// The line loads of all teeth as pressures \[kPa\], over a contact of this width \[m\], with an area of this opacity below; a metre is `metre` on
+/// the axis.
+pub(super) fn pressure(
+    plot: &mut PlotUi<'_>,
+    (recording, width): (&Recording, f64),
+    loads: &[f64],
+    metre: f64,
+    (colour, opacity): (Color32, f32),
+) {
+    // Nothing rather than a line at zero where a tooth does not touch.
+    let nodes = recording.x.len().max(1);
+    for (tooth, loads) in loads.chunks(nodes).enumerate().filter(|(_, loads)| loads.iter().any(|load| *load != 0.0)) {
+        let middle = tooth as f64 * recording.pitch;
+        let points = recording.x.iter().zip(loads).map(|(x, load)| [(middle + x) * metre, load * 1e-3 / width]);
+        let points: Vec<[f64; 2]> = points.collect();
+        if opacity > 0.0 {
+            let columns: Vec<[f64; 3]> = points.iter().map(|at| [at[0], at[1], 0.0]).collect();
+            plot.add(between(&columns, colour.gamma_multiply(opacity)));
+        }
+        plot.line(line(&points, colour, 1.6, LineStyle::Solid));
+    }
 }

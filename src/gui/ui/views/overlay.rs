@@ -2,6 +2,7 @@
 //! beside each other with one scale of colours. Motors with motors, plates with plates: they have no axis in common.
 
 use super::field::{self, Stamp};
+use super::loads::pressure;
 use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
 use super::series::{Series, Trace};
@@ -9,7 +10,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::state::pins::Pin;
-use crate::gui::ui::chart::{Inset, between, level, line, upright};
+use crate::gui::ui::chart::{Inset, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields, scale_bar, title_with_bar};
 use crate::gui::ui::theme::run_colour;
@@ -42,7 +43,7 @@ struct Pinned<'a, T> {
 /// Draws the pinned runs at the view's phase; scrolls if that takes more than there is room for.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (mut motors, mut plates) = (Vec::new(), Vec::new());
-    for (pin, run) in cx.state.pins.pins().iter().zip(cx.state.pins.runs()) {
+    for (pin, run) in cx.state.pins.pins.iter().zip(&cx.state.pins.runs) {
         let Ok(recording) = run.solved.as_ref().map(|solution| &solution.recording) else { continue };
         if !has_fields(recording) {
             continue;
@@ -343,19 +344,8 @@ fn draw_pressure(
         plot.hline(level(0.0, style.palette.quiet, 1.0));
         for run in runs {
             let metre = along.metre(run.recording.length) * written;
-            for tooth in 0..run.recording.teeth {
-                let values = &[&run.lines.contact, &run.lines.film][field][run.lines.of(tooth)];
-                // Nothing rather than a line at zero where a tooth does not touch.
-                if values.iter().all(|value| *value == 0.0) {
-                    continue;
-                }
-                let middle = tooth as f64 * run.recording.pitch;
-                let loads = run.recording.x.iter().zip(values);
-                let points: Vec<_> = loads.map(|(xi, load)| [(middle + xi) * metre, load * kilo(run)]).collect();
-                let columns: Vec<_> = points.iter().map(|[x, load]| [*x, *load, 0.0]).collect();
-                plot.add(between(&columns, run.colour.gamma_multiply(0.16)));
-                plot.line(line(&points, run.colour, 1.6, LineStyle::Solid));
-            }
+            let loads = [&run.lines.contact, &run.lines.film][field];
+            pressure(plot, (run.recording, run.of.contact_width), loads, metre, (run.colour, 0.16));
         }
         if let Some(x) = cursor {
             plot.vline(upright(x * written, style.palette.accent, 1.0));
@@ -403,7 +393,10 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let written = along.written();
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
     let name = "Plates along their length: point to read values";
-    let below = Some(if along.alike { "x, mm" } else { "x/length" });
+    // Of round ones the length is the diameter.
+    let round = runs.iter().all(|run| run.recording.radial);
+    let (below, lengths) = if round { ("x/diameter", "diameters") } else { ("x/length", "lengths") };
+    let below = Some(if along.alike { "x, mm" } else { below });
     let charted = Inset { name, rect: chart, bounds, below }.show(ui, &style, |plot| {
         for run in runs {
             plot.hline(level(1e-3 * run.of.gas.ambient_pressure, style.palette.quiet, 1.0));
@@ -451,7 +444,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let on_a_term = style.explain(ui);
     let (response, x) = along.pointed(charted);
     let at = (response, x.filter(|_| !on_a_term));
-    along.read(at, ("lengths", &["p, kPa absolute"]), runs, cx, |ui, run, x| {
+    along.read(at, (lengths, &["p, kPa absolute"]), runs, cx, |ui, run, x| {
         let pressure = sample::middle_pressure(run.recording, 0, x / along.metre(run.of.length), run.place);
         ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
     });
