@@ -785,3 +785,24 @@ fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
     };
     assert!(disabled("Minimum spacing H_m") && !disabled("Ambient pressure"));
 }
+
+#[test]
+fn a_number_that_was_entered_is_typed_over_after_another_click() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    const FIELD: &str = "Minimum spacing H_m in nm";
+    window.type_into(FIELD, "150");
+    for digits in ["25", "30"] {
+        let at = window.get_by_role_and_label(Role::TextInput, FIELD).rect().center();
+        window.hover_at(at);
+        window.drag_at(at);
+        window.drop_at(at);
+        window.step();
+        for digit in digits.chars() {
+            window.event(eframe::egui::Event::Text(digit.to_string()));
+            window.step();
+        }
+        window.press(Key::Enter);
+        assert_eq!(spacing(window.state()).to_string(), digits, "no digit is lost, and none of the last number stays");
+    }
+}

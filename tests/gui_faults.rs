@@ -192,9 +192,9 @@ fn a_file_holds_what_its_name_says() {
     window.click_on("Close");
     begin_export(&mut window, "Animation…", &folder.path().join("cycle"));
     until(&mut window, "the animation is under way or done", |app| {
-        app.state().exports.running().is_some() || app.state().exports.written().is_some()
+        app.state().exports.running.is_some() || app.state().exports.written().is_some()
     });
-    until(&mut window, "the animation", |app| app.state().exports.running().is_none());
+    until(&mut window, "the animation", |app| app.state().exports.running.is_none());
     assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());
 }
 

@@ -296,7 +296,7 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
 /// Asks for an export in the menu and types where to; waits until it has ended.
 fn export(window: &mut Window, entry: &str, path: &Path) {
     begin_export(window, entry, path);
-    until(window, "the export ends", |app| app.state().exports.running().is_none());
+    until(window, "the export ends", |app| app.state().exports.running.is_none());
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -407,12 +407,12 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
 
     // A long one is cancelled, and leaves nothing; meanwhile no other begins.
     begin_export(&mut window, "Animation…", &at("long.mp4"));
-    until(&mut window, "it begins", |app| app.state().exports.running().is_some());
+    until(&mut window, "it begins", |app| app.state().exports.running.is_some());
     begin_export(&mut window, "Fields as NumPy archive…", &at("fields.npz"));
     window.get_by_label_contains("Another export goes on");
     window.click_on("Close");
     window.click_on("Cancel the export");
-    until(&mut window, "it ends", |app| app.state().exports.running().is_none());
+    until(&mut window, "it ends", |app| app.state().exports.running.is_none());
     assert!(window.query_by_label("This did not work").is_none(), "that it was cancelled is no error");
     assert!(names(folder.path()).iter().all(|name| !name.contains("long") && !name.contains(".tmp")));
 }
@@ -519,7 +519,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| swept.complete()));
     explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
     hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
-    hovers(faults, &mut window, "About: stated error", "the numerical error only");
+    hovers(faults, &mut window, "stated error", "the numerical error only");
 
     window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", |app| {

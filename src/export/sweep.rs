@@ -14,7 +14,7 @@ use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading,
     Shape, Style, Width, extent,
 };
-use crate::scene::{Scale, show_text};
+use crate::scene::{ParameterKind, Scale, show_text};
 use crate::solution::StoppedBy;
 use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -203,7 +203,8 @@ pub fn primary(sweep: &Sweep) -> Quantity {
 fn figure_axis(axis: &SweepAxis) -> Axis {
     let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
     if axis.words.is_empty() {
-        return Axis { scale: axis.scale, ..drawn };
+        let whole = matches!(axis.parameter.kind, ParameterKind::Whole { .. });
+        return Axis { scale: axis.scale, whole, ..drawn };
     }
     let names = axis.values.iter().map(|value| (*value, axis.text(*value))).collect();
     Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
@@ -212,22 +213,21 @@ fn figure_axis(axis: &SweepAxis) -> Axis {
 /// Up to this many points each has its marker.
 const FEW: usize = 40;
 
-fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -> Panel {
-    // In ascending order, with a gap where there is no value.
-    let mut rows: Vec<&Row> = rows.iter().collect();
-    rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    let value = |row: &Row| match row.status {
-        RunStatus::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
-        _ => f64::NAN,
-    };
+/// One quantity over one key, with a gap where a point has no value, or is still to be solved.
+pub(crate) fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -> Panel {
+    let mut points: Vec<(f64, Option<&Row>)> = x.values.iter().map(|value| (*value, None)).collect();
+    rows.iter().for_each(|row| points[row.point].1 = Some(row));
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let sound = |row: &&Row| row.status == RunStatus::Converged;
+    let number = |row: &Option<&Row>, of: Quantity| row.and_then(|row| row.numbers.get(of)).unwrap_or(f64::NAN);
     let colour = Colour::FILM;
     let mut panel =
         Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit(sweep.problem())).including([0.0]));
     let errors: Vec<f64> = match quantity.error() {
-        Some(error) => rows.iter().map(|row| row.numbers.get(error).unwrap_or(f64::NAN)).collect(),
+        Some(error) => points.iter().map(|(_, row)| number(row, error)).collect(),
         None => Vec::new(),
     };
-    let curve: Vec<[f64; 2]> = rows.iter().map(|row| [row.values[0], value(row)]).collect();
+    let curve: Vec<[f64; 2]> = points.iter().map(|(x, row)| [*x, number(&row.filter(sound), quantity)]).collect();
     let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
     // There is nothing between words.
     if !x.words.is_empty() {
@@ -274,7 +274,13 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
-fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity, range: Range) -> Panel {
+pub(crate) fn map_panel(
+    sweep: &Sweep,
+    rows: &[Row],
+    [x, y]: [&SweepAxis; 2],
+    quantity: Quantity,
+    range: Range,
+) -> Panel {
     let ascending = |values: &[f64]| {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);

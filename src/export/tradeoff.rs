@@ -64,6 +64,15 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
     tradeoff.points.iter().enumerate().map(setting).collect()
 }
 
+/// What the settings of a family are called, and their colour.
+pub fn words(family: Family) -> (&'static str, Colour) {
+    match family {
+        Family::Fidelity => ("fidelities", Colour::FILM),
+        Family::Grid => ("other grids", Colour::CYCLE[2]),
+        Family::Paper => ("the paper's method", Colour::CONTACT),
+    }
+}
+
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
 /// names at the fidelities, and rings of this name and colour round some settings.
 pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize])) -> Panel {
@@ -77,11 +86,10 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
     let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|point| point.best).filter_map(place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
-    for (family, of_family, colour, shape) in [
-        (Family::Fidelity, "fidelities", Colour::FILM, Shape::Circle),
-        (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
-        (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
-    ] {
+    for (family, shape) in
+        [(Family::Fidelity, Shape::Circle), (Family::Grid, Shape::Triangle), (Family::Paper, Shape::Square)]
+    {
+        let (of_family, colour) = words(family);
         let members = tradeoff.points.iter().filter(|point| point.run.candidate.family == family);
         let points: Vec<[f64; 2]> = members.filter_map(place).collect();
         if !points.is_empty() {

@@ -69,7 +69,6 @@ pub enum Part {
     Stator,
     /// A side of the tooth that is followed.
     Followed,
-    /// The rotor.
     Rotor,
     /// A mark on the rotor.
     Mark,
@@ -103,15 +102,12 @@ struct Station {
 /// The ring at one instant.
 #[derive(Debug)]
 pub struct Ring<'a> {
-    /// The motor.
     pub motor: &'a Motor,
-    /// Its fields.
     pub recording: &'a Recording,
     /// The instant, in frames.
     pub place: f64,
     /// Whole cycles that went before.
     pub cycles: f64,
-    /// The lines at that instant.
     pub lines: &'a Lines,
     /// The rotor's underside, as in [`Lines::underside`] \[m\].
     pub underside: &'a [[f64; 2]],
@@ -141,7 +137,6 @@ impl Ring<'_> {
         (self.heights[1] - self.heights[0]) * self.scale() + LIFT
     }
 
-    /// Phase of the instant.
     fn phase(&self) -> f64 {
         self.place / self.recording.frames.max(1) as f64
     }

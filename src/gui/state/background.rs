@@ -17,14 +17,12 @@ impl<M, R> Default for Background<M, R> {
 }
 
 impl<M, R> From<Task<M, R>> for Background<M, R> {
-    /// `task` has begun.
     fn from(task: Task<M, R>) -> Self {
         Self { task: Some(task), cancelled: false }
     }
 }
 
 impl<M, R> Background<M, R> {
-    /// Asks it to end.
     pub fn cancel(&mut self) {
         if let Some(task) = &self.task {
             task.cancel();
@@ -32,7 +30,6 @@ impl<M, R> Background<M, R> {
         }
     }
 
-    /// Whether it goes on.
     pub fn running(&self) -> bool {
         self.task.is_some()
     }

@@ -12,11 +12,9 @@ use std::time::Duration;
 /// An export under way.
 #[derive(Debug)]
 pub struct RunningExport {
-    /// What is written.
     pub export: Export,
     /// It tells how many pictures of an animation are drawn.
     pub work: Background<<Files as Work>::Message, <Files as Work>::Found>,
-    /// When it began.
     pub started: Instant,
     /// How many pictures are drawn, of how many.
     pub drawn: (usize, usize),
@@ -25,7 +23,7 @@ pub struct RunningExport {
 /// All that the window knows of exports.
 #[derive(Debug, Default)]
 pub struct ExportState {
-    running: Option<RunningExport>,
+    pub running: Option<RunningExport>,
     /// What was written last, and when: a note for a while.
     written: Option<(Vec<PathBuf>, Instant)>,
 }
@@ -34,12 +32,6 @@ pub struct ExportState {
 const TOLD: Duration = Duration::from_secs(10);
 
 impl ExportState {
-    /// The one under way.
-    pub fn running(&self) -> Option<&RunningExport> {
-        self.running.as_ref()
-    }
-
-    /// One has begun.
     pub fn begin(&mut self, export: Export, task: ExportTask, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });

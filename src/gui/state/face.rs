@@ -12,7 +12,6 @@ use std::sync::Arc;
 pub struct Face {
     /// Name of the file.
     pub name: String,
-    /// The heights.
     pub map: HeightMap,
     /// Two faces like it.
     pub pair: Pair,
@@ -30,7 +29,6 @@ pub struct FaceState {
     pub work: Background<(), (HeightMap, Texture)>,
     /// Name of that file.
     name: String,
-    /// The face.
     pub found: Option<Arc<Face>>,
 }
 

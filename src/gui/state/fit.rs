@@ -3,7 +3,7 @@
 use super::background::Background;
 use super::document::solved_alike;
 use super::sweep::AxisForm;
-use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
+use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 use crate::job::fit::FitWork;
 pub use crate::job::fit::{FitTask, Found};
@@ -28,7 +28,6 @@ pub enum Sought {
     Least,
 }
 
-/// What is asked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
     /// The keys to be chosen.
@@ -44,9 +43,7 @@ pub struct FitForm {
 /// The table, the form, and the fit.
 #[derive(Debug, Default)]
 pub struct FitState {
-    /// The table.
     pub measured: Option<Arc<Measured>>,
-    /// What is asked for.
     pub form: FitForm,
     /// What is wrong with each key of the form.
     pub faults: Vec<Option<String>>,
@@ -54,7 +51,6 @@ pub struct FitState {
     pub quantities: Vec<(&'static str, String)>,
     /// Of which scene the form was judged.
     judged: Option<Scene>,
-    /// What is wrong with the limits.
     pub goal_fault: Option<String>,
     /// The search: it tells how many points were tried, and the best so far.
     pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
@@ -73,11 +69,6 @@ impl FitForm {
     fn limits(&self) -> Result<Vec<Limit>, String> {
         let limits = self.limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
         limits.map(str::parse::<Limit>).collect::<Result<_, _>>().map_err(|error| error.to_string())
-    }
-
-    /// Whether one more key can be chosen.
-    pub fn has_room(&self) -> bool {
-        self.axes.len() < MOST_UNKNOWNS
     }
 
     /// Chooses one more key: the first that is not there.
@@ -141,7 +132,6 @@ impl FitState {
         self.judged = Some(scene.clone());
     }
 
-    /// Asks for this.
     pub fn ask(&mut self, form: FitForm) {
         (self.form, self.judged) = (form, None);
     }

@@ -22,7 +22,6 @@ const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
 pub struct HoldState {
     job: HeldPlate,
     scene: Scene,
-    /// The plate.
     pub plate: Plate,
     /// Seconds that the leak time takes.
     pub seconds: f64,
@@ -198,7 +197,6 @@ impl HoldState {
         &self.now
     }
 
-    /// The film as it is shown.
     pub fn shown(&self) -> &Snapshot {
         self.recorded.and_then(|_| self.trail.get(self.place())).unwrap_or(&self.now)
     }

@@ -29,7 +29,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Files remembered.
 const RECENT: usize = 10;
 
 /// All that is drawn, and all that commands change.
@@ -57,19 +56,14 @@ pub struct State {
     pub exports: ExportState,
     /// Runs that were pinned to be compared.
     pub pins: Pins,
-    /// The sweep.
     pub sweep: SweepState,
     /// Measurements, and the fit to them.
     pub fit: FitState,
-    /// A measured face.
     pub face: FaceState,
-    /// Torque over speed.
     pub torque: TorqueState,
-    /// The rotor by itself.
     pub rotor: RotorState,
     /// What the results depend on.
     pub sensitivity: SensitivityState,
-    /// Lessons, tour and glossary.
     pub lessons: LessonState,
     /// The start-up, if one was asked for.
     pub startup: Option<StartupState>,
@@ -81,11 +75,9 @@ pub struct State {
     pub failed_path: Option<(Purpose, String)>,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
-    /// Whether the sheet of shortcuts is shown.
     pub shortcuts: bool,
     /// Files that were opened or saved, the newest first.
     pub recent: Vec<PathBuf>,
-    /// Whether the theme is dark.
     pub dark: bool,
     /// Whether text is as large as a lecture room needs it.
     pub lecture: bool,
@@ -169,7 +161,7 @@ impl State {
 
     /// Work that was asked for and would be lost if the window closed now, in words.
     pub fn unfinished(&self) -> Vec<String> {
-        let export = self.exports.running().map(|running| format!("An export: {}", running.export.title()));
+        let export = self.exports.running.as_ref().map(|running| format!("An export: {}", running.export.title()));
         let swept = self.sweep.swept().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());

@@ -6,6 +6,7 @@ use super::paint::{PlotStyle, widened};
 use super::theme::on_screen;
 use crate::digits::{power_of_ten, short};
 use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Panel, Scale, Shape, ends};
+use crate::gui::derived::scales::span;
 use crate::ticks::{Steps, decades};
 use eframe::egui::{
     self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, Stroke, TextStyle, UiBuilder, Visuals, pos2, vec2,
@@ -27,6 +28,8 @@ const WIDTH: f32 = 2.0;
 const DIGITS: usize = 4;
 /// Values of a logarithmic axis up to this many decades from 1 are written out.
 const PLAIN_DECADES: f64 = 3.5;
+/// A curve is drawn as exactly as this share of its size.
+const STRAIGHT: f64 = 5e-4;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
@@ -67,7 +70,28 @@ fn framed<'a, R>(
 /// turns: it is a chain of segments.
 pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
     let style = if style == LineStyle::Solid { LineStyle::Dashed { length: 1e6 } } else { style };
-    Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
+    let size = [0, 1].map(|k| span(points.iter().map(|point| point[k]))).map(|[low, high]| high - low);
+    let mut kept = Vec::new();
+    thin(points, size, &mut kept);
+    kept.extend(points.last());
+    Line::new("", PlotPoints::from(kept)).color(colour).width(width).style(style).allow_hover(false)
+}
+
+/// Keeps of a curve of this size the points that straight lines between others would miss, but for the last one (Ramer 1972).
+fn thin(points: &[[f64; 2]], size: [f64; 2], kept: &mut Vec<[f64; 2]>) {
+    let [first, .., last] = points else { return };
+    let from_first = |point: &[f64; 2]| [0, 1].map(|k| (point[k] - first[k]) / size[k].max(f64::MIN_POSITIVE));
+    let [dx, dy] = from_first(last);
+    let off = |point: &[f64; 2]| {
+        let [x, y] = from_first(point);
+        let part = ((x * dx + y * dy) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (x - part * dx).hypot(y - part * dy)
+    };
+    let furthest = (1..points.len() - 1).max_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])));
+    match furthest.filter(|i| off(&points[*i]) > STRAIGHT) {
+        Some(i) => [&points[..=i], &points[i..]].into_iter().for_each(|part| thin(part, size, kept)),
+        None => kept.push(*first),
+    }
 }
 
 /// A chart of a tab, over its whole width, whose axes are explained on hover: a panel as figures describe it, in the colours of the window.
@@ -84,17 +108,30 @@ pub(super) struct Chart<'n> {
 }
 
 impl<'n> Chart<'n> {
-    /// Shows it; the x that is pointed at.
-    pub(super) fn show(self, ui: &mut egui::Ui) -> Option<f64> {
-        self.show_with(ui, |plot| plot)
+    pub(super) fn show(self, ui: &mut egui::Ui) {
+        self.show_with(ui, |plot| plot);
     }
 
-    /// As [`Self::show`], with changes to the plot.
-    pub(super) fn show_with(self, ui: &mut egui::Ui, change: impl FnOnce(Plot<'n>) -> Plot<'n>) -> Option<f64> {
+    /// As [`Self::show`], with changes to the plot; the x that is pointed at.
+    pub(super) fn show_with(
+        self,
+        ui: &mut egui::Ui,
+        change: impl FnOnce(Plot<'n>) -> Plot<'n>,
+    ) -> PlotResponse<Option<f64>> {
+        self.show_over(ui, change, |_| ())
+    }
+
+    /// The same over what `ground` draws.
+    pub(super) fn show_over(
+        self,
+        ui: &mut egui::Ui,
+        change: impl FnOnce(Plot<'n>) -> Plot<'n>,
+        ground: impl FnOnce(&mut PlotUi<'n>) + 'n,
+    ) -> PlotResponse<Option<f64>> {
         let Self { name, height, panel, words } = self;
         let (x, y) = (&panel.x, &panel.y);
         let em = ui.text_style_height(&TextStyle::Body);
-        let whole = place(ui, height);
+        let whole = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), height));
         let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
         let columns = f64::from((whole.width() / (COLUMN_EVERY * em)).max(1.0));
         let ends = ends(panel);
@@ -108,29 +145,32 @@ impl<'n> Chart<'n> {
             .y_axis_min_width(named)
             .x_grid_spacer(move |input| axis_marks(x, &input, columns))
             .y_grid_spacer(move |input| axis_marks(y, &input, lines))
-            .x_axis_formatter(|mark, _| written(x, mark))
+            .x_axis_formatter(|mark, _| written(x, mark.value, mark.step_size))
             .y_axis_formatter(move |mark, range| {
                 let above = (mark.value - range.start()) / (range.end() - range.start());
-                if zeros && mark.value == 0.0 && above < 0.02 { String::new() } else { written(y, mark) }
+                if zeros && mark.value == 0.0 && above < 0.02 {
+                    String::new()
+                } else {
+                    written(y, mark.value, mark.step_size)
+                }
             })
             .label_formatter(|at| match at {
-                HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => Some(format!(
-                    "{plot_name}\n{}: {}",
-                    written(x, exactly(position.x)),
-                    written(y, exactly(position.y))
-                )),
+                HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => {
+                    Some(format!("{plot_name}\n{}: {}", written(x, position.x, 0.0), written(y, position.y, 0.0)))
+                }
                 _ => None,
             });
         let plot = if below.is_empty() { plot } else { plot.x_axis_label(below) };
         let visuals = ui.visuals().clone();
-        let shown = framed(ui, (name, change(plot)), bounds, |plot| {
+        let shown = framed(ui, (name, change(plot)), bounds, move |plot| {
+            ground(plot);
             panel.layers.iter().for_each(|layer| draw(plot, panel, layer, &visuals));
             plot.pointer_coordinate().map(|at| at.x)
         });
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
         axes(ui, whole, *shown.transform.frame(), words.0, words.1);
         names(ui, panel, &shown.transform);
-        shown.inner.filter(|_| shown.response.hovered())
+        PlotResponse { inner: shown.inner.filter(|_| shown.response.hovered()), ..shown }
     }
 }
 
@@ -141,29 +181,29 @@ fn on_axis(axis: &Axis, value: f64) -> f64 {
 
 /// Marks of an axis, at most about `most` where they are numbers.
 fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
-    match axis {
-        Axis { names, .. } if !names.is_empty() => names.iter().map(|(at, _)| exactly(*at)).collect(),
-        Axis { scale: Scale::Log, .. } => powers(input, most, true),
-        Axis { whole: true, .. } => whole(input, most),
-        _ => round_ticks(input, most),
+    let (from, to) = input.bounds;
+    let by_one = |value: f64| GridMark { value, step_size: 1.0 };
+    let least = (to - from) / most.max(1.0);
+    let least = if axis.whole { least.max(1.0) } else { least };
+    match axis.scale {
+        _ if !axis.names.is_empty() => axis.names.iter().map(|(at, _)| by_one(*at)).collect(),
+        Scale::Log if from.abs().max(to.abs()) < PLAIN_DECADES => log_marks([from, to], most),
+        Scale::Log => decades([from, to], most, false).into_iter().map(by_one).collect(),
+        Scale::Linear if least.is_finite() && least > 0.0 => marks(Steps::apart([from, to], least)),
+        Scale::Linear => Vec::new(),
     }
 }
 
-/// What is written at a mark.
-fn written(axis: &Axis, mark: GridMark) -> String {
-    let name = axis.names.iter().find(|(at, _)| *at == mark.value);
+/// How a value is written: as a mark of an axis with such steps, or without steps with all its digits.
+fn written(axis: &Axis, value: f64, step_size: f64) -> String {
+    let name = axis.names.iter().find(|(at, _)| *at == value);
     match (name, axis.scale) {
         (Some((_, name)), _) => name.clone(),
-        (None, Scale::Log) if mark.value.abs() > PLAIN_DECADES => power_of_ten(mark.value.round()),
-        (None, Scale::Log) => short(10f64.powf(mark.value), DIGITS),
-        (None, Scale::Linear) if mark.step_size == 0.0 => short(mark.value, DIGITS),
-        (None, Scale::Linear) => tick(mark),
+        (None, Scale::Log) if value.abs() > PLAIN_DECADES => power_of_ten(value.round()),
+        (None, Scale::Log) => short(10f64.powf(value), DIGITS),
+        (None, Scale::Linear) if step_size == 0.0 => short(value, DIGITS),
+        (None, Scale::Linear) => tick(GridMark { value, step_size }),
     }
-}
-
-/// A mark that no other is near.
-fn exactly(value: f64) -> GridMark {
-    GridMark { value, step_size: 0.0 }
 }
 
 fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) {
@@ -172,7 +212,7 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
     match layer {
         Layer::Line(figure::Line { name, points, style, .. }) => {
             let (colour, width) = (colour(style.colour), WIDTH * style.width as f32);
-            let pieces = pieces(panel, points);
+            let pieces = pieces(points.iter().map(|point| at(*point)));
             for piece in &pieces {
                 plot.line(line(piece, colour, width, dashes(style.dash)));
             }
@@ -181,15 +221,19 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
             }
         }
         Layer::Band(band) => {
-            let columns = band.points.iter().map(|[x, low, high]| [on_axis(&panel.x, *x), *low, *high]);
-            plot.add(between(&columns.collect::<Vec<_>>(), colour(band.colour).gamma_multiply(band.opacity as f32)));
+            let y = |value: f64| on_axis(&panel.y, value);
+            let columns = band.points.iter().map(|[x, low, high]| [on_axis(&panel.x, *x), y(*low), y(*high)]);
+            for piece in pieces(columns) {
+                plot.add(between(&piece, colour(band.colour).gamma_multiply(band.opacity as f32)));
+            }
         }
         Layer::Points(figure::Points { name, points, errors, colour: of, marker }) => {
             for ([x, y], error) in points.iter().zip(errors).filter(|(_, error)| error.is_finite()) {
                 let bar = [-1.0, 1.0].map(|sign| at([*x, y + sign * error]));
                 plot.line(line(&bar, colour(*of), 1.0, LineStyle::Solid));
             }
-            let dots = named_dots(name, pieces(panel, points).concat(), colour(*of), 0.9 * marker.size as f32);
+            let points = pieces(points.iter().map(|point| at(*point))).concat();
+            let dots = named_dots(name, points, colour(*of), 0.9 * marker.size as f32);
             plot.points(dots.shape(shape(marker.shape)).filled(!marker.hollow));
         }
         Layer::Mark(Mark { direction, at: value, style, .. }) => {
@@ -203,9 +247,9 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
     }
 }
 
-/// Where points are on the axes of a panel: what is not a number there interrupts a line.
-fn pieces(panel: &Panel, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    let points: Vec<_> = points.iter().map(|[x, y]| [on_axis(&panel.x, *x), on_axis(&panel.y, *y)]).collect();
+/// Curves and areas are interrupted by what is not a number on its axis.
+fn pieces<const N: usize>(points: impl Iterator<Item = [f64; N]>) -> Vec<Vec<[f64; N]>> {
+    let points: Vec<[f64; N]> = points.collect();
     let pieces = points.split(|point| !point.iter().all(|part| part.is_finite()));
     pieces.filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
@@ -279,22 +323,10 @@ pub(super) struct Inset<'a> {
 }
 
 impl<'a> Inset<'a> {
-    /// Shows what `add` draws.
     pub(super) fn show(
         &self,
         ui: &mut egui::Ui,
         style: &PlotStyle,
-        add: impl FnOnce(&mut PlotUi<'a>) + 'a,
-    ) -> PlotResponse<()> {
-        self.show_with(ui, style, |plot| plot, add)
-    }
-
-    /// As [`Self::show`], with changes to the plot, such as marks of its own.
-    pub(super) fn show_with(
-        &self,
-        ui: &mut egui::Ui,
-        style: &PlotStyle,
-        change: impl FnOnce(Plot<'a>) -> Plot<'a>,
         add: impl FnOnce(&mut PlotUi<'a>) + 'a,
     ) -> PlotResponse<()> {
         let Self { name, rect, below, .. } = *self;
@@ -333,7 +365,7 @@ impl<'a> Inset<'a> {
             .y_grid_spacer(move |input| several(&input, hidden, lines, height / row));
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
-        let shown = framed(child, (name, change(chart)), self.bounds, add);
+        let shown = framed(child, (name, chart), self.bounds, add);
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
         if let Some(name) = named {
             let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
@@ -386,11 +418,6 @@ pub(super) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
     FilledArea::new("", &x, &one, &other).fill_color(colour).allow_hover(false)
 }
 
-/// The place of the next chart of this height, with its axes.
-fn place(ui: &egui::Ui, height: f32) -> Rect {
-    Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), height))
-}
-
 /// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
 fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
     let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
@@ -413,20 +440,24 @@ pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
 
 /// The names of what panels draw, each once, which the glossary knows.
 pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
-    let mut known: Vec<&str> = vec![""];
+    let mut entries: Vec<(&str, Colour, &Layer)> = Vec::new();
+    for layer in panels.iter().flat_map(|panel| &panel.layers) {
+        let (name, colour) = match layer {
+            Layer::Line(figure::Line { name, style, .. }) => (name, style.colour),
+            Layer::Points(figure::Points { name, colour, .. }) => (name, *colour),
+            Layer::Band(figure::Band { name, colour, .. }) => (name, *colour),
+            Layer::Mark(Mark { label, style, .. }) => (label, style.colour),
+            _ => continue,
+        };
+        if !name.is_empty() && entries.iter().all(|(other, ..)| other != name) {
+            entries.push((name, colour, layer));
+        }
+    }
+    if entries.is_empty() {
+        return;
+    }
     ui.horizontal_wrapped(|ui| {
-        for layer in panels.iter().flat_map(|panel| &panel.layers) {
-            let (name, colour) = match layer {
-                Layer::Line(figure::Line { name, style, .. }) => (name, style.colour),
-                Layer::Points(figure::Points { name, colour, .. }) => (name, *colour),
-                Layer::Band(figure::Band { name, colour, .. }) => (name, *colour),
-                Layer::Mark(Mark { label, style, .. }) => (label, style.colour),
-                _ => continue,
-            };
-            if known.contains(&name.as_str()) {
-                continue;
-            }
-            known.push(name);
+        for (name, colour, layer) in entries {
             let colour = on_screen(colour, ui.visuals());
             key(ui, name, SAMPLE + 0.35, 0.5, |painter, left, em| match layer {
                 Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
@@ -439,11 +470,13 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
                     let (at, radius) = (left + vec2(0.5 * SAMPLE * em, 0.0), 0.25 * em);
                     let corner = |x: f32, y: f32| at + radius * vec2(x, y);
                     match marker {
+                        figure::Marker { shape: Shape::Square, hollow, .. } => {
+                            let square = Rect::from_center_size(at, vec2(1.6, 1.6) * radius);
+                            let fill = if *hollow { Color32::TRANSPARENT } else { colour };
+                            painter.rect(square, 0.0, fill, Stroke::new(1.5, colour), egui::StrokeKind::Inside);
+                        }
                         figure::Marker { hollow: true, .. } => {
                             painter.circle_stroke(at, 1.2 * radius, Stroke::new(2.0, colour));
-                        }
-                        figure::Marker { shape: Shape::Square, .. } => {
-                            painter.rect_filled(Rect::from_center_size(at, vec2(1.6, 1.6) * radius), 0.0, colour);
                         }
                         figure::Marker { shape: Shape::Triangle, .. } => {
                             let corners = vec![corner(0.0, -1.1), corner(1.0, 0.8), corner(-1.0, 0.8)];
@@ -475,34 +508,25 @@ fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce
     ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }
 
-/// Marks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
-fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
-    let (from, to) = input.bounds;
-    decades([from, to], most, between).into_iter().map(|value| GridMark { value, step_size: 1.0 }).collect()
+/// Marks of an axis of log₁₀ at round numbers, about `most`: equal steps, where the logarithm has them, if the range is less than a few powers.
+fn log_marks(range: [f64; 2], most: f64) -> Vec<GridMark> {
+    let mut found = decades(range, most, true);
+    if found.len() as f64 > 1.5 * most {
+        found = decades(range, most, false);
+    }
+    if found.len() < 2 {
+        let ticks = Steps::new(range.map(|end| 10f64.powf(end)), most as usize);
+        found = ticks.values().filter(|value| *value > 0.0).map(f64::log10).collect();
+    }
+    // A step is what is free beside a mark.
+    let gap = |pair: &[f64]| (pair[1] - pair[0]).abs();
+    let free = |i: usize| found[i.saturating_sub(1)..(i + 2).min(found.len())].windows(2).map(gap).fold(1.0, f64::min);
+    found.iter().enumerate().map(|(i, value)| GridMark { value: *value, step_size: free(i) }).collect()
 }
 
 /// As many decimals as the steps between ticks need, with a true minus sign.
-pub(super) fn tick(mark: GridMark) -> String {
+fn tick(mark: GridMark) -> String {
     Steps::of([mark.value; 2], mark.step_size).format(mark.value)
-}
-
-/// Marks at 1, 2 or 5 times a power of ten, at most about `most`.
-fn round_ticks(input: &GridInput, most: f64) -> Vec<GridMark> {
-    apart(input, (input.bounds.1 - input.bounds.0) / most.max(1.0))
-}
-
-/// Marks at 1, 2 or 5 times a power of ten that is at least `least`.
-fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
-    let (from, to) = input.bounds;
-    if !(least.is_finite() && least > 0.0) {
-        return Vec::new();
-    }
-    marks(Steps::apart([from, to], least))
-}
-
-/// Marks at whole numbers, at most about `most`.
-fn whole(input: &GridInput, most: f64) -> Vec<GridMark> {
-    apart(input, ((input.bounds.1 - input.bounds.0) / most).max(1.0))
 }
 
 /// Round marks, about `about`, and two at least beyond the share `hidden` of the axis at its beginning if it has room for `most`.
@@ -512,7 +536,7 @@ fn several(input: &GridInput, hidden: f32, about: usize, most: f32) -> Vec<GridM
 }
 
 /// Marks at these numbers.
-pub(super) fn marks(ticks: Steps) -> Vec<GridMark> {
+fn marks(ticks: Steps) -> Vec<GridMark> {
     ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 
@@ -539,21 +563,39 @@ mod tests {
         let history = [round(0, 1, 1e-2), round(0, 2, 0.0), round(1, 1, 1e-4), round(1, 1, 1e-5)];
         let panel = &convergence(&history).panels[0];
         let drawn = panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Line(line) => Some(pieces(panel, &line.points)),
+            Layer::Line(line) => Some(pieces(line.points.iter().map(|[x, y]| [*x, on_axis(&panel.y, *y)]))),
             _ => None,
         });
         assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0], [2.0, -5.0]]]]);
     }
 
     #[test]
+    fn marks_of_equal_ratios_are_round_whatever_the_range() {
+        let texts = |axis: &Axis, bounds: [f64; 2], most: f64| {
+            let bounds = bounds.map(|end| on_axis(axis, end));
+            let input = GridInput { bounds: (bounds[0], bounds[1]), base_step_size: 1.0 };
+            axis_marks(axis, &input, most)
+                .into_iter()
+                .map(|mark| written(axis, mark.value, mark.step_size))
+                .collect::<Vec<_>>()
+        };
+        let log = Axis::default().log();
+        assert_eq!(texts(&log, [50.0, 800.0], 8.0), ["50", "100", "200", "500"]);
+        assert_eq!(texts(&log, [0.01, 1000.0], 8.0), ["0.01", "0.1", "1", "10", "100", "1000"]);
+        assert!(texts(&log, [100.0, 130.0], 8.0).len() >= 3);
+        assert_eq!(texts(&Axis::default(), [0.0, 1.0], 8.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
     fn ticks_are_round_inside_and_few() {
         let input = |bounds| GridInput { bounds, base_step_size: 1.0 };
-        assert_eq!(values(&round_ticks(&input((0.0, 104.0)), 4.0)), [0.0, 50.0, 100.0]);
-        assert_eq!(values(&round_ticks(&input((-30.0, 150.0)), 5.0)), [0.0, 50.0, 100.0, 150.0]);
-        let texts: Vec<String> = round_ticks(&input((-0.5, 1.6)), 5.0).into_iter().map(tick).collect();
+        let linear = |input: &GridInput, most: f64| axis_marks(&Axis::default(), input, most);
+        assert_eq!(values(&linear(&input((0.0, 104.0)), 4.0)), [0.0, 50.0, 100.0]);
+        assert_eq!(values(&linear(&input((-30.0, 150.0)), 5.0)), [0.0, 50.0, 100.0, 150.0]);
+        let texts: Vec<String> = linear(&input((-0.5, 1.6)), 5.0).into_iter().map(tick).collect();
         assert_eq!(texts, ["−0.5", "0.0", "0.5", "1.0", "1.5"]);
         for bounds in [(0.0, 0.0), (f64::NEG_INFINITY, f64::INFINITY)] {
-            assert!(round_ticks(&input(bounds), 4.0).is_empty());
+            assert!(linear(&input(bounds), 4.0).is_empty());
         }
     }
 }

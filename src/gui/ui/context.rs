@@ -9,25 +9,21 @@ use crate::gui::derived::format::rough;
 use crate::gui::state::window::State;
 use crate::job::SolvedScene;
 use crate::platform::Instant;
-use eframe::egui::{self, Color32, Rect, RichText, Ui};
+use eframe::egui::{self, Color32, Rect, Response, RichText, Ui};
 use std::cell::{Cell, RefCell};
 use std::time::Duration;
 
 /// The state to read, the colours, the present moment, and where commands go.
 #[derive(Debug)]
 pub struct DrawContext<'a> {
-    /// All that the window knows.
     pub state: &'a State,
-    /// Colours of the present theme.
     pub colours: Palette,
-    /// The present moment.
     pub now: Instant,
     commands: RefCell<Vec<Command>>,
     pointed_x: Cell<Option<f64>>,
 }
 
 impl<'a> DrawContext<'a> {
-    /// To draw `state` at this moment.
     pub fn new(state: &'a State, now: Instant) -> Self {
         let commands = RefCell::default();
         Self { state, colours: palette(state.dark), now, commands, pointed_x: Cell::default() }
@@ -82,11 +78,16 @@ impl<'a> DrawContext<'a> {
         }
     }
 
-    /// A button that asks for `command`; `about` is told on hover.
-    pub fn button(&self, ui: &mut Ui, text: &str, about: impl Into<String>, command: impl Into<Command>) {
-        if ui.button(text).hint(about).clicked() {
+    /// Asks for `command` if `response` was clicked.
+    pub fn on_click(&self, response: &Response, command: impl Into<Command>) {
+        if response.clicked() {
             self.push(command);
         }
+    }
+
+    /// A button that asks for `command`; `about` is told on hover.
+    pub fn button(&self, ui: &mut Ui, text: &str, about: impl Into<String>, command: impl Into<Command>) {
+        self.on_click(&ui.button(text).hint(about), command);
     }
 
     /// The same, small, and called `name` by screen readers.
@@ -97,9 +98,7 @@ impl<'a> DrawContext<'a> {
         name: impl Into<String>,
         command: impl Into<Command>,
     ) {
-        if ui.small_button(text).hint(about).accessible_name(name).clicked() {
-            self.push(command);
-        }
+        self.on_click(&ui.small_button(text).hint(about).accessible_name(name), command);
     }
 
     /// How far some work is: a share from 0 to 1, in words, and the time that is left \[s\], if it is known.

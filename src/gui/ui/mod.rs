@@ -1,6 +1,5 @@
 //! What is drawn: it reads the state and pushes commands, and changes nothing.
 
-pub mod button;
 pub mod cache;
 pub mod chart;
 pub mod context;
@@ -15,9 +14,8 @@ pub mod layout;
 pub mod modals;
 pub mod paint;
 pub mod panels;
+pub mod parts;
 pub mod rich;
-pub mod scroll;
-pub mod table;
 pub mod tabs;
 pub mod theme;
 pub mod views;

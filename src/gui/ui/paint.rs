@@ -1,7 +1,6 @@
 //! Axes, ticks, text and bands: the little that the views need to draw.
 
 use super::glossary;
-use super::hint::Hint;
 use super::theme::{self, Palette};
 use crate::gui::derived::format::{ends, plain};
 use crate::recording::Recording;
@@ -25,7 +24,7 @@ pub(super) struct PlotStyle {
     pub(super) title: f32,
     pub(super) axis: f32,
     /// Terms that were written, and where; and what they mean, if the glossary does not say.
-    terms: RefCell<Vec<(Rect, String, Option<String>)>>,
+    terms: RefCell<Vec<(Rect, String)>>,
 }
 
 impl PlotStyle {
@@ -53,37 +52,27 @@ impl PlotStyle {
         self.palette.canvas.lerp_to_gamma(outline, 0.72)
     }
 
-    /// Writes one line.
     pub(super) fn write(&self, painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
         painter.text(at, anchor, text, self.font.clone(), colour)
     }
 
     /// What was written at `place` is explained by the glossary under `word`.
     pub(super) fn term(&self, place: Rect, word: &str) {
-        self.terms.borrow_mut().push((place, word.to_owned(), None));
-    }
-
-    /// What was written at `place` is explained by `text`.
-    pub(super) fn parameter(&self, place: Rect, name: &str, text: String) {
-        self.terms.borrow_mut().push((place, name.to_owned(), Some(text)));
+        self.terms.borrow_mut().push((place, word.to_owned()));
     }
 
     /// Explains the terms of the drawing on hover: after all that also wants the pointer. Whether the pointer is on one: values
     /// are then read out elsewhere.
     pub(super) fn explain(&self, ui: &Ui) -> bool {
         let mut pointed = false;
-        for (number, (place, word, text)) in self.terms.borrow_mut().drain(..).enumerate() {
+        for (number, (place, word)) in self.terms.borrow_mut().drain(..).enumerate() {
             let response = glossary::over(ui, place, &word, number);
             pointed |= response.hovered();
-            match text {
-                Some(text) => drop(response.hint(text)),
-                None => drop(glossary::here(ui, response, &word)),
-            }
+            glossary::here(ui, response, &word);
         }
         pointed
     }
 
-    /// Width of one line.
     pub(super) fn width(&self, painter: &Painter, text: &str) -> f32 {
         painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
@@ -216,12 +205,10 @@ impl Axes {
         (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
     }
 
-    /// Background and frame.
     pub(super) fn canvas(&self, painter: &Painter, style: &PlotStyle) {
         painter.rect_filled(self.rect, 2.0, style.palette.canvas);
     }
 
-    /// Vertical grid lines.
     pub(super) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         for value in self.x_values(style, unit).values() {
             painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, style.grid));

@@ -160,7 +160,6 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     response
 }
 
-/// An item of a list.
 fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;

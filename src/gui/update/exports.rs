@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
-        if self.state.exports.running().is_some() {
+        if self.state.exports.running.is_some() {
             self.state.fail("Another export goes on: wait until it has ended, or cancel it.");
             return;
         }

@@ -21,7 +21,6 @@ impl Updater {
         }
     }
 
-    /// Reads a measured face.
     pub(super) fn load_face(&mut self, path: PathBuf) {
         if self.state.document.scene().kind() == Kind::Plate {
             return self

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use std::time::Duration;
 
 impl Updater {
-    /// Takes a picture of the next frame.
     pub(super) fn take_picture(&self) {
         let (sender, wake) = (self.pictures.0.clone(), self.ctx.clone());
         self.ctx.request_screenshot(move |image| {
@@ -37,7 +36,6 @@ impl Updater {
         });
     }
 
-    /// Writes a picture to this file.
     pub(super) fn write_picture(&mut self, picture: Picture, path: &Path) {
         let path = match dialogs::complete(path.to_owned(), "picture of the window", &["png"]) {
             Ok(path) => path,

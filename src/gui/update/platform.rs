@@ -11,7 +11,6 @@ use std::time::Duration;
 /// The clock, the file dialogs and the effort of measurements.
 #[derive(Clone, Debug)]
 pub struct Platform {
-    /// The present moment.
     pub now: fn() -> Instant,
     /// The same as a date, for what is kept longer than a window.
     pub date: fn() -> SystemTime,

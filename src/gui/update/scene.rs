@@ -193,7 +193,6 @@ impl Updater {
     }
 }
 
-/// Whether a key is one of the model's switches.
 fn is_switch(key: &str) -> bool {
     Parameter::find(key)
         .is_some_and(|found| found.table() == "numerics" && matches!(found.kind, ParameterKind::Choice { .. }))

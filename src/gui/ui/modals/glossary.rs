@@ -7,7 +7,6 @@ use crate::gui::ui::rich::{self, Look};
 use crate::lessons::glossary::{Term, terms};
 use eframe::egui::{self, Id, RichText};
 
-/// Size of the window.
 const SIZE: [f32; 2] = [440.0, 520.0];
 
 fn search_id() -> Id {
@@ -19,7 +18,6 @@ pub fn is_searched(ctx: &egui::Context) -> bool {
     ctx.memory(|memory| memory.has_focus(search_id()))
 }
 
-/// Shows the glossary with what is looked for.
 pub fn show(ctx: &egui::Context, query: &str, cx: &DrawContext<'_>) {
     let room = ctx.content_rect();
     let size = egui::vec2(SIZE[0].min(0.9 * room.width()), SIZE[1].min(0.75 * room.height()));

@@ -12,7 +12,6 @@ use crate::gui::ui::panels::field::select_all;
 use eframe::egui::{self, Id, Key, Response, Ui};
 use std::path::{Path, PathBuf, is_separator};
 
-/// Widest text.
 const WIDTH: f32 = 460.0;
 
 /// Shows what is in the way, if anything is.
@@ -79,9 +78,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
     );
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
-        if ui.button("Copy citation").clicked() {
-            cx.push(Command::CopyCitation);
-        }
+        cx.on_click(&ui.button("Copy citation"), Command::CopyCitation);
         let close = first_button(ui, "Close");
         close.clicked().then(Vec::new)
     })

@@ -6,7 +6,6 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::{highlight, keys};
 use eframe::egui::{self, Align, Id, Layout, Order, Rect, RichText, Vec2, pos2, vec2};
 
-/// Width of the callout.
 const WIDTH: f32 = 300.0;
 /// Height it takes at most, to choose its place before it is drawn.
 const HEIGHT: f32 = 190.0;
@@ -35,7 +34,6 @@ pub fn beside(part: Rect, size: Vec2, room: Rect) -> Rect {
     corners.map(inside).into_iter().min_by(|a, b| covered(a).total_cmp(&covered(b))).unwrap_or(part)
 }
 
-/// Shows a stop of the tour.
 pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
     let Some(shown) = STOPS.get(stop) else { return };
     let room = ctx.content_rect();
@@ -66,9 +64,7 @@ pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let text = if last { "Start lesson 1" } else { "Next" };
                     let lit = egui::Button::new(RichText::new(text).strong()).fill(ui.visuals().selection.bg_fill);
-                    if ui.add(lit).on_hover_text("Enter").clicked() {
-                        cx.push(LessonCommand::GoOn);
-                    }
+                    cx.on_click(&ui.add(lit).on_hover_text("Enter"), LessonCommand::GoOn);
                     if last && ui.button("Close").clicked() {
                         cx.push(Command::Tour(None));
                     }

@@ -10,7 +10,7 @@ use std::time::Duration;
 /// One line above the status: how far an export is, or what it wrote.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let exports = &cx.state.exports;
-    if let Some(running) = exports.running() {
+    if let Some(running) = &exports.running {
         ui.horizontal(|ui| {
             cx.button(ui, "Cancel the export", "Ends it; nothing is written", Command::CancelExport);
             let (drawn, all) = running.drawn;

@@ -5,7 +5,7 @@ use crate::estimate::Estimate;
 use crate::gui::derived::format::{time, uncertain};
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::parts::scrolled;
 use crate::hold::leak_time;
 use eframe::egui;
 

@@ -4,15 +4,14 @@ use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
 use crate::gui::state::running_lesson::RunningLesson;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::keys;
+use crate::gui::ui::parts::{next_button, scrolled};
 use crate::gui::ui::rich::Look;
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::{button, keys};
 use crate::lessons::text::readings;
 use crate::lessons::work::{Score, Stage, StepWork};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
-/// Shows the lesson that is followed.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let lessons = &cx.state.lessons;
     let Some(running) = lessons.running() else { return };
@@ -101,21 +100,17 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
     if let (Some(question), Stage::Question) = (&step.question, stage) {
         let ready = work.prediction.is_some() && !work.refused;
         let commit =
-            ui.add_enabled_ui(ready, |ui| button::next(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
+            ui.add_enabled_ui(ready, |ui| next_button(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
         let commit = commit.on_hover_text("Enter").on_disabled_hover_text(match work.refused {
             true => "Another number first",
             false => "Answer first: guessing is welcome",
         });
-        if commit.clicked() {
-            cx.push(LessonCommand::Commit);
-        }
+        cx.on_click(&commit, LessonCommand::Commit);
         ui.add_space(4.0);
     }
     ui.horizontal(|ui| {
         let back = ui.add_enabled(step_number > 0, Button::new("Back"));
-        if back.on_hover_text(keys::of(&Command::Lesson(LessonCommand::Back))).clicked() {
-            cx.push(LessonCommand::Back);
-        }
+        cx.on_click(&back.on_hover_text(keys::of(&Command::Lesson(LessonCommand::Back))), LessonCommand::Back);
         cx.button(ui, "All results", "Shows the usual panel; the lesson waits", LessonCommand::AllResults(true));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let complete = stage == Stage::Told;
@@ -129,28 +124,23 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
             } else {
                 "Goes on; this step is then shown as skipped".to_owned()
             };
-            if button::next(ui, text, complete, cx).on_hover_text(hover).clicked() {
-                cx.push(LessonCommand::Next);
-            }
+            cx.on_click(&next_button(ui, text, complete, cx).on_hover_text(hover), LessonCommand::Next);
         });
     });
 }
 
 fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        if ui.button("Back").clicked() {
-            cx.push(LessonCommand::Back);
-        }
+        cx.on_click(&ui.button("Back"), LessonCommand::Back);
         cx.button(ui, "Take it again", "From the first step, with nothing answered", LessonCommand::Again);
         let next = cx.state.lessons.following();
-        if button::next(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back").clicked() {
-            cx.push(LessonCommand::Leave);
-        }
+        cx.on_click(
+            &next_button(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back"),
+            LessonCommand::Leave,
+        );
         if let Some(next) = next {
-            let button = button::next(ui, "Next lesson", true, cx);
-            if button.on_hover_text("Enter").clicked() {
-                cx.push(LessonCommand::Open(next, None));
-            }
+            let button = next_button(ui, "Next lesson", true, cx);
+            cx.on_click(&button.on_hover_text("Enter"), LessonCommand::Open(next, None));
         }
     });
 }

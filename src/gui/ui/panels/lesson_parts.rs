@@ -217,16 +217,12 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
         ui.horizontal_wrapped(|ui| {
             if work.hints < task.hints.len() {
                 let text = if work.hints == 0 { "Give me a hint" } else { "One more hint" };
-                if ui.small_button(text).clicked() {
-                    cx.push(LessonCommand::Hint);
-                }
+                cx.on_click(&ui.small_button(text), LessonCommand::Hint);
             } else if !task.example.is_empty() && ui.small_button("Show me").on_hover_text("Does it for you").clicked()
             {
                 cx.push(LessonCommand::ShowMe);
             }
-            if ui.small_button("Start over").on_hover_text("Sets this step up again").clicked() {
-                cx.push(LessonCommand::SetUp);
-            }
+            cx.on_click(&ui.small_button("Start over").on_hover_text("Sets this step up again"), LessonCommand::SetUp);
         });
     });
 }

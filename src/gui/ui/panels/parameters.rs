@@ -10,7 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, beside, text_width};
-use crate::gui::ui::scroll::scrolled_anew;
+use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};

@@ -13,7 +13,7 @@ use crate::gui::derived::format::{raised, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
-use crate::gui::ui::scroll::scrolled_anew;
+use crate::gui::ui::parts::scrolled_anew;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult, Status, StoppedBy};
@@ -271,29 +271,19 @@ pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str,
     let parts = value.split_once(" ± ").filter(|_| !value.starts_with('('));
     let (number, error) = parts.map_or((value, None), |(number, error)| (number, Some(error)));
     let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
+    let mut pieces = vec![(number, HEADLINE, strong)];
+    if !symbol.is_empty() {
+        pieces.splice(0..0, [(symbol, HEADLINE, weak), ("  ", HEADLINE_ERROR, weak)]);
+    }
+    let behind = error.into_iter().flat_map(|error| [" ± ", error]);
+    let unit = [" ", unit].into_iter().filter(|_| !unit.is_empty());
+    pieces.extend(behind.chain(unit).map(|text| (text, HEADLINE_ERROR, weak)));
     let job = |scale: f32| {
         let mut job = egui::text::LayoutJob::default();
-        let mut add = |text: &str, size: f32, colour: Color32| {
-            let format = egui::TextFormat {
-                font_id: egui::FontId::proportional(size * body * scale),
-                color: colour,
-                valign: egui::Align::BOTTOM,
-                ..Default::default()
-            };
+        for (text, size, color) in &pieces {
+            let font_id = egui::FontId::proportional(size * body * scale);
+            let format = egui::TextFormat { font_id, color: *color, valign: egui::Align::BOTTOM, ..Default::default() };
             job.append(text, 0.0, format);
-        };
-        if !symbol.is_empty() {
-            add(symbol, HEADLINE, weak);
-            add("  ", HEADLINE_ERROR, weak);
-        }
-        add(number, HEADLINE, strong);
-        if let Some(error) = error {
-            add(" ± ", HEADLINE_ERROR, weak);
-            add(error, HEADLINE_ERROR, weak);
-        }
-        if !unit.is_empty() {
-            add(" ", HEADLINE_ERROR, weak);
-            add(unit, HEADLINE_ERROR, weak);
         }
         job.wrap.max_width = f32::INFINITY;
         ui.painter().layout_job(job)

@@ -37,9 +37,10 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             egui::ComboBox::from_id_salt("speed").selected_text(slowed(view.seconds_per_cycle)).show_ui(ui, |ui| {
                 for seconds in SPEEDS {
                     let text = format!("one cycle in {seconds} s, {}", slowed(seconds));
-                    if ui.selectable_label(seconds == view.seconds_per_cycle, text).clicked() {
-                        cx.push(Command::SecondsPerCycle(seconds));
-                    }
+                    cx.on_click(
+                        &ui.selectable_label(seconds == view.seconds_per_cycle, text),
+                        Command::SecondsPerCycle(seconds),
+                    );
                 }
             });
         name(&speed.response, "Speed");
@@ -66,9 +67,7 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let row = ui.horizontal(|ui| {
         play_and_step(ui, hold.playing, cx);
         let hover = "Plays what the charts show once more, in slow motion; the plate waits";
-        if ui.add_enabled(newest > 0, egui::Button::new("Replay")).hint(hover).clicked() {
-            cx.push(HoldCommand::Replay);
-        }
+        cx.on_click(&ui.add_enabled(newest > 0, egui::Button::new("Replay")).hint(hover), HoldCommand::Replay);
         let most = newest.max(1) as f64;
         let place = if newest == 0 { most } else { hold.place() as f64 };
         if let Some(at) = scrub(ui, place, most, ["Recorded time", "Drag to an instant that was recorded"]) {
@@ -149,9 +148,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !cx.state.stale(run)) {
                 let text = "Solve for reference";
                 let hover = "Some seconds: the error falls to a few millionths";
-                if ui.small_button(text).hint(hover).clicked() {
-                    cx.push(Command::Refine(Fidelity::Reference));
-                }
+                cx.on_click(&ui.small_button(text).hint(hover), Command::Refine(Fidelity::Reference));
             }
         });
     });

@@ -10,9 +10,10 @@ use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
+use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::run_colour;
 use crate::gui::ui::views::overlay;
-use crate::gui::ui::{button, glossary, keys};
+use crate::gui::ui::{glossary, keys};
 use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
 
 /// Widest field for a label, in heights of the text.
@@ -28,7 +29,6 @@ const BESIDE: usize = 3;
 const COLUMNS: [f32; 3] = [12.0, 9.0, 8.0];
 const HEADS: [f32; 2] = [11.0, 7.5];
 
-/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs.is_empty() && pins.waiting.is_empty() {
@@ -74,10 +74,8 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
     let empty = cx.state.pins.pins.is_empty();
-    let button = button::first(ui, "Pin the run on screen", (empty, cx.state.run.is_some()), cx);
-    if button.hint(keys::about(&pin)).clicked() {
-        cx.push(pin);
-    }
+    let button = first_button(ui, "Pin the run on screen", (empty, cx.state.run.is_some()), cx);
+    cx.on_click(&button.hint(keys::about(&pin)), pin);
     let presets = menu(ui, "Pin a preset ▾", &mut |ui| presets_menu(ui, |name| PinCommand::Preset(name).into(), cx));
     presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
@@ -90,9 +88,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
             (Page::Fields, "Fields", "Waves, pressures, maps and loads of all pinned runs, in phase"),
             (Page::Numbers, "Numbers", "Results and parameters of all pinned runs, and what differs"),
         ] {
-            if ui.selectable_label(pins.page == page, name).hint(about).clicked() {
-                cx.push(PinCommand::Look(page));
-            }
+            cx.on_click(&ui.selectable_label(pins.page == page, name).hint(about), PinCommand::Look(page));
         }
         ui.separator();
         add_buttons(ui, cx);

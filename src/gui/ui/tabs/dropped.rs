@@ -17,7 +17,6 @@ const SHARE: f32 = 0.75;
 /// Of the periodic solve.
 const GOOD: Colour = Colour::CYCLE[2];
 
-/// Shows the tab.
 pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
     let dropped = cx.state.dropped.as_ref();
@@ -28,9 +27,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         None => {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
             cx.mark(ui, "start", button.rect);
-            if button.clicked() {
-                cx.push(StartupCommand::Start);
-            }
+            cx.on_click(&button, StartupCommand::Start);
         }
     });
     let Some(dropped) = dropped else {

@@ -10,9 +10,8 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
+use crate::gui::ui::parts::{self, scrolled};
 use crate::gui::ui::rich::{self, Look};
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::table;
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use crate::solution::{Outcome, PlateResult};
@@ -24,9 +23,9 @@ const LEAST_LINES: [f32; 2] = [10.0, 9.0];
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
 /// The charts: what they are called, and what the glossary explains that and their axes under.
-const CHARTS: [(&str, &str, (Option<&str>, &str)); 2] = [
-    ("Spring and damping against the squeeze number", "Squeeze number", (Some("σ/Q"), "Spring and damping")),
-    ("Load over the cycle and its limits", "Film load", (Some("t/T"), "Film load")),
+const CHARTS: [[&str; 4]; 2] = [
+    ["Spring and damping against the squeeze number", "Squeeze number", "σ/Q", "Spring and damping"],
+    ["Load over the cycle and its limits", "Film load", "t/T", "Film load"],
 ];
 
 /// All that this tab explains below its table, as in lessons: text, and formulae that are set.
@@ -104,7 +103,6 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
     }
 }
 
-/// Shows the tab.
 pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let height = ui.available_height();
@@ -119,11 +117,12 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         let em = ui.text_style_height(&TextStyle::Body);
         cx.say_if_stale(ui, run);
         for (i, panel) in panels.iter().enumerate() {
-            let (name, word, words) = CHARTS[i];
+            let [name, word, below, left] = CHARTS[i];
             let unit = if panel.y.unit.is_empty() { String::new() } else { format!(", {}", panel.y.unit) };
             title(ui, &format!("{name}{unit}"), word);
             legend(ui, &[panel]);
-            Chart { name, height: (SHARES[i] * height).max(LEAST_LINES[i] * em), panel, words }.show(ui);
+            Chart { name, height: (SHARES[i] * height).max(LEAST_LINES[i] * em), panel, words: (Some(below), left) }
+                .show(ui);
             ui.add_space(4.0);
         }
         table(ui, found, units(plate), cx);
@@ -155,9 +154,9 @@ fn table(ui: &mut Ui, found: &Comparison, units: [&str; 2], cx: &DrawContext<'_>
         ["Mean pressure / p_a", &uncertain(found.mean_pressure), &exact(found.trapped_mean_pressure), "σ → ∞"],
         ["Invariant, off by", &invariant, "0 %", "any σ, ε"],
     ];
-    table::table(ui, "exact", 4, 9.0, |ui| {
+    parts::table(ui, "exact", 4, 9.0, |ui| {
         let heads = [("", ""), ("Computed", "Computed"), ("Exact limit", "Exact"), ("for", "Exact")];
-        table::heads(ui, &heads, cx.colours.quiet);
+        parts::heads(ui, &heads, cx.colours.quiet);
         ui.end_row();
         for [name, computed, exact, when] in rows {
             let word = name.split(" / ").next().unwrap_or(name);

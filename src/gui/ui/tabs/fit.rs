@@ -1,6 +1,6 @@
 //! Keys chosen to agree with measurements, or for the optimum of a number: the table, what is asked for, and what was found.
 
-use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, Measured, Optimum};
+use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, percent, signed, significant, with_error};
 use crate::export::figure::Panel;
 use crate::export::fit::{figures, optimum_figure};
@@ -12,12 +12,11 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, field, list};
+use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::{FIT, export_button};
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::table::{heads, table};
+use crate::gui::ui::parts::{first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
-use crate::gui::ui::{button, glossary};
 use crate::problem::Problem;
 use eframe::egui::{Grid, RichText, TextStyle, Ui};
 use std::sync::Arc;
@@ -32,7 +31,6 @@ const WIDE: f32 = 13.0;
 /// Rows that are listed: all are in the files of the command line.
 const LISTED: usize = 200;
 
-/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let state = &cx.state.fit;
@@ -77,7 +75,6 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// What was asked for.
 fn question(found: &Found) -> String {
     match found {
         Found::Fit(..) => "agreement with measurements".to_owned(),
@@ -130,7 +127,6 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
     }
 }
 
-/// Which measurements.
 fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let ask = Command::Ask(Purpose::Measurements);
@@ -211,10 +207,10 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
         let good = good && (agreement || state.goal_fault.is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";
         let text = if agreement { "Fit the scene" } else { "Find the optimum" };
-        if button::first(ui, text, (state.found.is_none(), good), cx).hint(about).clicked() {
-            cx.push(FitCommand::Start);
-        }
-        if state.form.has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
+        cx.on_click(&first_button(ui, text, (state.found.is_none(), good), cx).hint(about), FitCommand::Start);
+        if state.form.axes.len() < MOST_UNKNOWNS
+            && ui.button("Add a key…").hint("One more parameter to choose").clicked()
+        {
             form.add(cx.state.document.scene());
             cx.push(FitCommand::Form(form));
         }
@@ -251,7 +247,6 @@ fn drawn(found: &Found) -> Drawn {
     }
 }
 
-/// What was found.
 fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
     Grid::new("values").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
@@ -285,7 +280,6 @@ fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// The optimum that was found.
 fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
     let Some((sought, limited)) = drawn.words.split_first() else { return };
@@ -352,7 +346,8 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
 fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
     let Some((residuals, kinds)) = drawn.panels.split_last() else { return };
     for panel in kinds {
-        let (name, word) = (format!("Measured against computed: {}", panel.x.label), "Measured against computed");
+        let (what, word) = (panel.x.label.trim_end_matches(", computed"), "Measured against computed");
+        let name = format!("{word}: {what}");
         title(ui, &name, word);
         legend(ui, &[panel]);
         Chart { name: &name, height, panel, words: (Some(word), word) }.show(ui);

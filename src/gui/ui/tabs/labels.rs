@@ -34,9 +34,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let pin = Command::Pin(PinCommand::Shown);
                 let about = format!("Keeps this run for comparison ({})", keys::of(&pin));
-                if ui.add_enabled(solved, egui::Button::new("Pin")).hint(about).clicked() {
-                    cx.push(pin);
-                }
+                cx.on_click(&ui.add_enabled(solved, egui::Button::new("Pin")).hint(about), pin);
             });
         }
     };

@@ -12,7 +12,7 @@ use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::Axes;
-use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::parts::scrolled;
 use crate::problem::{Problem, Scenario};
 use crate::scene::edges::{lengths, reach, with_edge};
 use crate::scene::{Parameter, Value};
@@ -33,7 +33,6 @@ const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
 const REACH: f32 = 5.0;
 /// What a dragged edge is rounded to \[mm\].
 const STEP: f64 = 0.01;
-/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();

@@ -1,7 +1,7 @@
 //! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
 
 use crate::analysis::sensitivity::{Sensitivity, Uncertainties};
-use crate::digits::{capitalised, percent, short, significant};
+use crate::digits::{percent, short, significant};
 use crate::export::sensitivity::{bars, distribution};
 use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::uncertain;
@@ -10,10 +10,9 @@ use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::sensitivity::SensitivityState;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::table;
-use crate::gui::ui::{button, glossary};
+use crate::gui::ui::parts::{self, first_button, scrolled};
 use crate::scene::Parameter;
 use eframe::egui::{self, RichText, TextStyle, Ui};
 
@@ -23,18 +22,6 @@ const HISTOGRAM: f32 = 11.0;
 /// Random scenes that can be asked for.
 const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
 
-/// What is shown of a result.
-#[derive(Clone, Copy)]
-struct Shown<'a> {
-    state: &'a SensitivityState,
-    found: &'a Sensitivity,
-    /// Which of the results.
-    output: usize,
-    uncertainties: &'a Uncertainties,
-    cx: &'a DrawContext<'a>,
-}
-
-/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     scrolled(ui, "sensitivity", 8.0, |ui| {
         let state = &cx.state.sensitivity;
@@ -53,10 +40,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.warn(ui, found.warnings());
         let output = state.output.min(found.outputs.len() - 1);
         choose(ui, found, output, cx);
-        let shown = Shown { state, found, output, uncertainties, cx };
-        for part in [result, tornado, monte_carlo, table] {
-            part(ui, shown);
-        }
+        result(ui, found, output, uncertainties, cx);
+        tornado(ui, found, output, cx);
+        monte_carlo(ui, found, output, uncertainties, cx);
+        table(ui, found, output, uncertainties, cx);
         let whole = found.whole();
         if !whole.is_empty() {
             let names: Vec<&str> = whole.iter().filter_map(|key| Some(label(Parameter::find(key)?))).collect();
@@ -73,10 +60,8 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
             cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), None);
         } else {
             let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";
-            let button = button::first(ui, "Compute sensitivities", (state.found.is_none(), true), cx).hint(hover);
-            if button.clicked() {
-                cx.push(SensitivityCommand::Start);
-            }
+            let button = first_button(ui, "Compute sensitivities", (state.found.is_none(), true), cx).hint(hover);
+            cx.on_click(&button, SensitivityCommand::Start);
         }
         if state.found.is_some() {
             let export = Command::Ask(Purpose::Export(Export::Sensitivity));
@@ -97,16 +82,13 @@ fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>
     ui.horizontal_wrapped(|ui| {
         for (i, output) in found.outputs.iter().enumerate() {
             let button = ui.selectable_label(i == present, output.words());
-            if glossary::here(ui, button, output.words()).clicked() {
-                cx.push(SensitivityCommand::Look(i));
-            }
+            cx.on_click(&glossary::here(ui, button, output.words()), SensitivityCommand::Look(i));
         }
     });
 }
 
 /// The result with both of its uncertainties, apart from each other.
-fn result(ui: &mut Ui, shown: Shown<'_>) {
-    let Shown { state, found, output, uncertainties, cx } = shown;
+fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let value = found.values[output];
     if !value.value.is_finite() {
         cx.note(ui, "This scene has no such result");
@@ -129,7 +111,7 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
                 cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
             }
         }
-        if let Some(spread) = state.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
+        if let Some(spread) = cx.state.sensitivity.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
             let text = format!(
                 "random scenes: mean {}, standard deviation {}, 90 % of them from {} to {}",
@@ -143,8 +125,7 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
     });
 }
 
-fn tornado(ui: &mut Ui, shown: Shown<'_>) {
-    let Shown { found, output, cx, .. } = shown;
+fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>) {
     ui.add_space(4.0);
     title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
     let mut panel = bars(found, output, None);
@@ -153,7 +134,10 @@ fn tornado(ui: &mut Ui, shown: Shown<'_>) {
         return;
     }
     panel.x.label = String::new();
-    panel.y.names.iter_mut().for_each(|(_, name)| *name = capitalised(name));
+    for (_, name) in &mut panel.y.names {
+        let column = found.columns.iter().find(|column| column.parameter.words() == *name);
+        column.into_iter().for_each(|column| label(column.parameter).clone_into(name));
+    }
     let height = (BAR * panel.y.names.len() as f32 + 1.6) * ui.text_style_height(&TextStyle::Body);
     let chart = Chart { name: "Tornado chart", height, panel: &panel, words: (Some("Elasticity"), "Elasticity") };
     chart.show_with(ui, |plot| plot.allow_zoom(false).allow_drag(false));
@@ -162,8 +146,8 @@ fn tornado(ui: &mut Ui, shown: Shown<'_>) {
     }
 }
 
-fn monte_carlo(ui: &mut Ui, shown: Shown<'_>) {
-    let Shown { state, found, output, uncertainties, cx } = shown;
+fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
+    let state = &cx.state.sensitivity;
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
@@ -202,8 +186,7 @@ fn monte_carlo(ui: &mut Ui, shown: Shown<'_>) {
 }
 
 /// Every parameter: how much the result changes with it, and its uncertainty, to type.
-fn table(ui: &mut Ui, shown: Shown<'_>) {
-    let Shown { state, found, output, uncertainties, cx } = shown;
+fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let propagated = found.propagated(output, uncertainties);
     let magnitude = |column: usize| {
         let relative = found.columns[column].scale().is_some();
@@ -223,8 +206,8 @@ fn table(ui: &mut Ui, shown: Shown<'_>) {
         ("Uncertainty", "Uncertainty of a parameter"),
         ("Share", "Share of the variance"),
     ];
-    table::table(ui, "sensitivities", heads.len(), 14.0, |ui| {
-        table::heads(ui, &heads, cx.colours.quiet);
+    parts::table(ui, "sensitivities", heads.len(), 14.0, |ui| {
+        parts::heads(ui, &heads, cx.colours.quiet);
         ui.end_row();
         for column in order {
             let by = &found.columns[column];
@@ -242,14 +225,15 @@ fn table(ui: &mut Ui, shown: Shown<'_>) {
                     );
                 }
             }
-            field(ui, state, parameter, 6.0 * em, cx);
+            field(ui, parameter, 6.0 * em, cx);
             ui.label(propagated.share(parameter).map_or_else(String::new, percent));
             ui.end_row();
         }
     });
 }
 
-fn field(ui: &mut Ui, state: &SensitivityState, parameter: &'static Parameter, width: f32, cx: &DrawContext<'_>) {
+fn field(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx: &DrawContext<'_>) {
+    let state = &cx.state.sensitivity;
     let mut text = state.typed(parameter.key).to_owned();
     let refused = state.refused(parameter.key);
     let editor = egui::TextEdit::singleline(&mut text)

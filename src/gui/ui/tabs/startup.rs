@@ -6,7 +6,8 @@ use crate::gui::command::StartupCommand;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::{button, views};
+use crate::gui::ui::parts::first_button;
+use crate::gui::ui::views;
 use crate::scene;
 use crate::solution::Status;
 use crate::startup::Settings;
@@ -16,7 +17,6 @@ use eframe::egui::{self, RichText, TextStyle};
 const PLOTS_SHARE: f32 = 0.22;
 const LINES: (f32, f32) = (6.5, 13.0);
 
-/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if cx.state.document.scene().floats() {
         dropped::show(ui, cx);
@@ -51,11 +51,9 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                let button = button::first(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
+                let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
                 cx.mark(ui, "start", button.rect);
-                if button.clicked() {
-                    cx.push(StartupCommand::Start);
-                }
+                cx.on_click(&button, StartupCommand::Start);
             }
         }
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };

@@ -10,13 +10,13 @@ use crate::gui::ui::form::{AxisRow, list};
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::{SWEEP, export_button};
 use crate::gui::ui::panels::parameters::GROUPS;
+use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
-use crate::gui::ui::{button, fidelity, glossary};
+use crate::gui::ui::{fidelity, glossary};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Ui, WidgetInfo};
 
-/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let Some(form) = cx.state.sweep.form() else { return };
     outline_fields(ui);
@@ -105,9 +105,10 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 }
                 let about = "Solves every point on all cores; the window stays usable";
                 let good = cx.state.sweep.faults().iter().all(Option::is_none);
-                if button::first(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about).clicked() {
-                    cx.push(SweepCommand::Start);
-                }
+                cx.on_click(
+                    &first_button(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about),
+                    SweepCommand::Start,
+                );
                 let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);
                 if let Some(fidelity) = chosen {
                     let mut next = form.clone();
@@ -135,9 +136,7 @@ fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     list(ui, "quantity", called, (&capitalised(present.words()), 11.0), |ui| {
         for quantity in all {
             let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(problem)));
-            if glossary::hover(ui, entry, quantity.words()).clicked() {
-                cx.push(SweepCommand::Draw(quantity));
-            }
+            cx.on_click(&glossary::hover(ui, entry, quantity.words()), SweepCommand::Draw(quantity));
         }
     });
 }

@@ -9,8 +9,7 @@ use crate::gui::derived::format::uncertain;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::table;
+use crate::gui::ui::parts::{self, scrolled};
 use crate::gui::ui::theme::ACCENT;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
@@ -32,7 +31,6 @@ const DIGITS: usize = 4;
 const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
 
-/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let of = cx.state.torque.found_of().unwrap_or(run);
     let Scenario::Motor(motor) = &of.problem.scenario else { return };
@@ -70,8 +68,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         let height = (SHARES[i] * height).max(LEAST_LINES[i] * em);
         let chart = Chart { name, height, panel: &panel, words: (Some("Rotor speed"), word) };
         let linked = egui::Id::unique("torque charts");
-        let x = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
-        pointed = x.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
+        let shown = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
+        pointed = shown.inner.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
     };
     let side_by_side = ui.available_width() > BESIDE * em;
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
@@ -176,10 +174,10 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
         (&present, both(&|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
         ("Friction heat there", both(&|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
     ];
-    table::table(ui, "figures of merit", 3, 10.0, |ui| {
+    parts::table(ui, "figures of merit", 3, 10.0, |ui| {
         ui.label("");
-        table::heads(ui, &[("With film", "With film")], cx.colours.film);
-        table::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
+        parts::heads(ui, &[("With film", "With film")], cx.colours.film);
+        parts::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
         ui.end_row();
         for (name, values, word) in rows {
             glossary::term(ui, RichText::new(name).color(cx.colours.quiet), word);

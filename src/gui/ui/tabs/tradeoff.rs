@@ -2,21 +2,20 @@
 //! of those that no other beats, the present setting ringed, and the cheapest that serves a target.
 
 use crate::analysis::attempt::RunStatus;
-use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
+use crate::analysis::tradeoff::{Candidate, Point, Target, Tradeoff};
 use crate::digits::{self, capitalised, short};
 use crate::export::figure::{Dash, Line, Mark, Style};
-use crate::export::tradeoff::panel;
+use crate::export::tradeoff::{panel, words};
 use crate::gui::command::Command;
 use crate::gui::derived::format::trimmed;
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::scroll::scrolled;
-use crate::gui::ui::table;
-use crate::gui::ui::theme::ACCENT;
-use crate::gui::ui::{button, glossary};
+use crate::gui::ui::parts::{self, first_button, scrolled};
+use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::solve::Method;
 use eframe::egui::{self, RichText, TextStyle};
 use egui_plot::HoverPosition;
@@ -30,7 +29,6 @@ const NO_BREAK: char = '\u{a0}';
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
 
-/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     scrolled(ui, "trade-off", 20.0, |ui| {
@@ -68,10 +66,10 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             None => {
                 let about = "Takes up to about a minute; the window stays usable";
-                if button::first(ui, "Measure", (cx.state.tradeoff.as_ref().is_none(), true), cx).hint(about).clicked()
-                {
-                    cx.push(Command::Measure);
-                }
+                cx.on_click(
+                    &first_button(ui, "Measure", (cx.state.tradeoff.as_ref().is_none(), true), cx).hint(about),
+                    Command::Measure,
+                );
             }
         }
         if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
@@ -122,9 +120,10 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     for mark in [Mark::horizontal(100.0 * cx.state.view.accuracy, ""), Mark::vertical(cx.state.view.budget, "")] {
         panel.layers.push(Mark { style: Style::quiet().dash(Dash::Dashed), ..mark }.into());
     }
-    for Point { quartiles: (low, high), error, .. } in &tradeoff.points {
+    for Point { quartiles: (low, high), error, run, .. } in &tradeoff.points {
         let bar = [*low, *high].map(|time| [time, 100.0 * error.unwrap_or(f64::NAN)]);
-        panel.layers.push(Line::new("", bar, Style { width: 0.5, ..Style::quiet() }).into());
+        let (_, colour) = words(run.candidate.family);
+        panel.layers.push(Line::new("", bar, Style { width: 0.5, ..Style::solid(colour) }).into());
     }
     let judged = format!("error of {}", tradeoff.of_what());
     let name = format!("{} against solve time, %", capitalised(&judged));
@@ -179,9 +178,10 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         let button = ui.add_enabled(ours, egui::Button::new("Use it"));
         let button = button.on_disabled_hover_text("The window solves by its own method only");
         let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
-        if named.hint("One edit, undone like any other").clicked() {
-            cx.push(Command::Use { target: candidate.settings.fidelity, numerics: candidate.numerics });
-        }
+        cx.on_click(
+            &named.hint("One edit, undone like any other"),
+            Command::Use { target: candidate.settings.fidelity, numerics: candidate.numerics },
+        );
     });
 }
 
@@ -189,17 +189,14 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
 fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     let mut order: Vec<&Point> = tradeoff.points.iter().collect();
     order.sort_by(|a, b| a.median.total_cmp(&b.median));
-    table::table(ui, "settings", 4, 14.0, |ui| {
+    parts::table(ui, "settings", 4, 14.0, |ui| {
         let heads = [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error"), ("", "")];
-        table::heads(ui, &heads, cx.colours.quiet);
+        parts::heads(ui, &heads, cx.colours.quiet);
         ui.end_row();
         for point in order {
             let candidate = &point.run.candidate;
-            let (family, colour) = match candidate.family {
-                Family::Fidelity => ("fidelities", cx.colours.film),
-                Family::Grid => ("other grids", cx.colours.good),
-                Family::Paper => ("the paper's method", cx.colours.contact),
-            };
+            let (family, colour) = words(candidate.family);
+            let colour = on_screen(colour, ui.visuals());
             glossary::term(ui, RichText::new(&candidate.name).color(colour), family);
             ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
             ui.label(point.error.map_or_else(String::new, percent));

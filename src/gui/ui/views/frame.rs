@@ -20,14 +20,11 @@ pub(super) struct Frame<'a, T> {
     pub(super) of: &'a T,
     /// Curves over the whole cycle.
     pub(super) scales: Arc<Scales>,
-    /// Ranges of the axes.
     pub(super) ranges: Ranges,
     /// The instant, in frames.
     pub(super) place: f64,
-    /// The lines at that instant.
     pub(super) lines: Lines,
     pub(super) view: &'a View,
-    /// Tooth that is followed.
     pub(super) tooth: usize,
     /// The run that it is compared with, at the same phase of its own cycle: drawn in grey behind it.
     pub(super) first: Option<Box<Self>>,
@@ -69,7 +66,6 @@ impl<'a, T> Frame<'a, T> {
         [middle - reach, middle + reach]
     }
 
-    /// Phase of the instant.
     pub(super) fn phase(&self) -> f64 {
         self.place / self.recording.frames.max(1) as f64
     }

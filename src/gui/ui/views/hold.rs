@@ -33,7 +33,6 @@ const CHARTS: f32 = 0.34;
 /// An area so many times as wide as high has the charts beside the plate, which takes this share of the width.
 const WIDE: f32 = 1.8;
 const BESIDE: f32 = 0.55;
-/// Samples of Boyle's hyperbola.
 const SAMPLES: usize = 80;
 
 /// Draws into what is left of `ui`.
@@ -254,7 +253,8 @@ fn chart(
     let margin = 0.08 * (high - low);
     let name = title.split(',').next().unwrap_or(title);
     style.title(ui.painter(), rect, name, &[title], &[]);
-    let bounds = [[-hold.window(), 0.0], [low - margin, high + margin]];
+    // The dot at the present instant is whole.
+    let bounds = [[-hold.window(), 0.02 * hold.window()], [low - margin, high + margin]];
     Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
         let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
         let band = hold.trail().map(|reading| {

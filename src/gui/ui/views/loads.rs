@@ -8,7 +8,6 @@ use crate::recording::Recording;
 use eframe::egui::{Color32, Rect, Ui};
 use egui_plot::{LineStyle, PlotResponse, PlotUi, Span};
 
-/// Name of the chart.
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
 /// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.

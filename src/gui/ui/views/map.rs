@@ -1,26 +1,27 @@
-//! The pressure map of all teeth.
+//! The pressure map of all teeth, or of a plate.
 
 use super::field::{self, Stamp};
 use super::frame::Frame;
 use crate::gui::derived::format::plain;
 use crate::gui::ui::paint::{Axes, PlotStyle, title_with_bar};
-use crate::problem::Motor;
-use eframe::egui::{Align2, Painter, Rect, Stroke, StrokeKind, Ui, pos2};
+use eframe::egui::{Align2, Painter, Rect, Ui, pos2};
 
-/// Draws the map into `rect`, with the colour bar in its title and the values of x below.
-pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) {
+/// Draws the map, of this name, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
+pub(super) fn draw<T>(
+    ui: &Ui,
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    shown: &Frame<'_, T>,
+    (name, titles): (&str, &[&str]),
+) -> Axes {
     let range = shown.ranges.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
-    let axes = field::draw(ui, style, painter, rect, shown.recording, "all teeth", stamp);
-    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute", "Film"];
-    title_with_bar(painter, style, rect, "Pressure map", &titles, range);
+    let axes = field::draw(ui, style, painter, rect, shown.recording, name, stamp);
+    title_with_bar(painter, style, rect, "Pressure map", titles, range);
     y_labels(painter, style, &axes);
-    axes.x_labels(painter, style, 1e-3, "x, mm");
-    // The followed tooth.
-    let [left, right] = shown.followed().map(|x| axes.px(x));
-    let outline = Rect::from_x_y_ranges(left..=right, rect.y_range());
-    painter.rect_stroke(outline, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
     axes.cursor(painter, style, shown.view.cursor_x);
+    axes
 }
 
 /// The ends of y, and its name between them if there is room.

@@ -10,7 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
 use crate::recording::sample::{self, Lines};
-use eframe::egui::{self, CursorIcon, Pos2, Rect, pos2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, Stroke, StrokeKind, pos2};
 
 /// Where the parts go.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,6 @@ impl Layout {
     }
 }
 
-/// Draws it into `area`.
 pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: &DrawContext<'_>) {
     let recording = shown.recording;
     let underside = shown.lines.underside(recording);
@@ -66,7 +65,12 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
 
     let axes = wave::draw(&painter, &style, layout.wave, shown, &underside);
     let charted = loads::draw(ui, &style, layout.loads, shown);
-    map::draw(ui, &painter, &style, layout.map, shown);
+    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute", "Film"];
+    let mapped = map::draw(ui, &painter, &style, layout.map, shown, ("all teeth", &titles));
+    mapped.x_labels(&painter, &style, 1e-3, "x, mm");
+    let [left, right] = shown.followed().map(|x| mapped.px(x));
+    let followed = Rect::from_x_y_ranges(left..=right, layout.map.y_range());
+    painter.rect_stroke(followed, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
     if let Some([rect, profile]) = layout.side {
         ring::draw(ui, &style, rect, (shown, &underside, &axes), cx);
         velocity(ui, &style, profile, shown);

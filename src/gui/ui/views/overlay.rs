@@ -96,14 +96,9 @@ impl Along {
         if self.alike { 1.0 } else { 1.0 / length }
     }
 
-    /// Size of the unit that is written.
-    fn unit(&self) -> f64 {
-        if self.alike { 1e-3 } else { 1.0 }
-    }
-
     /// What a unit of the axis is in the numbers that are written.
     fn written(&self) -> f64 {
-        1.0 / self.unit()
+        if self.alike { 1e3 } else { 1.0 }
     }
 
     /// A chart over the numbers that are written, and where on the axis the pointer is.
@@ -204,7 +199,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     }
     if let Some(last) = maps.last() {
         let name = if along.alike { "x, mm" } else { "x/λ" };
-        Axes::new(*last, x, [0.0, 1.0]).x_labels(&painter, &style, along.unit(), name);
+        Axes::new(*last, x, [0.0, 1.0]).x_labels(&painter, &style, 1.0 / along.written(), name);
     }
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
@@ -274,9 +269,8 @@ fn over_cycle(
     let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
     let word = title.split(',').next().unwrap_or(title);
     let short = title.replace(" on one wave", "");
-    let (traces, phase) = (&traces[..], cx.state.view.phase);
     let series =
-        Series { name: title, titles: &[title, &short], word, legend: &[], traces, range, unit, period, phase };
+        Series { name: title, titles: &[title, &short], word, legend: &[], traces: &traces, range, unit, period };
     series.show(ui, style, place, cx);
 }
 
@@ -306,7 +300,7 @@ fn draw_surfaces(
     ];
     style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(painter, style, along.unit());
+    axes.x_grid(painter, style, 1.0 / along.written());
     for run in runs {
         let metre = along.metre(run.recording.length);
         let at = |tooth: usize, node: usize, height: f64| {

@@ -1,8 +1,7 @@
 //! The plate: gap, pressure profile and map, load over the cycle, pressure–gap loop.
 
-use super::field::{self, Stamp};
 use super::frame::Frame;
-use super::map::y_labels;
+use super::map;
 use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
@@ -10,14 +9,13 @@ use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::Curve;
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
 use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
-/// Samples of a pressure-gap loop.
 const LOOP_SAMPLES: u32 = 180;
 
 type PlateFrame<'a> = Frame<'a, Plate>;
@@ -28,7 +26,6 @@ impl PlateFrame<'_> {
     }
 }
 
-/// Draws it into `area`.
 pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
@@ -48,19 +45,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
-        let range = shown.ranges.pressure;
-        let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
-        let axes = field::draw(ui, &style, &painter, last, shown.recording, "plate", stamp);
-        title_with_bar(
-            &painter,
-            &style,
-            last,
-            "Pressure map",
-            &["Pressure map, kPa absolute", "Map, absolute", "Map"],
-            range,
-        );
-        y_labels(&painter, &style, &axes);
-        axes.cursor(&painter, &style, shown.view.cursor_x);
+        let titles = ["Pressure map, kPa absolute", "Map, absolute", "Map"];
+        map::draw(ui, &painter, &style, last, shown, ("plate", &titles));
     }
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
 
@@ -195,7 +181,6 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFra
         range: [low, high],
         unit,
         period: shown.recording.period,
-        phase: shown.phase(),
     };
     series.show(ui, style, place, cx);
 }

@@ -17,7 +17,6 @@ use eframe::egui::{
 };
 use std::f32::consts::PI;
 
-/// Name of the drawing.
 const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
 /// What a screen reader is told besides.
 const ABOUT: &str = "All waves of the ring, with teeth coloured by the pressure of the film. The rotor is lifted off, and the ring is drawn wider than it \

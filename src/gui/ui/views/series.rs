@@ -37,8 +37,6 @@ pub(super) struct Series<'a> {
     pub(super) unit: f64,
     /// Period \[s\]; not a number for curves of several periods.
     pub(super) period: f64,
-    /// Phase at which the line stands.
-    pub(super) phase: f64,
 }
 
 impl Series<'_> {
@@ -53,25 +51,26 @@ impl Series<'_> {
             period if period.is_finite() => (1e3 * period, "t, ms"),
             _ => (1.0, "t/T"),
         };
+        let now = cx.state.view.phase;
         style.title(ui.painter(), rect, self.word, self.titles, self.legend);
         let name = format!("{}: click to jump there", self.name);
         let bounds = [[0.0, scale], [low - margin, high + margin]];
         let inset = Inset { name: &name, rect, bounds, below: Some(below) };
         let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;
         let shown = inset.show(ui, style, |plot| {
-            plot.vline(upright(self.phase * scale, style.palette.accent, 1.0));
+            plot.vline(upright(now * scale, style.palette.accent, 1.0));
             for trace in self.traces {
                 let point =
                     |phase: f64| [phase * scale, (trace.offset + trace.curve.at(phase + trace.lag)) / self.unit];
                 let points: Vec<_> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
                 let style = if trace.behind { LineStyle::dashed_dense() } else { LineStyle::Solid };
                 plot.line(line(&points, trace.colour, 1.6, style));
-                plot.points(dots(vec![point(self.phase)], trace.colour, 3.5));
+                plot.points(dots(vec![point(now)], trace.colour, 3.5));
             }
         });
         let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
         let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
-        if let Some(x) = dragged(ui, &shown.transform, self.phase * scale, &name).or(clicked) {
+        if let Some(x) = dragged(ui, &shown.transform, now * scale, &name).or(clicked) {
             cx.push(Command::Seek((x / scale).clamp(0.0, 1.0 - 1e-9)));
         }
     }

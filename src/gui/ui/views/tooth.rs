@@ -61,7 +61,6 @@ pub(super) fn draw(
         range: [low.min(0.0), high.max(0.0)],
         unit: 1e-6,
         period: recording.period,
-        phase: shown.phase(),
     };
     series.show(ui, style, gap_chart, cx);
     let before = first

@@ -12,7 +12,6 @@ use crate::recording::sample;
 use eframe::egui::{Rect, Ui};
 use egui_plot::LineStyle;
 
-/// Points of the curve.
 const POINTS: usize = 24;
 /// Instants of the cycle over which the axis is the same.
 const INSTANTS: usize = 48;

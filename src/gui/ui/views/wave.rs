@@ -14,7 +14,6 @@ const BELOW: f32 = 0.36;
 pub(super) const TOOTH: f32 = 0.15;
 /// Lines of text between two marks on a rotor that turns.
 const MARKS: f32 = 3.0;
-/// Points of an ellipse.
 const POINTS: u32 = 48;
 /// Part of the height above the highest point of the rotor's underside.
 const ABOVE: f32 = 0.16;

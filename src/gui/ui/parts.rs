@@ -1,0 +1,67 @@
+//! What tabs and panels are made of: the button to press next, tables, and columns that are scrolled.
+
+use super::context::DrawContext;
+use super::glossary;
+use eframe::egui::{Button, Color32, Grid, Id, Response, RichText, ScrollArea, Stroke, Ui};
+
+/// A button, lit if it is what comes next.
+pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
+    let mut button = Button::new(RichText::new(text).strong());
+    if lit {
+        button = button.fill(ui.visuals().selection.bg_fill).stroke(Stroke::new(1.0, cx.colours.film));
+    }
+    ui.add(button)
+}
+
+/// The start button of a tab, highlighted while the tab is empty.
+pub(super) fn first_button(ui: &mut Ui, text: &str, (empty, good): (bool, bool), cx: &DrawContext<'_>) -> Response {
+    match empty && good {
+        true => next_button(ui, text, true, cx),
+        false => ui.add_enabled(good, Button::new(text)),
+    }
+}
+
+/// A striped table called `name`, with so much room between its columns. Wider than the tab only in a small window with large text: then it
+/// is scrolled.
+pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: impl FnOnce(&mut Ui)) {
+    let grid = Grid::new(name).num_columns(columns).striped(true).spacing([gap, 4.0]);
+    ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true).show(ui, |ui| grid.show(ui, rows));
+}
+
+/// Heads of columns, each with what the glossary explains it under; one without words is empty.
+pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], colour: Color32) {
+    for (head, word) in heads {
+        let label = ui.label(RichText::new(*head).color(colour));
+        if !word.is_empty() {
+            glossary::here(ui, label, word);
+        }
+    }
+}
+
+/// Shows what `add` draws over the whole height that there is, and scrolls it. At the right `bar` is left free: for the scroll bar, which
+/// floats, and for half a number at the end of an axis.
+pub fn scrolled<R>(
+    ui: &mut Ui,
+    id: impl std::hash::Hash + std::fmt::Debug,
+    bar: f32,
+    add: impl FnOnce(&mut Ui) -> R,
+) -> R {
+    scroll(ui, ScrollArea::vertical().id_salt(id), bar, add)
+}
+
+/// The same of what is shown from its beginning whenever `number` is another one.
+pub fn scrolled_anew<R>(ui: &mut Ui, id: &'static str, number: u64, bar: f32, add: impl FnOnce(&mut Ui) -> R) -> R {
+    let key = Id::unique((id, "scrolled"));
+    let last = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(key, number), number));
+    let area = ScrollArea::vertical().id_salt(id);
+    scroll(ui, if last == number { area } else { area.vertical_scroll_offset(0.0) }, bar, add)
+}
+
+fn scroll<R>(ui: &mut Ui, area: ScrollArea, bar: f32, add: impl FnOnce(&mut Ui) -> R) -> R {
+    let area = area.auto_shrink(false);
+    let shown = area.show(ui, |ui| {
+        ui.set_max_width(ui.available_width() - bar);
+        add(ui)
+    });
+    shown.inner
+}
