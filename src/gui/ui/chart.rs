@@ -566,7 +566,7 @@ mod tests {
             Layer::Line(line) => Some(pieces(line.points.iter().map(|[x, y]| [*x, on_axis(&panel.y, *y)]))),
             _ => None,
         });
-        assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0], [2.0, -5.0]]]]);
+        assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0]]], [vec![[1.0, -5.0]]]]);
     }
 
     #[test]
