@@ -111,21 +111,24 @@ fn what_is_known_is_found_again_within_the_stated_errors() {
 
 #[test]
 fn the_numerical_error_of_what_is_computed_counts() {
-    // Measured a hundred times as accurately as a draft computes.
+    // Measured a thousand times as accurately as a draft computes.
     let motor = scene("fundamental", &[]);
     let mut text = "film.ambient_pressure_kpa,film_load_n,film_load_n_error\n".to_owned();
     for pressure in [40.0, 70.0, 100.0, 140.0, 200.0] {
         let load = load(&motor, &[("film.ambient_pressure_kpa", pressure.to_string())]);
-        writeln!(text, "{pressure},{load},{}", 5e-5 * load).unwrap();
+        writeln!(text, "{pressure},{load},{}", 1e-6 * load).unwrap();
     }
     let start = scene("fundamental", &[("film.min_spacing_nm", "250"), ("stator.normal_amplitude_um", "1.1")]);
     let vary = ["film.min_spacing_nm=100:400", "stator.normal_amplitude_um=0.8:2"];
     let found = fitted(&start, &vary, &table(&start, &text), &DRAFT, 1);
+    let mut beyond_noise = 0.0f64;
     for (k, truth) in [200.0, 1.3].into_iter().enumerate() {
         let (one, noise) = (&found.unknowns[k], found.covariance[k][k].sqrt());
         let off = (one.value - truth).abs();
-        assert!(off > 4.0 * noise && off < one.error.unwrap(), "{}: {off}, {noise}", one.unknown.parameter.key);
+        assert!(off < one.error.unwrap(), "{}: {off}, {noise}", one.unknown.parameter.key);
+        beyond_noise = beyond_noise.max(off / noise);
     }
+    assert!(beyond_noise > 4.0, "{beyond_noise}");
 }
 
 #[test]
