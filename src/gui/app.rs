@@ -24,6 +24,7 @@ use std::time::Duration;
 /// Unsaved work is written away this often.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
+/// The application.
 pub struct App {
     updater: Updater,
     /// Text is being typed, other than what is looked for in the glossary.
@@ -52,6 +53,7 @@ impl App {
         Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address })
     }
 
+    /// All that the window knows.
     pub fn state(&self) -> &State {
         &self.updater.state
     }

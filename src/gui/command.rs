@@ -24,6 +24,7 @@ pub enum Command {
     Set {
         /// Dotted key, as in the preset file.
         key: &'static str,
+        /// The new value.
         value: Value,
         /// Whether the pointer still holds the slider.
         dragging: bool,
@@ -32,6 +33,7 @@ pub enum Command {
     SetText {
         /// Dotted key.
         key: &'static str,
+        /// What was typed.
         text: String,
     },
     /// Back to the parameter's default (for an optional one: absent).
@@ -52,14 +54,19 @@ pub enum Command {
     CopyLink,
     /// Tells what the program is, and how it is cited.
     About,
+    /// Copies its citation.
     CopyCitation,
+    /// Takes the last edit back.
     Undo,
+    /// Makes it again.
     Redo,
     /// Opens a preset, or closes the window: asks first if there are unsaved changes.
     Proceed(Next),
+    /// Asks about a new motor.
     NewMotor,
     /// Answers one of the questions about it, by its name.
     AnswerNewMotor(&'static str, String),
+    /// Makes the motor that the answers describe.
     MakeNewMotor(Answers),
     /// Asks for a file or a folder to do this with.
     Ask(Purpose),
@@ -73,22 +80,31 @@ pub enum Command {
     DiscardThen(Next),
     /// Takes away what is in the way.
     CloseModal,
+    /// What is typed into the prompt for a path.
     TypePath(String),
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
+    /// Cancels the running solve.
     CancelSolve,
     /// Shows this in the middle of the window.
     Show(Tab),
+    /// Asks something of the pinned runs.
     Pin(PinCommand),
+    /// Asks something of the sweep.
     Sweep(SweepCommand),
     /// About what the results depend on.
     Sensitivity(SensitivityCommand),
+    /// About measurements, and fits to them.
     Fit(FitCommand),
+    /// About a measured face.
     Face(FaceCommand),
+    /// About the plate that is held.
     Hold(HoldCommand),
+    /// About the start-up.
     Startup(StartupCommand),
     /// Measures error against time, now.
     Measure,
+    /// Ends the measurement.
     CancelMeasure,
     /// What is asked of the trade-off.
     Target(Target),
@@ -104,12 +120,15 @@ pub enum Command {
     Hover(Option<f64>),
     /// Jumps to this phase of the cycle, or share of what is recorded of a held plate, 0 to 1, pausing.
     Seek(f64),
+    /// Seconds on screen for one cycle.
     SecondsPerCycle(f64),
+    /// Follows this tooth.
     FollowTooth(usize),
     /// Follows the tooth this many further on.
     NextTooth(i64),
     /// Looks at the ring from here.
     Orbit(Orbit),
+    /// Shows a prompt for a path to open.
     OpenPathPrompt,
     /// Light or dark.
     ToggleTheme,
@@ -117,17 +136,23 @@ pub enum Command {
     ToggleLecture,
     /// Shows or hides the parameters: without panels the views have the whole window.
     ToggleParameters,
+    /// Shows or hides the results.
     ToggleResults,
     /// Takes a picture of the window and asks where to save it.
     Screenshot,
+    /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
+    /// About lessons.
     Lesson(LessonCommand),
     /// The tour, from this stop on; none ends it.
     Tour(Option<usize>),
+    /// Shows or hides the glossary.
     Glossary(bool),
+    /// What is looked for in the glossary.
     SearchGlossary(String),
 }
 
+/// About the pinned runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PinCommand {
     /// Pins the run on screen.
@@ -152,10 +177,14 @@ pub enum PinCommand {
     AllParameters(bool),
 }
 
+/// About the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweepCommand {
+    /// Asks for this.
     Form(Form),
+    /// Draws this.
     Draw(Quantity),
+    /// Begins anew.
     Start,
     /// Ends it; what is solved stays.
     Cancel,
@@ -165,27 +194,36 @@ pub enum SweepCommand {
     Open(usize),
 }
 
+/// About measurements, and fits to them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FitCommand {
+    /// Forgets the table.
     Forget,
+    /// Asks for this.
     Form(FitForm),
+    /// Begins.
     Start,
+    /// Ends it.
     Cancel,
     /// Gives the scene the values that were found: one edit.
     Take,
 }
 
+/// About a measured face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaceCommand {
+    /// Forgets it.
     Forget,
     /// Gives the scene the roughness that follows: one edit.
     Take,
 }
 
+/// About the start-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartupCommand {
     /// Starts from rest.
     Start,
+    /// Ends it.
     Cancel,
     /// Looks at this cycle, or at the nearest one that is kept.
     Choose(usize),
@@ -212,6 +250,7 @@ pub enum SensitivityCommand {
     Draw,
 }
 
+/// About the plate that is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HoldCommand {
     /// Holds it at this gap \[m\].
@@ -231,6 +270,7 @@ pub enum HoldCommand {
     Seconds(f64),
 }
 
+/// About lessons.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LessonCommand {
     /// Begins a lesson, by its place in the list, at a step or where it was left.
@@ -253,6 +293,7 @@ pub enum LessonCommand {
     Choose(usize),
     /// Does what comes next: keeps to an answer, goes to the marked parameter, goes to the next step.
     GoOn,
+    /// Asks for one more hint.
     Hint,
     /// Makes the changes that fulfil the task.
     ShowMe,
@@ -280,6 +321,7 @@ commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold
 commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand), Face(FaceCommand));
 
 impl Command {
+    /// The parameter that it edits.
     pub fn edited(&self) -> Option<&'static str> {
         match self {
             Self::Set { key, .. } | Self::SetText { key, .. } => Some(key),

@@ -4,8 +4,6 @@
 //! `ui` reads the state, draws, and pushes commands; `update` carries them out, and never draws. The solver is reached through
 //! [`crate::job`] alone; the window's thread never solves.
 
-#![allow(missing_docs, reason = "the window is no library: a sentence that only repeats a name is left out")]
-
 pub mod app;
 pub mod command;
 pub mod derived;

@@ -69,6 +69,7 @@ pub enum Part {
     Stator,
     /// A side of the tooth that is followed.
     Followed,
+    /// The rotor.
     Rotor,
     /// A mark on the rotor.
     Mark,
@@ -102,12 +103,15 @@ struct Station {
 /// The ring at one instant.
 #[derive(Debug)]
 pub struct Ring<'a> {
+    /// The motor.
     pub motor: &'a Motor,
+    /// Its fields.
     pub recording: &'a Recording,
     /// The instant, in frames.
     pub place: f64,
     /// Whole cycles that went before.
     pub cycles: f64,
+    /// The lines at that instant.
     pub lines: &'a Lines,
     /// The rotor's underside, as in [`Lines::underside`] \[m\].
     pub underside: &'a [[f64; 2]],

@@ -83,6 +83,7 @@ impl Ranges {
 /// Ranges and curves of a whole cycle.
 #[derive(Debug, Default)]
 pub struct Scales {
+    /// Ranges of the axes.
     pub ranges: Ranges,
     /// For each stored tooth.
     teeth: Vec<ToothCurves>,

@@ -8,6 +8,7 @@ use crate::fidelity::Fidelity;
 pub struct Activity {
     /// The newest request.
     pub number: u64,
+    /// What is running.
     pub running: Option<Running>,
     /// Why there is no newer result.
     pub failure: Option<String>,
@@ -16,6 +17,7 @@ pub struct Activity {
 /// The fidelity being solved, and how far it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Running {
+    /// Which fidelity.
     pub fidelity: Fidelity,
     /// Grid, of how many, and round.
     pub level: (usize, usize, usize),
@@ -31,6 +33,7 @@ impl Running {
         ((self.level.0 as f64 + here) / self.level.1.max(1) as f64) as f32
     }
 
+    /// In words.
     pub fn text(&self) -> String {
         format!("solving {}, grid {} of {}, round {}", self.fidelity, self.level.0 + 1, self.level.1, self.level.2)
     }

@@ -23,6 +23,7 @@ impl<M, R> From<Task<M, R>> for Background<M, R> {
 }
 
 impl<M, R> Background<M, R> {
+    /// Asks it to end.
     pub fn cancel(&mut self) {
         if let Some(task) = &self.task {
             task.cancel();
@@ -30,6 +31,7 @@ impl<M, R> Background<M, R> {
         }
     }
 
+    /// Whether it goes on.
     pub fn running(&self) -> bool {
         self.task.is_some()
     }

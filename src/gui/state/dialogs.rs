@@ -15,12 +15,15 @@ pub enum Export {
     Fields,
     /// The cycle of the run on screen as moving pictures.
     Animation,
+    /// A report of the run on screen.
     Report,
     /// All that `compare --out` writes of the pinned runs.
     Comparison,
+    /// A report of the pinned runs.
     ComparisonReport,
     /// The points of the sweep as a table.
     SweepTable,
+    /// The sweep as a figure.
     SweepFigure,
     /// All that `sweep --out` writes.
     Sweep,
@@ -77,14 +80,17 @@ impl Export {
         }
     }
 
+    /// Its entry in menus.
     pub fn entry(self) -> &'static str {
         self.described().0
     }
 
+    /// What is asked.
     pub fn title(self) -> &'static str {
         self.entry().trim_end_matches('…')
     }
 
+    /// What its file is called at first.
     pub fn file_name(self) -> &'static str {
         self.described().1
     }
@@ -144,17 +150,24 @@ pub(super) const PICTURE: &str = "squeezefilm.png";
 /// What a dialog is for, with all that its answer needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
+    /// Open a preset.
     Open,
     /// Save the preset, then do this.
     Save(Option<Next>),
+    /// Save this picture of the window.
     Picture(Picture),
+    /// Export results.
     Export(Export),
+    /// Open a folder of lessons.
     Lessons,
+    /// Open a table of measurements.
     Measurements,
+    /// Open a file of heights.
     Heights,
 }
 
 impl Purpose {
+    /// What is asked.
     pub fn title(&self) -> &'static str {
         match self {
             Self::Open => "Open a preset",

@@ -18,6 +18,7 @@ pub enum Next {
     File(PathBuf),
     /// A motor that was made of answers.
     New(Box<Scene>),
+    /// The window closes.
     Quit,
 }
 
@@ -180,10 +181,12 @@ impl Document {
         true
     }
 
+    /// Whether there is anything to undo.
     pub fn can_undo(&self) -> bool {
         !self.undo.is_empty()
     }
 
+    /// Whether there is anything to redo.
     pub fn can_redo(&self) -> bool {
         !self.redo.is_empty()
     }

@@ -19,6 +19,7 @@ pub struct Dropped {
     pub fidelity: Fidelity,
     /// The plate at the end of each cycle so far; the first is the beginning.
     pub cycles: Vec<Cycle>,
+    /// How it ended.
     pub ended: Option<Result<Fall, String>>,
 }
 

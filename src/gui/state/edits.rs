@@ -6,9 +6,11 @@ use std::collections::BTreeMap;
 /// What happens to a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
+    /// It is set.
     Value(Value),
     /// It is set to what was typed.
     Text(String),
+    /// It is removed.
     Unset,
 }
 
@@ -53,6 +55,7 @@ impl RejectedEdits {
         self.0.remove(key);
     }
 
+    /// Forgets all.
     pub fn clear(&mut self) {
         self.0.clear();
     }

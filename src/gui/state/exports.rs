@@ -12,9 +12,11 @@ use std::time::Duration;
 /// An export under way.
 #[derive(Debug)]
 pub struct RunningExport {
+    /// What is written.
     pub export: Export,
     /// It tells how many pictures of an animation are drawn.
     pub work: Background<<Files as Work>::Message, <Files as Work>::Found>,
+    /// When it began.
     pub started: Instant,
     /// How many pictures are drawn, of how many.
     pub drawn: (usize, usize),
@@ -23,6 +25,7 @@ pub struct RunningExport {
 /// All that the window knows of exports.
 #[derive(Debug, Default)]
 pub struct ExportState {
+    /// The export that is being written.
     pub running: Option<RunningExport>,
     /// What was written last, and when: a note for a while.
     written: Option<(Vec<PathBuf>, Instant)>,
@@ -32,6 +35,7 @@ pub struct ExportState {
 const TOLD: Duration = Duration::from_secs(10);
 
 impl ExportState {
+    /// One has begun.
     pub fn begin(&mut self, export: Export, task: ExportTask, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });

@@ -12,6 +12,7 @@ use std::sync::Arc;
 pub struct Face {
     /// Name of the file.
     pub name: String,
+    /// The heights.
     pub map: HeightMap,
     /// Two faces like it.
     pub pair: Pair,
@@ -29,6 +30,7 @@ pub struct FaceState {
     pub work: Background<(), (HeightMap, Texture)>,
     /// Name of that file.
     name: String,
+    /// The face.
     pub found: Option<Arc<Face>>,
 }
 

@@ -28,6 +28,7 @@ pub enum Sought {
     Least,
 }
 
+/// What is asked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
     /// The keys to be chosen.
@@ -43,7 +44,9 @@ pub struct FitForm {
 /// The table, the form, and the fit.
 #[derive(Debug, Default)]
 pub struct FitState {
+    /// The table.
     pub measured: Option<Arc<Measured>>,
+    /// What is asked for, as typed.
     pub form: FitForm,
     /// What is wrong with each key of the form.
     pub faults: Vec<Option<String>>,
@@ -51,6 +54,7 @@ pub struct FitState {
     pub quantities: Vec<(&'static str, String)>,
     /// Of which scene the form was judged.
     judged: Option<Scene>,
+    /// What is wrong with the limits.
     pub goal_fault: Option<String>,
     /// The search: it tells how many points were tried, and the best so far.
     pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
@@ -132,6 +136,7 @@ impl FitState {
         self.judged = Some(scene.clone());
     }
 
+    /// Asks for this.
     pub fn ask(&mut self, form: FitForm) {
         (self.form, self.judged) = (form, None);
     }

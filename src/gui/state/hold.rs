@@ -22,6 +22,7 @@ const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
 pub struct HoldState {
     job: HeldPlate,
     scene: Scene,
+    /// Its film, gap and gas.
     pub plate: Plate,
     /// Seconds that the leak time takes.
     pub seconds: f64,
@@ -197,6 +198,7 @@ impl HoldState {
         &self.now
     }
 
+    /// The film as it is shown.
     pub fn shown(&self) -> &Snapshot {
         self.recorded.and_then(|_| self.trail.get(self.place())).unwrap_or(&self.now)
     }

@@ -16,8 +16,11 @@ const AT_REST: f64 = 0.01;
 pub struct OnScreen<'a> {
     /// The run on screen.
     pub run: Option<&'a Arc<SolvedScene>>,
+    /// Torque over speed.
     pub torque: &'a TorqueState,
+    /// The start-up.
     pub startup: Option<&'a StartupState>,
+    /// The plate in the hand.
     pub hold: Option<&'a HoldState>,
 }
 

@@ -54,13 +54,16 @@ pub struct Highlights {
 }
 
 impl Highlights {
+    /// Whether `name` is highlighted.
     pub fn has(&self, name: &str) -> bool {
         self.names.iter().any(|other| other == name)
     }
 }
 
+/// Lessons, tour and glossary.
 #[derive(Debug, Default)]
 pub struct LessonState {
+    /// All that could be read.
     pub lessons: Vec<Lesson>,
     /// What is wrong with lessons that could not be read.
     pub faults: Vec<LessonError>,
@@ -68,6 +71,7 @@ pub struct LessonState {
     folders: Vec<PathBuf>,
     running: Option<RunningLesson>,
     progress: BTreeMap<String, Progress>,
+    /// The stop of the tour.
     pub tour: Option<usize>,
     /// What is looked for in the glossary, while it is shown.
     pub glossary: Option<String>,

@@ -13,6 +13,7 @@ use std::fmt::Write as _;
 /// What a link leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Link {
+    /// A scene.
     Scene {
         /// The built-in preset.
         preset: &'static str,
@@ -47,6 +48,7 @@ pub enum LinkError {
     Number {
         /// `lesson` or `step`.
         key: &'static str,
+        /// What was asked for.
         found: String,
     },
     /// A part of a link to a lesson that is no step.

@@ -4,6 +4,7 @@ use super::dialogs::Purpose;
 use super::document::Next;
 use crate::scene::new_motor::Answers;
 
+/// A modal.
 #[derive(Clone, Debug)]
 pub enum Modal {
     /// Something went wrong; nothing changed.

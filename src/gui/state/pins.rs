@@ -86,6 +86,7 @@ pub struct Pins {
     /// Those that are being solved, or will be.
     pub waiting: Vec<Waiting>,
     next: u64,
+    /// What is shown.
     pub page: Page,
     /// Whether parameters are listed that do not differ.
     pub all_parameters: bool,

@@ -26,6 +26,7 @@ pub struct StartingPoint {
     pub scene: Scene,
     /// Its run, the finest so far.
     pub run: Option<Arc<SolvedScene>>,
+    /// Its results.
     pub numbers: Numbers,
 }
 
@@ -40,6 +41,7 @@ impl StartingPoint {
 pub struct RunningLesson {
     /// Its place in the list.
     pub lesson: usize,
+    /// Its step.
     pub step: usize,
     /// What was done, by step.
     pub work: Vec<StepWork>,

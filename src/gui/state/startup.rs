@@ -46,6 +46,7 @@ fn bytes(recording: &Recording) -> usize {
 pub struct StartupState {
     /// It tells each cycle, and returns how it ended.
     pub work: Background<Cycle, Startup>,
+    /// The scene that was started.
     pub scene: Scene,
     /// What it poses.
     pub problem: Problem,
@@ -59,6 +60,7 @@ pub struct StartupState {
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
     pub ranges: Option<Ranges>,
+    /// How it ended.
     pub ended: Option<Result<Startup, String>>,
     chosen: usize,
     /// Whether the newest cycle is looked at.

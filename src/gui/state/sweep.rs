@@ -114,6 +114,7 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
     present
 }
 
+/// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     /// Along x and, for a map, along y, which is kept while it is not asked for.
@@ -171,6 +172,7 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
 /// A sweep that was begun.
 #[derive(Debug)]
 pub struct Swept {
+    /// The sweep.
     pub sweep: Arc<Sweep>,
     /// The rows there are, in the order of the points.
     pub rows: Vec<Row>,
@@ -178,6 +180,7 @@ pub struct Swept {
     pub published: Vec<Published>,
     /// Its number in this window.
     pub number: u64,
+    /// Whether it goes on.
     pub running: bool,
     /// Why it ended before it was done, if it was not cancelled.
     pub failure: Option<String>,
@@ -266,6 +269,7 @@ impl SweepState {
         self.task.is_some() && self.swept.as_ref().is_none_or(|swept| !swept.running)
     }
 
+    /// What was begun.
     pub fn swept(&self) -> Option<&Swept> {
         self.swept.as_ref()
     }
@@ -298,6 +302,7 @@ impl SweepState {
         self.quantity = Some(quantity);
     }
 
+    /// Asks for this.
     pub fn ask(&mut self, form: Form) {
         (self.form, self.refusal, self.checked) = (Some(form), None, None);
     }
@@ -352,6 +357,7 @@ impl SweepState {
         }
     }
 
+    /// Asks it to end.
     pub fn cancel(&self) {
         if let Some((task, _)) = &self.task {
             task.cancel();

@@ -21,7 +21,9 @@ struct Sample {
 /// A switch, and what it changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwitchEffect {
+    /// The key that was switched.
     pub key: &'static str,
+    /// The fidelity of both results.
     pub fidelity: Fidelity,
     /// α before.
     pub before: f64,

@@ -1,14 +1,17 @@
 //! The tour of the first start: four stops, each a part of the window and a few words about it.
 
+/// A stop.
 #[derive(Clone, Copy, Debug)]
 pub struct Stop {
     /// The part that is highlighted.
     pub place: &'static str,
+    /// What it is.
     pub title: &'static str,
     /// What to do with it.
     pub text: &'static str,
 }
 
+/// All stops.
 pub const STOPS: &[Stop] = &[
     Stop {
         place: "wave",

@@ -21,12 +21,14 @@ pub type MeasurementTask = Task<Progress, Vec<MeasuredSetting>>;
 pub struct TradeoffState {
     /// It tells what is measured so far.
     pub work: Background<Progress, Vec<MeasuredSetting>>,
+    /// The scene that is measured.
     pub scene: Scene,
     started: Instant,
     /// Why it ended before it was done, if it was not cancelled.
     pub failure: Option<String>,
     /// Share of the work that is done, 0 to 1.
     pub share: f64,
+    /// What was found.
     pub tradeoff: Tradeoff,
 }
 

@@ -44,6 +44,7 @@ impl Tab {
         (Self::Fit, "Fit"),
     ];
 
+    /// Its label, of a scene that is a plate or a motor.
     pub fn label(self, plate: bool) -> &'static str {
         let name = Self::ALL.iter().find(|(tab, _)| *tab == self).map_or("", |(_, name)| *name);
         if self == Self::Torque && plate { "Exact" } else { name }
@@ -63,6 +64,7 @@ impl Tab {
 /// How the present run is looked at.
 #[derive(Clone, Debug)]
 pub struct View {
+    /// What is in the middle.
     pub tab: Tab,
     /// Error that is asked for in the trade-off, a share of the value.
     pub accuracy: f64,
@@ -72,10 +74,15 @@ pub struct View {
     pub phase: f64,
     /// Whole cycles played so far: how far a rotor has turned.
     pub cycles: f64,
+    /// Whether the animation runs.
     pub playing: bool,
+    /// Seconds on screen for one cycle.
     pub seconds_per_cycle: f64,
+    /// Tooth that is followed.
     pub tooth: usize,
+    /// Whether the parameters are shown.
     pub parameters: bool,
+    /// Whether the results are shown.
     pub results: bool,
     /// x under the pointer in any view \[m\], read out by all of them.
     pub cursor_x: Option<f64>,

@@ -56,14 +56,19 @@ pub struct State {
     pub exports: ExportState,
     /// Runs that were pinned to be compared.
     pub pins: Pins,
+    /// The sweep.
     pub sweep: SweepState,
     /// Measurements, and the fit to them.
     pub fit: FitState,
+    /// A measured face.
     pub face: FaceState,
+    /// Torque over speed.
     pub torque: TorqueState,
+    /// The rotor by itself.
     pub rotor: RotorState,
     /// What the results depend on.
     pub sensitivity: SensitivityState,
+    /// Lessons, tour and glossary.
     pub lessons: LessonState,
     /// The start-up, if one was asked for.
     pub startup: Option<StartupState>,
@@ -75,9 +80,11 @@ pub struct State {
     pub failed_path: Option<(Purpose, String)>,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
+    /// Whether the sheet of shortcuts is shown.
     pub shortcuts: bool,
     /// Files that were opened or saved, the newest first.
     pub recent: Vec<PathBuf>,
+    /// Whether the theme is dark.
     pub dark: bool,
     /// Whether text is as large as a lecture room needs it.
     pub lecture: bool,

@@ -16,14 +16,18 @@ use std::time::Duration;
 /// The state to read, the colours, the present moment, and where commands go.
 #[derive(Debug)]
 pub struct DrawContext<'a> {
+    /// All that the window knows.
     pub state: &'a State,
+    /// Colours of the present theme.
     pub colours: Palette,
+    /// The present moment.
     pub now: Instant,
     commands: RefCell<Vec<Command>>,
     pointed_x: Cell<Option<f64>>,
 }
 
 impl<'a> DrawContext<'a> {
+    /// To draw `state` at this moment.
     pub fn new(state: &'a State, now: Instant) -> Self {
         let commands = RefCell::default();
         Self { state, colours: palette(state.dark), now, commands, pointed_x: Cell::default() }

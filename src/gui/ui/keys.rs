@@ -33,11 +33,15 @@ pub struct Obstacles {
 /// A shortcut, what it is called, and what it asks for.
 #[derive(Clone, Copy, Debug)]
 pub struct Shortcut {
+    /// The keys.
     pub keys: KeyboardShortcut,
     /// Other keys for the same.
     pub also: Option<KeyboardShortcut>,
+    /// What it does.
     pub about: &'static str,
+    /// What it asks for.
     pub command: fn() -> Command,
+    /// When it acts.
     pub scope: Scope,
 }
 

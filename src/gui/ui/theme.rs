@@ -8,6 +8,7 @@ use eframe::egui::{self, Color32, FontData, FontFamily};
 pub struct Palette {
     /// The stator and its teeth.
     pub stator: Color32,
+    /// The rotor.
     pub rotor: Color32,
     /// Film pressure and film load.
     pub film: Color32,
@@ -25,6 +26,7 @@ pub struct Palette {
     pub canvas: Color32,
 }
 
+/// The palette of the present theme.
 pub fn palette(dark: bool) -> Palette {
     let colour = |in_dark: u32, in_light: u32| rgb(if dark { in_dark } else { in_light });
     Palette {
@@ -146,8 +148,11 @@ pub fn install_fonts(ctx: &egui::Context) {
 pub mod highlight {
     /// Between it and what it is round.
     pub const GAP: f32 = 3.0;
+    /// Its width.
     pub const LINE: f32 = 2.0;
+    /// The width of its glow.
     pub const GLOW: f32 = 6.0;
+    /// Its corners.
     pub const CORNER: u8 = 6;
 }
 

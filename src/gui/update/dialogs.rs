@@ -48,6 +48,7 @@ impl Dialogs {
         Ok(())
     }
 
+    /// Answers that have come.
     pub fn drain(&mut self) -> Vec<(Purpose, Answer)> {
         let answers: Vec<(Purpose, Answer)> = self.receiver.try_iter().collect();
         self.open.retain(|open| answers.iter().all(|(answered, _)| !open.is_like(answered)));

@@ -11,6 +11,7 @@ use std::time::Duration;
 /// The clock, the file dialogs and the effort of measurements.
 #[derive(Clone, Debug)]
 pub struct Platform {
+    /// The present moment.
     pub now: fn() -> Instant,
     /// The same as a date, for what is kept longer than a window.
     pub date: fn() -> SystemTime,

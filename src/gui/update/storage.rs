@@ -41,6 +41,7 @@ impl StorageFile {
         Err(io::Error::other(format!("{MOST} windows are open")))
     }
 
+    /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
     }

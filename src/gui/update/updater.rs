@@ -22,6 +22,7 @@ use std::time::Duration;
 /// Changes the state: by commands, by what background work tells, and by time.
 #[derive(Debug)]
 pub struct Updater {
+    /// All that the window knows.
     pub state: State,
     /// The clock, the file dialogs and the effort of measurements.
     pub platform: Platform,
@@ -47,6 +48,7 @@ impl Updater {
         Ok(updater)
     }
 
+    /// The present moment.
     pub fn now(&self) -> Instant {
         (self.platform.now)()
     }

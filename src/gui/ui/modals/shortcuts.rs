@@ -10,6 +10,7 @@ use eframe::egui::{self, RichText, TextStyle};
 /// Between the two columns, and between a key and what it does.
 const GAP: f32 = 28.0;
 
+/// Shows the sheet.
 pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     let response = egui::Modal::new(egui::Id::unique("shortcuts")).frame(frame(ctx)).show(ctx, |ui| {
         ui.heading("Keyboard shortcuts");

@@ -34,6 +34,7 @@ pub fn beside(part: Rect, size: Vec2, room: Rect) -> Rect {
     corners.map(inside).into_iter().min_by(|a, b| covered(a).total_cmp(&covered(b))).unwrap_or(part)
 }
 
+/// Shows a stop of the tour.
 pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
     let Some(shown) = STOPS.get(stop) else { return };
     let room = ctx.content_rect();

@@ -31,17 +31,20 @@ enum Stage {
     Left,
 }
 
+/// One field.
 #[derive(Clone, Copy, Debug)]
 pub struct Field<'a> {
     /// Dotted key.
     pub key: &'static str,
     /// The value in the scene; `None` if there is nothing to go back to.
     pub value: Option<&'a Value>,
+    /// Name for screen readers.
     pub name: &'a str,
     /// What an empty field says.
     pub hint: &'static str,
     /// Why the last text was refused.
     pub refused: Option<&'a str>,
+    /// Width of the text.
     pub width: f32,
     /// Whether long text continues on further lines.
     pub wrapped: bool,

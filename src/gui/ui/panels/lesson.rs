@@ -12,6 +12,7 @@ use crate::lessons::work::{Score, Stage, StepWork};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
+/// Shows the lesson that is followed.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let lessons = &cx.state.lessons;
     let Some(running) = lessons.running() else { return };

@@ -13,6 +13,7 @@ use crate::scene::{Kind, Scene, presets, show_text};
 use eframe::egui::{self, Button, Response};
 use std::sync::LazyLock;
 
+/// Shows the menus.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let document = &cx.state.document;
     egui::MenuBar::new().ui(ui, |ui| {

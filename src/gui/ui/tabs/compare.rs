@@ -29,6 +29,7 @@ const BESIDE: usize = 3;
 const COLUMNS: [f32; 3] = [12.0, 9.0, 8.0];
 const HEADS: [f32; 2] = [11.0, 7.5];
 
+/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs.is_empty() && pins.waiting.is_empty() {

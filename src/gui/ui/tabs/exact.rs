@@ -103,6 +103,7 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
     }
 }
 
+/// Shows the tab.
 pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let height = ui.available_height();

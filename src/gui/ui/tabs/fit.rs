@@ -31,6 +31,7 @@ const WIDE: f32 = 13.0;
 /// Rows that are listed: all are in the files of the command line.
 const LISTED: usize = 200;
 
+/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let state = &cx.state.fit;

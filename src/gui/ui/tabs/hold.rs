@@ -22,6 +22,7 @@ const WIDEST: f32 = 18.0;
 const BESIDE_GAP: f32 = 18.0;
 const BESIDE_SECONDS: f32 = 21.0;
 
+/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let Some(hold) = &cx.state.hold else {
         if cx.state.document.scene().floats() {

@@ -33,6 +33,7 @@ const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
 const REACH: f32 = 5.0;
 /// What a dragged edge is rounded to \[mm\].
 const STEP: f64 = 0.01;
+/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();

@@ -22,6 +22,7 @@ const HISTOGRAM: f32 = 11.0;
 /// Random scenes that can be asked for.
 const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
 
+/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     scrolled(ui, "sensitivity", 8.0, |ui| {
         let state = &cx.state.sensitivity;

@@ -17,6 +17,7 @@ use eframe::egui::{self, RichText, TextStyle};
 const PLOTS_SHARE: f32 = 0.22;
 const LINES: (f32, f32) = (6.5, 13.0);
 
+/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if cx.state.document.scene().floats() {
         dropped::show(ui, cx);

@@ -17,6 +17,7 @@ use crate::gui::ui::{fidelity, glossary};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Ui, WidgetInfo};
 
+/// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let Some(form) = cx.state.sweep.form() else { return };
     outline_fields(ui);

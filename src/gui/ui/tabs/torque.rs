@@ -31,6 +31,7 @@ const DIGITS: usize = 4;
 const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
 
+/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let of = cx.state.torque.found_of().unwrap_or(run);
     let Scenario::Motor(motor) = &of.problem.scenario else { return };

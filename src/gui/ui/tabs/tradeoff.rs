@@ -29,6 +29,7 @@ const NO_BREAK: char = '\u{a0}';
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
 
+/// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     scrolled(ui, "trade-off", 20.0, |ui| {

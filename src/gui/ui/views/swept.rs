@@ -46,6 +46,7 @@ const MANY_SIZES: f64 = 300.0;
 /// An axis of values that reach below this share of the greatest begins at zero.
 const FROM_ZERO: f64 = 0.6;
 
+/// What is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Plotted<'a> {
     /// The sweep, with its rows so far.
