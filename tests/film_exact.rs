@@ -309,6 +309,32 @@ fn convergence_is_of_second_order_in_space_and_time() {
     }
 }
 
+#[test]
+fn many_nodes_across_take_no_more_solves_and_agree_with_a_polynomial() {
+    // Line by line from 20 across half the width on: one solve costs in proportion to the nodes, so that what counts is how many there are.
+    for (sigma, epsilon) in [(1.0, 0.3), (50.0, 0.8), (1e3, 0.5)] {
+        let square = plate(sigma, epsilon, 0.1, Some(1.0));
+        let found = |nodes: usize, across: usize| {
+            let numerics = Numerics {
+                film_nodes_along: Some(nodes),
+                film_nodes_across: Some(across),
+                steps_per_cycle: Some(160),
+                tolerance: Some(1e-9),
+                ..Numerics::default()
+            };
+            let one = Plan::plate(&square, Fidelity::Standard, &numerics).on_one_grid();
+            let cycle = plate::periodic(&square, &one, &mut (), &Cancel::new()).unwrap();
+            let off = largest_invariant_error(&square, &cycle);
+            assert!(off < 1e-7, "σ = {sigma}, {nodes} × {across} nodes: ⟨hΦ⟩ off by {off:.1e}");
+            (cycle.stats.film_solves, solve_with(&square, Fidelity::Standard, &numerics).result.film_load.value)
+        };
+        let ((few, _), (many, load), (_, polynomial)) = (found(49, 49), found(129, 129), found(129, 25));
+        println!("σ = {sigma}: {few} and {many} solves, load {load}, of a polynomial {polynomial}");
+        assert!((many as f64) < 1.1 * few as f64, "{few} solves, {many} on seven times as many nodes");
+        assert!((load / polynomial - 1.0).abs() < 1e-4, "σ = {sigma}: {load}, of a polynomial {polynomial}");
+    }
+}
+
 // ---- what a plan makes of a plate
 
 #[test]

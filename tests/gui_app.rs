@@ -387,7 +387,7 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
     let steps = window.known().document.scene().get("numerics.steps_per_cycle");
     assert_eq!(steps, Some(Value::Whole(100_000)));
     window.step();
-    window.get_by_label_contains("2001 × 501 film nodes on 9 teeth and 100008 steps a cycle need");
+    window.get_by_label_contains("2001 × 505 film nodes on 9 teeth and 100008 steps a cycle need");
     window.get_by_label_contains("allow more with --memory");
 }
 

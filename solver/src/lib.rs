@@ -27,7 +27,7 @@
 //!
 //! | module | what it holds |
 //! | --- | --- |
-//! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
+//! | [`numerics`] | film systems by elimination and multigrid, graded nodes, Anderson acceleration; no physics |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
 //! | [`budget`] | the memory that all solves of the process share |
 //! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |

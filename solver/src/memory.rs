@@ -5,6 +5,7 @@
 
 use crate::budget::Purpose;
 pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
+use crate::numerics::rows::MANY_COLUMNS;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
 
@@ -19,6 +20,8 @@ struct Film {
     nodes: u64,
     rows: u64,
     columns: u64,
+    /// Whether it is solved line by line.
+    lines: bool,
 }
 
 impl Film {
@@ -29,23 +32,28 @@ impl Film {
             _ if plan.half_width => (across + 1, across),
             _ => (2 * across + 1, 2 * across - 1),
         };
-        Self { along: along + 1, nodes: (along + 1) * ny, rows: along - 1, columns }
+        Self { along: along + 1, nodes: (along + 1) * ny, rows: along - 1, columns, lines: lines(plan, columns) }
     }
 
-    fn of_plate(plate: &Plate, grid: &Grid) -> Self {
+    fn of_plate(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
         let halves = if plate.hole.is_some_and(|hole| hole > 0.0) { 2 } else { 1 };
         let (along, across) = (halves * grid.along as u64, grid.across as u64);
         let (ny, columns) = if plate.width.is_some() { (across + 1, across) } else { (1, 1) };
-        Self { along: along + 1, nodes: (along + 1) * ny, rows: along, columns }
+        Self { along: along + 1, nodes: (along + 1) * ny, rows: along, columns, lines: lines(plan, columns) }
     }
 
     fn unknowns(&self) -> u64 {
         self.rows * self.columns
     }
 
-    /// Inverses of the diagonal blocks of one linear solver, with its matrix across (`numerics::rows`).
+    /// One linear solver: inverses of the diagonal blocks and its matrix across (`numerics::rows`), or the lines of its levels
+    /// (`numerics::lines`).
     fn blocks(&self) -> u64 {
-        (self.rows + 2) * self.columns * self.columns.next_multiple_of(4)
+        if self.lines {
+            18 * self.unknowns()
+        } else {
+            (self.rows + 2) * self.columns * self.columns.next_multiple_of(4)
+        }
     }
 
     /// A step of the film (`film::stepper`): fields, right-hand side, Jacobian, blocks.
@@ -57,6 +65,11 @@ impl Film {
     fn cycle(&self, steps: u64) -> u64 {
         steps * self.unknowns() + self.step() + self.blocks() + 8 * self.unknowns()
     }
+}
+
+/// Whether a film of so many unknown nodes across is solved line by line.
+fn lines(plan: &Plan, columns: u64) -> bool {
+    !plan.spectral && columns >= MANY_COLUMNS as u64
 }
 
 /// Vectors of the unknowns that an acceleration of this depth keeps once it has gone on for as many rounds, its caller's two
@@ -143,7 +156,7 @@ pub fn motor(motor: &Motor, plan: &Plan) -> Need {
 
 /// One grid of a plate (`plate`).
 fn plate_level(plate: &Plate, plan: &Plan, grid: &Grid) -> u64 {
-    let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
+    let (film, steps) = (Film::of_plate(plate, plan, grid), grid.steps as u64);
     film.cycle(steps) + 2 * steps * film.along + 3 * steps * plan.frames_per_step as u64
 }
 
@@ -152,7 +165,7 @@ pub fn plate(plate: &Plate, plan: &Plan) -> Need {
     let grids = grids(plan);
     let levels: u64 = grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
     let beside = grids.last().map_or(0, |grid| {
-        let (film, frames) = (Film::of_plate(plate, grid), (grid.steps * plan.frames_per_step) as u64);
+        let (film, frames) = (Film::of_plate(plate, plan, grid), (grid.steps * plan.frames_per_step) as u64);
         let maps = if plan.maps || plan.turned { EXTRAPOLATED_MAPS * frames * film.nodes } else { 0 };
         (accelerated(8) * 2 * film.unknowns()).max(EXTRAPOLATED_LINES * frames * film.along + maps)
     });
@@ -178,7 +191,7 @@ pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
     let plan = &plan.even_steps();
     let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
-    let fields = |grid: &Grid| transient(&Film::of_plate(plate, grid), 1, grid.steps as u64, plan.maps, kept);
+    let fields = |grid: &Grid| transient(&Film::of_plate(plate, plan, grid), 1, grid.steps as u64, plan.maps, kept);
     of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }
 

@@ -55,7 +55,7 @@ impl FilmCycle {
     pub fn new(film: Film, steps: usize) -> Self {
         let grid = film.grid();
         let (unknowns, columns) = (grid.unknowns(), grid.y.unknown().len());
-        let solver = RowSolver::new(unknowns / columns, columns, &grid.y.diffusion());
+        let solver = RowSolver::new(unknowns / columns, columns, &grid.across());
         Self {
             film,
             steps,

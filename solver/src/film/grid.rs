@@ -1,5 +1,6 @@
 //! Nodes of the film on one tooth or plate: a tensor grid with nodes on the edges, graded towards ambient edges.
 
+use crate::numerics::rows::Across;
 use crate::numerics::{grading, legendre};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -175,6 +176,11 @@ impl FilmGrid {
     /// Nodes with unknown pressure.
     pub fn unknowns(&self) -> usize {
         self.x.unknown().len() * self.y.unknown().len()
+    }
+
+    /// −∂²/∂y² between the unknown nodes of one x \[1/m²\] ([`Axis::diffusion`]).
+    pub fn across(&self) -> Across {
+        Across::new(self.y.unknown().len(), &self.y.diffusion())
     }
 
     /// Each node along x with unknown pressure, and where those across it are in a field of all nodes.

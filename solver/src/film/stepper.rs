@@ -23,11 +23,11 @@
 //! M-function (|d ln ψ/d ln Z| ≤ 1, `slip`, and faces that choke), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping
 //! sum over a cycle gives Σ div flux = 0 at every node of a periodic state: the mass balance, to round-off.
 //!
-//! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
+//! Newton's method on P, unknown nodes ordered y fastest, whose systems are those of [`crate::numerics::rows`]. No allocation after construction.
 
 use super::grid::{Axis, FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
-use crate::numerics::rows::{Coupling, RowSolver, with_columns};
+use crate::numerics::rows::{Across, Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
 use crate::surface::flow::{Factors, Roughness};
@@ -141,8 +141,8 @@ pub struct Film {
     solver: RowSolver,
     /// Faces before and after the row being assembled.
     faces: [FaceRow; 2],
-    /// −∂²/∂y² across \[1/m²\], `[value][node]`: column by column.
-    across: Vec<f64>,
+    /// −∂²/∂y² across \[1/m²\].
+    across: Across,
     /// Φ at the nodes of the row being assembled, less that of the edge \[m²\], and what flows out across.
     potential: Vec<f64>,
     outflow: Vec<f64>,
@@ -237,8 +237,7 @@ impl Film {
     pub fn new(grid: FilmGrid, gas: &Gas) -> Self {
         let unknowns = grid.unknowns();
         let columns = grid.y.unknown().len();
-        let diffusion = grid.y.diffusion();
-        let across = (0..columns * columns).map(|k| diffusion[k % columns * columns + k / columns]).collect();
+        let across = grid.across();
         Self {
             law: SlipLaw::of(gas),
             mobility: gas.ambient_pressure / (12.0 * gas.viscosity),
@@ -255,7 +254,7 @@ impl Film {
             divergence: vec![0.0; unknowns],
             jacobian: Coupling::new(unknowns),
             pivots: vec![0.0; unknowns],
-            solver: RowSolver::new(unknowns / columns, columns, &diffusion),
+            solver: RowSolver::new(unknowns / columns, columns, &across),
             faces: [FaceRow::new(columns), FaceRow::new(columns)],
             across,
             potential: vec![0.0; columns],
@@ -305,12 +304,11 @@ impl Film {
         let (jacobian, step) = (&self.jacobian, &self.residual);
         for (row, sum) in sum.chunks_exact_mut(b).enumerate() {
             let nodes = row * b..(row + 1) * b;
-            let outflow = &mut self.outflow[..b];
-            outflow.fill(0.0);
-            for (value, column) in nodes.clone().zip(self.across.chunks_exact(b)) {
-                let moved = jacobian.within[value] * step[value];
-                outflow.iter_mut().zip(column).for_each(|(outflow, entry)| *outflow += entry * moved);
+            let (moved, outflow) = (&mut self.potential[..b], &mut self.outflow[..b]);
+            for (moved, k) in moved.iter_mut().zip(nodes.clone()) {
+                *moved = jacobian.within[k] * step[k];
             }
+            self.across.multiply::<0>(moved, outflow);
             for (j, k) in nodes.enumerate() {
                 let west = if k >= b { jacobian.west[k] * step[k - b] } else { 0.0 };
                 let east = if k + b < last { jacobian.east[k] * step[k + b] } else { 0.0 };
@@ -513,12 +511,7 @@ impl Film {
                 for (potential, p) in potential.iter_mut().zip(west) {
                     *potential = law.potential(gap * p) - at_edge;
                 }
-                outflow.fill(0.0);
-                for (column, potential) in self.across[..b * b].chunks_exact(b).zip(&*potential) {
-                    for (outflow, entry) in outflow.iter_mut().zip(column) {
-                        *outflow += entry * potential;
-                    }
-                }
+                self.across.multiply::<B>(potential, outflow);
                 let scale = self.flow[face].across * (dt * self.mobility * gap);
                 let own = west;
                 let residual = &mut self.residual[nodes.clone()];
@@ -542,9 +535,14 @@ impl Film {
                     let here = (east_by_west[j] - west_by_east[j]) * inverse;
                     centre[j] = here;
                     within[j] = scale * gap * law.at(gap * own[j]).0;
-                    pivots[j] = inertia + here + damping * (here + within[j] * self.across[j * b + j]);
+                    pivots[j] = inertia + here;
                     to_west[j] = -west_by_west[j] * inverse;
                     to_east[j] = east_by_east[j] * inverse;
+                }
+                if damping > 0.0 {
+                    for j in 0..b {
+                        pivots[j] += damping * (centre[j] + within[j] * self.across.diagonal(j, b));
+                    }
                 }
             }
             self.faces.swap(0, 1);

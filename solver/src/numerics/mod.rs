@@ -4,6 +4,7 @@ pub mod anderson;
 pub mod bessel;
 pub mod grading;
 pub mod legendre;
+mod lines;
 pub mod rows;
 
 /// Runs `work`, which has to be inlined whole, compiled for the widest vector registers of this processor. The operations

@@ -1,4 +1,5 @@
-//! Linear systems of nodes in rows, dense within a row: block LU without pivoting.
+//! Linear systems of nodes in rows, dense within a row: block LU without pivoting. Of many nodes to a row that couple to their neighbours
+//! alone: [`super::lines`].
 //!
 //! Unknown k = row × columns + column couples to every node of its own row, by a matrix A that is the same for all rows but
 //! for a factor of each column, and to the same column of the rows on either side (west, east: k ∓ columns). By rows the
@@ -13,6 +14,7 @@
 //! on whole columns that stay where they are, which suits vector registers (docs/performance.md). For M-matrices all D̃ are
 //! M-matrices too and no pivoting is needed; nor is it where the symmetric part is definite, as with a spectral A.
 
+use super::lines::{LineSolver, Tridiagonal};
 use super::vectorised;
 
 /// The coefficients of a system, one value an unknown.
@@ -35,10 +37,74 @@ impl Coupling {
         Self { centre: zero.clone(), west: zero.clone(), east: zero.clone(), within: zero }
     }
 
+    /// Centre, west, east and within.
+    pub fn fields(&mut self) -> [&mut Vec<f64>; 4] {
+        [&mut self.centre, &mut self.west, &mut self.east, &mut self.within]
+    }
+
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
-        for values in [&mut self.centre, &mut self.west, &mut self.east, &mut self.within] {
-            values.fill(0.0);
+        self.fields().into_iter().for_each(|values| values.fill(0.0));
+    }
+}
+
+/// The matrix A.
+#[derive(Clone, Debug)]
+pub enum Across {
+    /// Column by column.
+    Full(Vec<f64>),
+    /// Of so many nodes that it pays to know that each couples to its neighbours alone.
+    Neighbours(Tridiagonal),
+}
+
+/// Columns from which a tridiagonal A is kept as such.
+pub const MANY_COLUMNS: usize = 20;
+
+impl Across {
+    /// From `matrix[row][column]`.
+    pub fn new(columns: usize, matrix: &[f64]) -> Self {
+        let entry = |row: usize, column: usize| matrix[row * columns + column];
+        let places = || (0..columns).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        if columns < MANY_COLUMNS || places().any(|(i, j)| i.abs_diff(j) > 1 && entry(i, j) != 0.0) {
+            return Self::Full(places().map(|(column, row)| entry(row, column)).collect());
+        }
+        Self::Neighbours(Tridiagonal {
+            below: (0..columns).map(|i| if i > 0 { entry(i, i - 1) } else { 0.0 }).collect(),
+            diagonal: (0..columns).map(|i| entry(i, i)).collect(),
+            above: (0..columns).map(|i| if i + 1 < columns { entry(i, i + 1) } else { 0.0 }).collect(),
+        })
+    }
+
+    /// Entry of node `j` itself, of so many columns.
+    #[inline(always)]
+    pub fn diagonal(&self, j: usize, columns: usize) -> f64 {
+        match self {
+            Self::Full(matrix) => matrix[j * columns + j],
+            Self::Neighbours(bands) => bands.diagonal[j],
+        }
+    }
+
+    /// `product` = A × `values`. `B` is the number of columns, or 0 to take it at run time.
+    #[inline(always)]
+    pub fn multiply<const B: usize>(&self, values: &[f64], product: &mut [f64]) {
+        let b = if B == 0 { values.len() } else { B };
+        let (values, product) = (&values[..b], &mut product[..b]);
+        match self {
+            Self::Full(matrix) => {
+                product.fill(0.0);
+                for (column, value) in matrix[..b * b].chunks_exact(b).zip(values) {
+                    product.iter_mut().zip(column).for_each(|(product, entry)| *product += entry * value);
+                }
+            }
+            Self::Neighbours(Tridiagonal { below, diagonal, above }) => {
+                for ((product, value), entry) in product.iter_mut().zip(values).zip(diagonal) {
+                    *product = entry * value;
+                }
+                let lower = product[1..].iter_mut().zip(values).zip(&below[1..]);
+                lower.for_each(|((product, value), entry)| *product += entry * value);
+                let upper = product.iter_mut().zip(&values[1..]).zip(above);
+                upper.for_each(|((product, value), entry)| *product += entry * value);
+            }
         }
     }
 }
@@ -64,7 +130,35 @@ const LANES: usize = 4;
 
 /// Solver for systems of one size and one A, with its workspace.
 #[derive(Clone, Debug)]
-pub struct RowSolver {
+pub enum RowSolver {
+    /// By elimination.
+    Blocks(BlockSolver),
+    /// Where A is [`Across::Neighbours`].
+    Lines(LineSolver),
+}
+
+impl RowSolver {
+    /// For `rows` rows of so many columns.
+    pub fn new(rows: usize, columns: usize, across: &Across) -> Self {
+        match across {
+            Across::Full(matrix) => Self::Blocks(BlockSolver::new(rows, columns, matrix)),
+            Across::Neighbours(across) => Self::Lines(LineSolver::new(rows, across)),
+        }
+    }
+
+    /// Replaces `rhs` by the solution of the system with `coupling`, and `centre` \[a value an unknown\] in place of its
+    /// own. Couplings that leave the grid are ignored.
+    pub fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
+        match self {
+            Self::Blocks(solver) => solver.solve(coupling, centre, rhs),
+            Self::Lines(solver) => solver.solve(coupling, centre, rhs),
+        }
+    }
+}
+
+/// Block LU.
+#[derive(Clone, Debug)]
+pub struct BlockSolver {
     columns: usize,
     /// A, column by column, each padded with zeros to whole registers.
     matrix: Vec<Lanes>,
@@ -79,9 +173,9 @@ pub struct RowSolver {
     units: Vec<Lanes>,
 }
 
-impl RowSolver {
-    /// For `rows` × `columns` unknowns, with A = `matrix[row][column]`.
-    pub fn new(rows: usize, columns: usize, matrix: &[f64]) -> Self {
+impl BlockSolver {
+    /// For `rows` × `columns` unknowns, with A column by column.
+    fn new(rows: usize, columns: usize, matrix: &[f64]) -> Self {
         let groups = columns.div_ceil(LANES);
         let line = vec![[0.0; LANES]; groups];
         let mut units = vec![[0.0; LANES]; columns * groups];
@@ -90,7 +184,7 @@ impl RowSolver {
         }
         let mut padded = vec![[0.0; LANES]; columns * groups];
         for (k, entry) in matrix.iter().enumerate() {
-            let (row, column) = (k / columns, k % columns);
+            let (column, row) = (k / columns, k % columns);
             padded[column * groups + row / LANES][row % LANES] = *entry;
         }
         Self {
@@ -105,9 +199,7 @@ impl RowSolver {
         }
     }
 
-    /// Replaces `rhs` by the solution of the system with `coupling`, and `centre` \[a value an unknown\] in place of its
-    /// own. Couplings that leave the grid are ignored.
-    pub fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
+    fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
         with_columns!(self.columns, B => vectorised(
             #[inline(always)]
             || self.solve_columns::<B>(coupling, centre, rhs)
@@ -259,7 +351,7 @@ mod tests {
             let mut rhs: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
             let expected = dense.lu().solve(&DVector::from_vec(rhs.clone())).unwrap();
             let centre = coupling.centre.clone();
-            RowSolver::new(rows, columns, &matrix).solve(&coupling, &centre, &mut rhs);
+            RowSolver::new(rows, columns, &Across::new(columns, &matrix)).solve(&coupling, &centre, &mut rhs);
             for i in 0..n {
                 assert!((rhs[i] - expected[i]).abs() < 1e-13, "{rows} × {columns}, {i}: {} {}", rhs[i], expected[i]);
             }

@@ -2,6 +2,7 @@
 
 use crate::fidelity::GRIDS;
 use crate::numerics::grading::{clustering, map};
+use crate::numerics::rows::MANY_COLUMNS;
 use serde::{Deserialize, Serialize};
 
 /// One grid of a motor or a plate.
@@ -19,9 +20,9 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Work of one cycle, in multiplications of the elimination: its blocks are full across the width.
+    /// Work of one cycle, in multiplications of the elimination: its blocks are full across the width, unless they are many.
     pub fn work(&self) -> f64 {
-        (self.along * self.across.max(1).pow(2) * self.steps) as f64
+        (self.along * self.across.max(1) * self.across.clamp(1, MANY_COLUMNS) * self.steps) as f64
     }
 
     /// Twice as fine. A polynomial across stays what it is.

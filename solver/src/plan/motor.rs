@@ -7,6 +7,7 @@ use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::numerics::grading::middle_clustering;
+use crate::numerics::rows::MANY_COLUMNS;
 use crate::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
 use std::f64::consts::TAU;
@@ -71,7 +72,8 @@ impl Plan {
         // With fewer nodes, leaving out the last one may by chance change little although the layer at the sides is not resolved.
         let least = (half / layer).sqrt().round() as usize;
         let across = numerics.film_nodes_across.map_or(spec.across.max(least), |n| (n / 2).max(1));
-        let spectral = layer / half > THINNEST_LAYER;
+        // More nodes than a polynomial ever needs are finite volumes, which cost in proportion to their number.
+        let spectral = layer / half > THINNEST_LAYER && across < MANY_COLUMNS;
         let (across, clustering_across) = if spectral { (across, spectral_clustering(layer / half)) } else { robust };
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;

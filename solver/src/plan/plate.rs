@@ -4,6 +4,7 @@ use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::{Choice, Decision, LEAK_EFFECT, Plan, ROUND_LIMIT, SHARE, THINNEST_LAYER, custom, name};
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
+use crate::numerics::rows::MANY_COLUMNS;
 use crate::problem::{Flow, Numerics, Outline, Plate};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
@@ -47,7 +48,9 @@ impl Plan {
         let (along, clustering_along) = graded(spec.plate, asked_along, 0.5 * plate.section(), edge);
         let layer = reach(plate.length);
         let edge = spec.plate_edge_fraction * layer;
-        let spectral = plate.width.is_some_and(|width| !thin(width, plate.length));
+        // As in the plan of a motor: many nodes are finite volumes.
+        let thick = plate.width.is_some_and(|width| !thin(width, plate.length));
+        let spectral = thick && asked_across.is_none_or(|asked| asked < MANY_COLUMNS);
         let robust = plate.width.map_or((0, 0.0), |width| graded(spec.plate, asked_across, 0.5 * width, edge));
         let (across, clustering_across) = match plate.width {
             Some(width) if spectral => {
