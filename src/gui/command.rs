@@ -96,8 +96,10 @@ pub enum Command {
     Sensitivity(SensitivityCommand),
     /// About measurements, and fits to them.
     Fit(FitCommand),
-    /// About a measured face.
-    Face(FaceCommand),
+    /// Forgets the measured face.
+    ForgetFace,
+    /// Gives the scene the roughness that follows from the measured face: one edit.
+    TakeRoughness,
     /// About the plate that is held.
     Hold(HoldCommand),
     /// About the start-up.
@@ -209,15 +211,6 @@ pub enum FitCommand {
     Take,
 }
 
-/// About a measured face.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FaceCommand {
-    /// Forgets it.
-    Forget,
-    /// Gives the scene the roughness that follows: one edit.
-    Take,
-}
-
 /// About the start-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartupCommand {
@@ -318,7 +311,7 @@ macro_rules! commands_of {
 }
 
 commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold(HoldCommand), Lesson(LessonCommand));
-commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand), Face(FaceCommand));
+commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand));
 
 impl Command {
     /// The parameter that it edits.

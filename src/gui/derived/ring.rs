@@ -238,42 +238,23 @@ impl Ring<'_> {
 
 /// A cut across a body.
 #[derive(Clone, Copy)]
-struct End {
-    /// Of a length along the radius there: how much it goes to the right, and how much to the front.
-    direction: [f64; 2],
-    /// Its lower and its upper end.
-    heights: [f64; 2],
-}
-
-/// A place at some radius.
-#[derive(Clone, Copy)]
-struct Place {
-    direction: [f64; 2],
-    z: f64,
-}
-
-/// The lower and the upper edge between two cuts.
-fn edges(ends: [End; 2]) -> [[Place; 2]; 2] {
-    [0, 1].map(|which| ends.map(|end| Place { direction: end.direction, z: end.heights[which] }))
-}
-
-/// The face between two edges, each at its radius.
-fn face((a, [from, to]): (f64, [Place; 2]), (b, [above, beyond]): (f64, [Place; 2])) -> [(f64, Place); 4] {
-    [(a, from), (a, to), (b, beyond), (b, above)]
+struct Cut {
+    /// As they are seen, (right, up, near): the inner and the outer one below, then those above.
+    corners: [[f64; 3]; 4],
+    /// Light on the outer wall there.
+    light: f64,
 }
 
 /// Faces of one body round the ring.
 struct Slab<'a> {
     ring: &'a Ring<'a>,
-    azimuth: f64,
-    /// Sine and cosine of the elevation.
-    tilt: (f64, f64),
+    seen: Orbit,
     faces: Vec<Face>,
 }
 
 impl<'a> Slab<'a> {
     fn new(ring: &'a Ring<'a>, seen: Orbit) -> Self {
-        Self { ring, azimuth: seen.azimuth, tilt: seen.elevation.sin_cos(), faces: Vec::new() }
+        Self { ring, seen, faces: Vec::new() }
     }
 
     /// Far faces first.
@@ -290,55 +271,51 @@ impl<'a> Slab<'a> {
         let middle = 0.5 * (recording.length - recording.pitch);
         for wave in 0..waves {
             let turn = TAU * f64::from(wave) / f64::from(waves);
-            let mut before: Option<(&Station, End)> = None;
-            for station in stations {
-                let here = (station, self.end(turn + angle * (station.x - middle), of(station)));
-                if let Some((a, from)) = before {
-                    let film = a.pressure.zip(station.pressure).map(|(a, b)| Part::Film([a, b]));
-                    let one = part == Part::Stator && a.tooth == station.tooth && a.tooth == self.ring.followed;
-                    let side = if one && wave == 0 { Part::Followed } else { part };
-                    self.block([from, here.1], film.unwrap_or(side), if film.is_some() { side } else { part });
-                }
-                before = Some(here);
+            let cut = |station: &Station| self.cut(turn + angle * (station.x - middle), of(station));
+            let cuts: Vec<Cut> = stations.iter().map(cut).collect();
+            for (ends, cuts) in stations.windows(2).zip(cuts.windows(2)) {
+                let film = ends[0].pressure.zip(ends[1].pressure).map(|(a, b)| Part::Film([a, b]));
+                let followed = wave == 0 && ends.iter().all(|station| station.tooth == self.ring.followed);
+                let side = if followed && part == Part::Stator { Part::Followed } else { part };
+                self.block([cuts[0], cuts[1]], film.unwrap_or(side), if film.is_some() { side } else { part });
             }
         }
     }
 
     /// The cut at an angle, from one height to another.
-    fn end(&self, angle: f64, heights: [f64; 2]) -> End {
-        End { direction: (angle - self.azimuth).sin_cos().into(), heights }
+    fn cut(&self, angle: f64, [low, high]: [f64; 2]) -> Cut {
+        let (side, front) = (angle - self.seen.azimuth).sin_cos();
+        let (sin, cos) = self.seen.elevation.sin_cos();
+        let seen = |(r, z): (f64, f64)| [r * side, z * cos - r * front * sin, z * sin + r * front * cos];
+        // Light falls from above, over the left shoulder; a wall has what falls on it.
+        let light = 0.62 + 0.22 * (0.825 * front - 0.565 * side);
+        Cut { corners: [(INNER, low), (OUTER, low), (INNER, high), (OUTER, high)].map(seen), light }
     }
 
     /// One piece of a body between two cuts; the top is of `top`, the sides of `side`.
-    fn block(&mut self, ends: [End; 2], top: Part, side: Part) {
-        let [low, high] = edges(ends);
-        // Light falls from above, over the left shoulder; a wall has what falls on it.
-        let [right, near] = ends[0].direction;
-        let falls = 0.22 * (0.825 * near - 0.565 * right);
-        self.push(top, face((OUTER, high), (INNER, high)), 1.0);
-        self.push(side, face((INNER, low), (OUTER, low)), 0.45);
-        self.push(side, face((OUTER, low), (OUTER, high)), 0.62 + falls);
-        self.push(side, face((INNER, high), (INNER, low)), 0.62 - falls);
+    fn block(&mut self, cuts: [Cut; 2], top: Part, side: Part) {
+        let outside = cuts[0].light;
+        self.push(top, cuts, [3, 2], 1.0);
+        self.push(side, cuts, [0, 1], 0.45);
+        self.push(side, cuts, [1, 3], outside);
+        self.push(side, cuts, [2, 0], 1.24 - outside);
     }
 
     /// Marks on the rotor, whose top is at `top`, which has turned by `turned` \[rad\].
     fn marks(&mut self, turned: f64, top: f64) {
         for mark in 0..MARKS {
             let from = turned + TAU * f64::from(mark) / f64::from(MARKS);
-            let [low, high] = edges([from, from + MARK].map(|angle| self.end(angle, [top - MARK_HEIGHT, top])));
-            self.push(Part::Mark, face((OUTER, high), (INNER, high)), 1.0);
-            self.push(Part::Mark, face((OUTER, low), (OUTER, high)), 1.0);
+            let cuts = [from, from + MARK].map(|angle| self.cut(angle, [top - MARK_HEIGHT, top]));
+            self.push(Part::Mark, cuts, [3, 2], 1.0);
+            self.push(Part::Mark, cuts, [1, 3], 1.0);
         }
     }
 
-    /// Adds a face of these corners (radius, height), counter-clockwise from outside, if it is seen.
-    fn push(&mut self, part: Part, corners: [(f64, Place); 4], light: f64) {
-        let (sin, cos) = self.tilt;
-        let mut near = 0.0;
-        let corners = corners.map(|(radius, Place { direction: [side, front], z })| {
-            near += z * sin + radius * front * cos;
-            [radius * side, z * cos - radius * front * sin]
-        });
+    /// Adds the face between two cuts from one of their corners to the other, counter-clockwise from outside, if it is seen.
+    fn push(&mut self, part: Part, [from, to]: [Cut; 2], [one, other]: [usize; 2], light: f64) {
+        let corners = [from.corners[one], to.corners[one], to.corners[other], from.corners[other]];
+        let near = corners.iter().map(|corner| corner[2]).sum();
+        let corners = corners.map(|[right, up, _]| [right, up]);
         let [a, b, c, d] = corners;
         let area = (c[0] - a[0]) * (d[1] - b[1]) - (d[0] - b[0]) * (c[1] - a[1]);
         if area > 1e-9 {

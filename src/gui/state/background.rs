@@ -8,17 +8,19 @@ pub struct Background<M, R> {
     task: Option<Task<M, R>>,
     /// Whether the last one was told to end.
     pub cancelled: bool,
+    /// Why the last one failed, if it did.
+    pub failure: Option<String>,
 }
 
 impl<M, R> Default for Background<M, R> {
     fn default() -> Self {
-        Self { task: None, cancelled: false }
+        Self { task: None, cancelled: false, failure: None }
     }
 }
 
 impl<M, R> From<Task<M, R>> for Background<M, R> {
     fn from(task: Task<M, R>) -> Self {
-        Self { task: Some(task), cancelled: false }
+        Self { task: Some(task), ..Self::default() }
     }
 }
 
@@ -45,5 +47,15 @@ impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
             self.task = None;
         }
         news
+    }
+
+    /// The same of work whose failure is told beside it: its messages, and what it found in the end.
+    pub(super) fn found(&mut self) -> (Vec<M>, Option<R>) {
+        let News { messages, end } = self.news();
+        let found = end.and_then(|end| end.unwrap_or_else(|why| {
+            self.failure = Some(why);
+            None
+        }));
+        (messages, found)
     }
 }

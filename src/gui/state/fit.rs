@@ -7,7 +7,6 @@ use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, m
 use crate::gui::derived::words::unused;
 use crate::job::fit::FitWork;
 pub use crate::job::fit::{FitTask, Found};
-use crate::job::task::News;
 use crate::job::work::Work;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
@@ -64,8 +63,6 @@ pub struct FitState {
     pub told: Option<(usize, f64)>,
     /// What was found, and for which scene.
     pub found: Option<(Scene, Arc<Found>)>,
-    /// Why there is nothing.
-    pub failure: Option<String>,
 }
 
 impl FitForm {
@@ -95,7 +92,7 @@ impl FitState {
     /// Takes a table of measurements in place of the one there was.
     pub fn load(&mut self, measured: Measured) {
         self.measured = Some(Arc::new(measured));
-        (self.failure, self.told) = (None, None);
+        (self.work.failure, self.told) = (None, None);
     }
 
     /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
@@ -179,17 +176,15 @@ impl FitState {
 
     /// `task` searches for `scene`.
     pub fn begin(&mut self, scene: Scene, task: FitTask) {
-        (self.work, self.asked, self.failure, self.told) = (task.into(), Some(scene), None, None);
+        (self.work, self.asked, self.told) = (task.into(), Some(scene), None);
     }
 
     /// Takes what was told and found since the last time.
     pub fn drain(&mut self) {
-        let News { messages, end } = self.work.news();
+        let (messages, found) = self.work.found();
         self.told = messages.into_iter().last().or(self.told);
-        match end {
-            Some(Ok(Some(found))) => self.found = self.asked.take().map(|scene| (scene, Arc::new(found))),
-            None | Some(Ok(None)) => {}
-            Some(Err(why)) => self.failure = Some(why),
+        if let Some(found) = found {
+            self.found = self.asked.take().map(|scene| (scene, Arc::new(found)));
         }
     }
 

@@ -21,8 +21,6 @@ pub struct SensitivityState {
     derivatives: Background<<Derivatives as Work>::Message, <Derivatives as Work>::Found>,
     drawing: Background<<Draws as Work>::Message, <Draws as Work>::Found>,
     share: f64,
-    /// Why nothing came of the last work.
-    pub failure: Option<String>,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,
     /// What was typed for each key: not empty.
@@ -47,33 +45,29 @@ impl SensitivityState {
 
     /// `task` computes the derivatives. What was found before stays until it has.
     pub fn begin(&mut self, task: TaskOf<Derivatives>) {
-        (self.share, self.failure) = (0.0, None);
-        (self.derivatives, self.drawing) = (task.into(), Background::default());
+        (self.share, self.derivatives, self.drawing) = (0.0, task.into(), Background::default());
     }
 
     /// `task` solves random scenes.
     pub fn begin_drawing(&mut self, task: TaskOf<Draws>) {
-        (self.share, self.failure, self.drawing) = (0.0, None, task.into());
+        (self.share, self.derivatives.failure, self.drawing) = (0.0, None, task.into());
     }
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        let derivatives = self.derivatives.news();
-        match derivatives.end {
-            Some(Ok(Some(found))) => {
-                (self.found, self.carlo) = (Some(found.into()), None);
-                self.judge();
-            }
-            Some(Err(why)) => self.failure = Some(why),
-            None | Some(Ok(None)) => {}
+        let (shares, found) = self.derivatives.found();
+        if let Some(found) = found {
+            (self.found, self.carlo) = (Some(found.into()), None);
+            self.judge();
         }
-        let drawing = self.drawing.news();
-        match drawing.end {
-            Some(Ok(Some(carlo))) => self.carlo = Some(carlo),
-            Some(Err(why)) => self.failure = Some(why),
-            None | Some(Ok(None)) => {}
-        }
-        self.share = derivatives.messages.into_iter().chain(drawing.messages).last().unwrap_or(self.share);
+        let (drawn, carlo) = self.drawing.found();
+        self.carlo = carlo.or(self.carlo.take());
+        self.share = shares.into_iter().chain(drawn).last().unwrap_or(self.share);
+    }
+
+    /// Why nothing came of the last work.
+    pub fn failure(&self) -> Option<&String> {
+        self.derivatives.failure.as_ref().or(self.drawing.failure.as_ref())
     }
 
     /// Ends what goes on; what was found stays.

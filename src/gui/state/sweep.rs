@@ -230,22 +230,16 @@ impl Swept {
     }
 }
 
-/// What was found out about a form and a scene.
-#[derive(Debug)]
-struct Checked {
-    scene: Scene,
-    /// What is wrong with each axis that is asked for.
-    faults: Vec<Option<String>>,
-}
-
 /// What the tab knows.
 #[derive(Debug, Default)]
 pub struct SweepState {
     form: Option<Form>,
     /// What was asked for of the kind of scene before this one.
     before: Option<Form>,
-    /// Nothing once the form has changed.
-    checked: Option<Arc<Checked>>,
+    /// The scene that the form was checked with; none once the form has changed.
+    checked: Option<Scene>,
+    /// What is wrong with each axis that is asked for.
+    pub faults: Vec<Option<String>>,
     quantity: Option<Quantity>,
     task: Option<(SweepTask, Instant)>,
     swept: Option<Swept>,
@@ -257,11 +251,6 @@ impl SweepState {
     /// What is asked for; there is something as soon as a scene was seen.
     pub fn form(&self) -> Option<&Form> {
         self.form.as_ref()
-    }
-
-    /// What is wrong with each axis that is asked for.
-    pub fn faults(&self) -> &[Option<String>] {
-        self.checked.as_ref().map_or(&[], |checked| &checked.faults)
     }
 
     /// Whether its points are being made: there is no row to show yet.
@@ -283,7 +272,7 @@ impl SweepState {
 
     /// The scene is shown: what it does not have cannot be asked for, and what is asked for is checked, if anything changed.
     pub fn review(&mut self, scene: &Scene) {
-        if self.checked.as_ref().is_some_and(|checked| checked.scene == *scene) {
+        if self.checked.as_ref() == Some(scene) {
             return;
         }
         let form = self.form.get_or_insert_with(|| Form::of(scene));
@@ -293,8 +282,8 @@ impl SweepState {
             let next = self.before.take().filter(fits).unwrap_or(next);
             self.before = Some(std::mem::replace(form, next));
         }
-        let faults = form.axes().iter().map(|axis| axis.vary(scene).err()).collect();
-        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults }));
+        self.faults = form.axes().iter().map(|axis| axis.vary(scene).err()).collect();
+        self.checked = Some(scene.clone());
     }
 
     /// Draws this from now on.
@@ -305,6 +294,7 @@ impl SweepState {
     /// Asks for this.
     pub fn ask(&mut self, form: Form) {
         (self.form, self.refusal, self.checked) = (Some(form), None, None);
+        self.faults.clear();
     }
 
     /// What is asked for, checked.
@@ -419,7 +409,7 @@ mod tests {
         ask(&mut sweeps, |form| form.axes[0].from = "50".to_owned());
         sweeps.review(&motor);
         assert_eq!(sweeps.form().unwrap().axes[0].from, "50");
-        assert_eq!(sweeps.faults(), [None]);
+        assert_eq!(sweeps.faults, [None]);
         // What has no effect on a plate is not offered.
         assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
         ask(&mut sweeps, |form| form.set_second(true));
@@ -436,18 +426,20 @@ mod tests {
     fn what_is_asked_for_is_checked_when_it_changes_and_not_at_every_redraw() {
         let scene = presets::find("fundamental").unwrap();
         let mut sweeps = SweepState::default();
-        let mut check = |change: &dyn Fn(&mut SweepState), scene: &Scene| {
-            change(&mut sweeps);
-            sweeps.review(scene);
-            (Arc::clone(sweeps.checked.as_ref().unwrap()), sweeps.faults()[0].clone())
-        };
-        let (first, _) = check(&|_| (), &scene);
-        let (again, _) = check(&|sweeps| sweeps.draw(Quantity::FilmLoad), &scene);
-        assert!(Arc::ptr_eq(&first, &again), "nothing has changed");
-        let (typed, fault) = check(&|sweeps| ask(sweeps, |form| form.axes[0].from = "wide".to_owned()), &scene);
-        assert!(!Arc::ptr_eq(&first, &typed) && fault.is_some_and(|fault| fault.contains("from 5 to 10000 nm")));
+        sweeps.review(&scene);
+        // What a check would replace.
+        let seen = vec![Some("checked before".to_owned())];
+        sweeps.faults.clone_from(&seen);
+        sweeps.draw(Quantity::FilmLoad);
+        sweeps.review(&scene);
+        assert_eq!(sweeps.faults, seen, "nothing has changed");
+        ask(&mut sweeps, |form| form.axes[0].from = "wide".to_owned());
+        sweeps.review(&scene);
+        assert!(matches!(&sweeps.faults[..], [Some(fault)] if fault.contains("from 5 to 10000 nm")));
+        sweeps.faults.clone_from(&seen);
         let mut edited = scene.clone();
         edited.set_all([("motor.waves", "8")]).unwrap();
-        assert!(!Arc::ptr_eq(&typed, &check(&|_| (), &edited).0), "another scene may refuse what this one took");
+        sweeps.review(&edited);
+        assert_ne!(sweeps.faults, seen, "another scene may refuse what this one took");
     }
 }

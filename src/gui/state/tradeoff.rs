@@ -3,7 +3,7 @@
 use super::background::Background;
 use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
-use crate::job::task::{News, Task};
+use crate::job::task::Task;
 use crate::job::tradeoff::Progress;
 use crate::platform::Instant;
 use crate::problem::Numerics;
@@ -24,8 +24,6 @@ pub struct TradeoffState {
     /// The scene that is measured.
     pub scene: Scene,
     started: Instant,
-    /// Why it ended before it was done, if it was not cancelled.
-    pub failure: Option<String>,
     /// Share of the work that is done, 0 to 1.
     pub share: f64,
     /// What was found.
@@ -35,20 +33,16 @@ pub struct TradeoffState {
 impl TradeoffState {
     /// A measurement of `scene` that began at `started`.
     pub fn new(task: MeasurementTask, scene: Scene, started: Instant) -> Self {
-        Self { work: task.into(), scene, started, failure: None, share: 0.0, tradeoff: Tradeoff::of(&[]) }
+        Self { work: task.into(), scene, started, share: 0.0, tradeoff: Tradeoff::of(&[]) }
     }
 
     /// Takes what has been measured since the last time.
     pub fn drain(&mut self) {
-        let News { messages, end } = self.work.news();
+        let (messages, found) = self.work.found();
         if let Some((runs, share)) = messages.into_iter().last() {
             (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
         }
-        match end {
-            Some(Ok(Some(runs))) => self.tradeoff = Tradeoff::of(&runs),
-            None | Some(Ok(None)) => {}
-            Some(Err(why)) => self.failure = Some(why),
-        }
+        found.into_iter().for_each(|runs| self.tradeoff = Tradeoff::of(&runs));
     }
 
     /// Time that is left \[s\], as far as can be said.
@@ -97,7 +91,7 @@ mod tests {
             std::thread::sleep(std::time::Duration::from_millis(10));
         }
         assert!(!state.work.running());
-        assert_eq!(state.failure.as_deref(), Some("it failed: out of luck"));
+        assert_eq!(state.work.failure.as_deref(), Some("it failed: out of luck"));
     }
 
     #[test]

@@ -15,15 +15,7 @@ pub(super) struct Typeset {
     pub(super) width: f32,
     pub(super) ascent: f32,
     pub(super) descent: f32,
-    pieces: Vec<Piece>,
-}
-
-#[derive(Clone, Debug)]
-enum Piece {
-    /// A text; the place is that of the left end of its own baseline.
-    Text(Pos2, Arc<Galley>),
-    Line(Vec<Pos2>, f32),
-    Dot(Pos2, f32),
+    shapes: Vec<Shape>,
 }
 
 /// How a formula is set.
@@ -40,6 +32,16 @@ impl Style {
     fn scaled(self, scale: f32) -> Self {
         Self { size: (scale * self.size).max(mathematics::LEAST.min(self.size)), display: false, ..self }
     }
+
+    /// Width of the lines of fractions, roots, brackets and bars.
+    fn rule(self) -> f32 {
+        (mathematics::RULE * self.size).max(1.0)
+    }
+
+    /// A line of that width.
+    fn line(self, points: Vec<Pos2>) -> Shape {
+        Shape::line(points, Stroke::new(self.rule(), self.colour))
+    }
 }
 
 /// A text as a galley, with its width and the height of its baseline below its top.
@@ -49,14 +51,9 @@ pub(super) fn galley(painter: &Painter, text: &str, size: f32, colour: Color32, 
     let mut job = LayoutJob::single_section(text.to_owned(), format);
     job.wrap.max_width = f32::INFINITY;
     let galley = painter.layout_job(job);
-    let baseline = baseline(&galley);
+    let baseline = galley.rows.first().and_then(|row| Some(row.pos.y + row.row.glyphs.first()?.pos.y));
+    let baseline = baseline.unwrap_or_default();
     (galley, baseline)
-}
-
-/// Height of the baseline below the top of a galley.
-pub(super) fn baseline(galley: &Galley) -> f32 {
-    let row = galley.rows.first();
-    row.and_then(|row| row.row.glyphs.first().map(|glyph| row.pos.y + glyph.pos.y)).unwrap_or_default()
 }
 
 impl Typeset {
@@ -85,17 +82,17 @@ impl Typeset {
     fn place(&mut self, part: Self, by: Vec2) {
         self.ascent = self.ascent.max(part.ascent - by.y);
         self.descent = self.descent.max(part.descent + by.y);
-        self.pieces.extend(part.pieces.into_iter().map(|piece| piece.moved(by)));
+        self.shapes.extend(part.moved(by));
     }
 
     fn text(painter: &Painter, text: &str, style: Style, slanted: bool) -> Self {
-        let (galley, _) = galley(painter, text, style.size, style.colour, slanted);
+        let (galley, baseline) = galley(painter, text, style.size, style.colour, slanted);
         let width = galley.size().x;
         Self {
             width: if slanted { width + 0.04 * style.size } else { width },
             ascent: mathematics::ASCENT * style.size,
             descent: mathematics::DESCENT * style.size,
-            pieces: vec![Piece::Text(Pos2::ZERO, galley)],
+            shapes: vec![Shape::galley(pos2(0.0, -baseline), galley, style.colour)],
         }
     }
 
@@ -116,13 +113,12 @@ impl Typeset {
     fn fraction(painter: &Painter, over: &[Node], under: &[Node], style: Style) -> Self {
         let inner = if style.display { Style { display: false, ..style } } else { style.scaled(mathematics::FRACTION) };
         let (over, under) = (Self::of(painter, over, inner), Self::of(painter, under, inner));
-        let rule = (mathematics::RULE * style.size).max(1.0);
-        let (overhang, gap) = (0.12 * style.size, 0.14 * style.size + 0.5 * rule);
+        let (overhang, gap) = (0.12 * style.size, 0.14 * style.size + 0.5 * style.rule());
         let widest = over.width.max(under.width) + 2.0 * overhang;
         let side = 0.08 * style.size;
         let axis = -mathematics::AXIS * style.size;
         let line = vec![pos2(side, axis), pos2(side + widest, axis)];
-        let mut set = Self { width: widest + 2.0 * side, pieces: vec![Piece::Line(line, rule)], ..Self::default() };
+        let mut set = Self { width: widest + 2.0 * side, shapes: vec![style.line(line)], ..Self::default() };
         let middle = |part: &Self| side + 0.5 * (widest - part.width);
         let up = vec2(middle(&over), axis - gap - over.descent);
         let down = vec2(middle(&under), axis + gap + under.ascent);
@@ -133,7 +129,6 @@ impl Typeset {
 
     fn root(painter: &Painter, inside: &[Node], style: Style) -> Self {
         let inside = Self::of(painter, inside, style);
-        let rule = (mathematics::RULE * style.size).max(1.0);
         let (gap, hook) = (0.14 * style.size, 0.55 * style.size);
         let (top, bottom) = (-inside.ascent - gap, inside.descent);
         let foot = 0.25 * style.size;
@@ -145,7 +140,7 @@ impl Typeset {
             pos2(hook + inside.width + 0.1 * style.size, top),
         ];
         let width = hook + inside.width + 0.16 * style.size;
-        let mut set = Self { width, ascent: -top + rule, pieces: vec![Piece::Line(line, rule)], ..Self::default() };
+        let mut set = Self { width, ascent: -top + style.rule(), shapes: vec![style.line(line)], ..Self::default() };
         set.place(inside, vec2(hook + 0.03 * style.size, 0.0));
         set
     }
@@ -153,23 +148,16 @@ impl Typeset {
     /// A sum on its own, with what it is over below and how far it goes above.
     fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
         let small = style.scaled(mathematics::SCRIPT);
-        let large = mathematics::SUM * style.size;
-        let (galley, _) = galley(painter, SUM, large, style.colour, false);
+        let sign = Self::text(painter, SUM, Style { size: mathematics::SUM * style.size, ..style }, false);
         // Its middle is where those of + and of fractions are.
-        let (ascent, descent) = (mathematics::ASCENT * large, mathematics::DESCENT * large);
-        let drop = 0.5 * (ascent - descent) - mathematics::AXIS * style.size;
-        let sign = galley.size().x;
+        let drop = 0.5 * (sign.ascent - sign.descent) - mathematics::AXIS * style.size;
         let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
-        let width = sign.max(below.width).max(above.width);
+        let width = sign.width.max(below.width).max(above.width);
         let gap = 0.1 * style.size;
+        let (low, high) = (drop + sign.descent + gap + below.ascent, drop - sign.ascent - gap - above.descent);
         let mut set = Self { width: width + 0.1 * style.size, ..Self::default() };
-        let sign = Self { width: sign, ascent, descent, pieces: vec![Piece::Text(Pos2::ZERO, galley)] };
-        for (part, down) in [
-            (below.clone(), drop + descent + gap + below.ascent),
-            (above.clone(), drop - ascent - gap - above.descent),
-            (sign, drop),
-        ] {
-            if !part.pieces.is_empty() {
+        for (part, down) in [(below, low), (above, high), (sign, drop)] {
+            if !part.shapes.is_empty() {
                 let middle = 0.5 * (width - part.width);
                 set.place(part, vec2(middle, down));
             }
@@ -206,14 +194,13 @@ impl Typeset {
 
     fn bracketed(painter: &Painter, left: char, inside: &[Node], right: char, style: Style) -> Self {
         let inside = Self::of(painter, inside, style);
-        let rule = (mathematics::RULE * style.size).max(1.0);
         let (top, bottom) = (-inside.ascent - 0.04 * style.size, inside.descent + 0.04 * style.size);
         let width = 0.34 * style.size;
-        let mut set = Self { width, ascent: -top, descent: bottom, pieces: Vec::new() };
-        set.pieces.push(Piece::Line(bracket(left, top, bottom, 0.06 * style.size, width - 0.1 * style.size), rule));
+        let opening = style.line(bracket(left, top, bottom, 0.06 * style.size, width - 0.1 * style.size));
+        let mut set = Self { width, ascent: -top, descent: bottom, shapes: vec![opening] };
         set.append(inside);
         let from = set.width + 0.1 * style.size;
-        set.pieces.push(Piece::Line(bracket(right, top, bottom, from, from + width - 0.16 * style.size), rule));
+        set.shapes.push(style.line(bracket(right, top, bottom, from, from + width - 0.16 * style.size)));
         set.width += width;
         set
     }
@@ -223,45 +210,20 @@ impl Typeset {
         // Clear of a stem, and not far above a letter that has none.
         let low = matches!(inside, [Node::Letter(letter)] if LOW.contains(*letter));
         let top = if low { -0.68 * style.size } else { -set.ascent - 0.2 * style.size };
-        match mark {
-            Mark::Dot => set.pieces.push(Piece::Dot(pos2(0.58 * set.width, top), 0.065 * style.size)),
-            Mark::Bar => {
-                let line = vec![pos2(0.1 * set.width, top), pos2(set.width, top)];
-                set.pieces.push(Piece::Line(line, (mathematics::RULE * style.size).max(1.0)));
-            }
-        }
+        set.shapes.push(match mark {
+            Mark::Dot => Shape::circle_filled(pos2(0.58 * set.width, top), 0.065 * style.size, style.colour),
+            Mark::Bar => style.line(vec![pos2(0.1 * set.width, top), pos2(set.width, top)]),
+        });
         set.ascent = set.ascent.max(-top + 0.08 * style.size);
         set
     }
 
-    /// Draws it with its left end at `at`, on the baseline.
-    pub(super) fn paint(&self, painter: &Painter, at: Pos2, colour: Color32) {
-        let by = at.to_vec2();
-        for piece in &self.pieces {
-            match piece {
-                Piece::Text(place, galley) => {
-                    let corner = *place + by - vec2(0.0, baseline(galley));
-                    painter.galley(corner, Arc::clone(galley), colour);
-                }
-                Piece::Line(points, width) => {
-                    let points = points.iter().map(|point| *point + by).collect();
-                    painter.add(Shape::line(points, Stroke::new(*width, colour)));
-                }
-                Piece::Dot(place, radius) => {
-                    painter.circle_filled(*place + by, *radius, colour);
-                }
-            }
-        }
-    }
-}
-
-impl Piece {
-    fn moved(self, by: Vec2) -> Self {
-        match self {
-            Self::Text(place, galley) => Self::Text(place + by, galley),
-            Self::Line(points, width) => Self::Line(points.into_iter().map(|point| point + by).collect(), width),
-            Self::Dot(place, radius) => Self::Dot(place + by, radius),
-        }
+    /// What is drawn, moved from its left end on the baseline to `by`.
+    pub(super) fn moved(&self, by: Vec2) -> impl Iterator<Item = Shape> + '_ {
+        self.shapes.iter().cloned().map(move |mut shape| {
+            shape.translate(by);
+            shape
+        })
     }
 }
 

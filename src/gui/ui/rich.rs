@@ -59,7 +59,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
                 let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
                 let left = area.left() + (0.5 * (room - formula_set.width)).max(0.0);
                 let at = pos2(left, area.top() + 0.25 * look.size + formula_set.ascent);
-                formula_set.paint(ui.painter(), at, look.colour);
+                ui.painter().extend(formula_set.moved(at.to_vec2()));
                 let text = formula.plain();
                 response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
             }
@@ -150,7 +150,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
                         }
                         ui.painter().galley(place, Arc::clone(galley), *colour);
                     }
-                    Drawn::Math(set) => set.paint(ui.painter(), pos2(x, writing), look.colour),
+                    Drawn::Math(set) => ui.painter().extend(set.moved(vec2(x, writing))),
                 }
                 x += atom.width;
             }

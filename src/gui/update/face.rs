@@ -2,7 +2,6 @@
 
 use super::updater::Updater;
 use crate::digits::rounded;
-use crate::gui::command::FaceCommand;
 use crate::gui::state::view::Tab;
 use crate::job::face::FaceWork;
 use crate::scene::Kind;
@@ -14,13 +13,6 @@ use std::time::Duration;
 const SPACING: &str = "film.min_spacing_nm";
 
 impl Updater {
-    pub(super) fn face(&mut self, command: FaceCommand) {
-        match command {
-            FaceCommand::Forget => self.state.face.found = None,
-            FaceCommand::Take => self.take_face(),
-        }
-    }
-
     pub(super) fn load_face(&mut self, path: PathBuf) {
         if self.state.document.scene().kind() == Kind::Plate {
             return self
@@ -35,7 +27,7 @@ impl Updater {
     }
 
     /// Gives the scene what follows from two faces like this one: as much as its laws ask for.
-    fn take_face(&mut self) {
+    pub(super) fn take_roughness(&mut self) {
         let Some(face) = self.state.face.found.as_ref() else { return };
         let scene = self.state.document.scene();
         let spacing = (SPACING, rounded(face.pair.min_spacing * 1e9, 4));

@@ -2,7 +2,7 @@
 
 use crate::digits::significant;
 use crate::export::figure::{Axis, Colour, Line, Panel, Style};
-use crate::gui::command::{Command, FaceCommand};
+use crate::gui::command::Command;
 use crate::gui::derived::scales::span;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::face::Face;
@@ -33,8 +33,8 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
         }
         let Some(face) = state.found.as_ref() else { return };
         let about = "Gives the scene what follows from two faces like this one, as much of it as its laws ask for: one edit, which can be undone";
-        cx.button(ui, "Take roughness from it", about, FaceCommand::Take);
-        cx.button(ui, "Forget it", "The face is no longer shown", FaceCommand::Forget);
+        cx.button(ui, "Take roughness from it", about, Command::TakeRoughness);
+        cx.button(ui, "Forget it", "The face is no longer shown", Command::ForgetFace);
         ui.label(&face.name);
     });
     if let Some(face) = state.found.as_ref() {

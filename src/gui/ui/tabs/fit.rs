@@ -216,7 +216,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
             cx.push(FitCommand::Form(form));
         }
     });
-    if let Some(failure) = &state.failure {
+    if let Some(failure) = &state.work.failure {
         cx.say(ui, failure, cx.colours.alarm);
     } else if state.work.cancelled {
         cx.note(ui, if state.work.running() { "Ending…" } else { "Cancelled" });

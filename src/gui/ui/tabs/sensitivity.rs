@@ -27,7 +27,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     scrolled(ui, "sensitivity", 8.0, |ui| {
         let state = &cx.state.sensitivity;
         buttons(ui, state, cx);
-        if let Some(failure) = &state.failure {
+        if let Some(failure) = state.failure() {
             cx.say(ui, format!("Nothing was found: {failure}"), cx.colours.alarm);
         }
         let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {

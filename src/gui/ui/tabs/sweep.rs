@@ -39,11 +39,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 
 /// The form, with what is wrong with it.
 fn ask(ui: &mut Ui, form: &mut Form, cx: &DrawContext<'_>) {
-    let faults = cx.state.sweep.faults();
     for i in 0..form.axes().len() {
         ui.push_id(i, |ui| {
             ui.horizontal_wrapped(|ui| axis_row(ui, form, i, cx));
-            if let Some(fault) = faults.get(i).and_then(Option::as_ref) {
+            if let Some(fault) = cx.state.sweep.faults.get(i).and_then(Option::as_ref) {
                 cx.say(ui, fault, cx.colours.alarm);
             }
         });
@@ -105,7 +104,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                     cx.button(ui, "Continue", about, SweepCommand::Continue);
                 }
                 let about = "Solves every point on all cores; the window stays usable";
-                let good = cx.state.sweep.faults().iter().all(Option::is_none);
+                let good = cx.state.sweep.faults.iter().all(Option::is_none);
                 cx.on_click(
                     &first_button(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about),
                     SweepCommand::Start,

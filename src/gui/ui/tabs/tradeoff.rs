@@ -98,7 +98,7 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
         let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
     }
-    if let Some(failure) = &measured.failure {
+    if let Some(failure) = &measured.work.failure {
         cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
     }
     let usable = |point: &&Point| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
