@@ -50,7 +50,7 @@ pub(super) fn run(
         let mut files = Files::new(folder)?;
         files.add("startup.csv", |out| csv::rows(seen.iter().map(row), out))?;
         files.json("startup.json", &object)?;
-        let mut drawn = figure(problem, &seen, floats.map(|gap| gap.value));
+        let mut drawn = figure(problem, &seen, floats);
         drawn.provenance.fidelity = fidelity.to_string();
         files.figure("startup", &drawn)?;
         files.text("scene.toml", &scene.to_toml())?;

@@ -57,19 +57,27 @@ pub fn floats(ended: &Fall) -> Option<Estimate> {
 }
 
 /// Height over time, and where the periodic solve says that it ends, in µm.
-pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<f64>) -> Figure {
+pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
     let at = |cycle: &Cycle| (cycle.time * 1e3, cycle.height * 1e6);
-    let band = cycles.iter().map(at).map(|(t, Estimate { value, error })| [t, value - error, value + error]);
+    let around = |(t, Estimate { value, error }): (f64, Estimate)| [t, value - error, value + error];
     let line = cycles.iter().map(at).map(|(t, height)| [t, height.value]);
-    let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
-        .layer(Band::new("error", band, Colour::FILM))
-        .layer(Line::new("height", line, Style::solid(Colour::FILM)));
+    let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]));
     if let Some(gap) = floats {
-        let mut mark = Mark::horizontal(gap, "periodic solve");
-        mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
-        panel = panel.layer(mark);
+        let ends = [cycles.first(), cycles.last()].into_iter().flatten().map(|cycle| (at(cycle).0, gap));
+        let style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
+        panel = panel.layer(Band::new("", ends.map(around), Colour::ROTOR));
+        panel = panel.layer(Mark { style, ..Mark::horizontal(gap.value, "periodic solve") });
     }
-    let mut figure = Figure::new("dropped on the vibration").panel(panel);
+    panel.layer(Band::new("error", cycles.iter().map(at).map(around), Colour::FILM)).layer(Line::new(
+        "height",
+        line,
+        Style::solid(Colour::FILM),
+    ))
+}
+
+/// The same as a figure.
+pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<Estimate>) -> Figure {
+    let mut figure = Figure::new("dropped on the vibration").panel(panel(cycles, floats));
     figure.caption = "Height of the plate, the gap without the vibration, from where it is dropped.".to_owned();
     figure.provenance = Provenance::named(&problem.name);
     figure

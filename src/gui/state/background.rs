@@ -52,10 +52,12 @@ impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
     /// The same of work whose failure is told beside it: its messages, and what it found in the end.
     pub(super) fn found(&mut self) -> (Vec<M>, Option<R>) {
         let News { messages, end } = self.news();
-        let found = end.and_then(|end| end.unwrap_or_else(|why| {
-            self.failure = Some(why);
-            None
-        }));
+        let found = end.and_then(|end| {
+            end.unwrap_or_else(|why| {
+                self.failure = Some(why);
+                None
+            })
+        });
         (messages, found)
     }
 }

@@ -1,25 +1,33 @@
-//! What is computed in the background of what is on screen while its tab is shown, and kept until something else is on screen.
+//! What is computed in the background of what is on screen while its tab is shown, and kept until something else is on screen: torque over
+//! speed of a run, and a rotor by itself.
 
 use super::background::Background;
+use crate::analysis::rotor::RotorCurves;
+use crate::analysis::torque::TorqueCurves;
+use crate::fidelity::Fidelity;
+use crate::job::SolvedScene;
 use crate::job::task::Task;
+use crate::problem::{Motor, RotorCompliance, Scenario};
+use crate::rotor::Wave;
+use std::sync::Arc;
 
-/// What is known of one `K`, and what is being computed; a task finds an `F`, of which a `T` is kept.
+/// What is known of one `K`, and what is being computed.
 #[derive(Debug)]
-pub struct Followed<K, F, T> {
-    pub(super) asked: Option<K>,
-    pub(super) work: Background<(), F>,
-    pub(super) known: Option<(K, Result<T, String>)>,
+pub struct Followed<K, T> {
+    asked: Option<K>,
+    work: Background<(), T>,
+    known: Option<(K, Result<T, String>)>,
 }
 
-impl<K, F, T> Default for Followed<K, F, T> {
+impl<K, T> Default for Followed<K, T> {
     fn default() -> Self {
         Self { asked: None, work: Background::default(), known: None }
     }
 }
 
-impl<K: Clone, F: Into<T> + Send + 'static, T> Followed<K, F, T> {
+impl<K: Clone, T: Send + 'static> Followed<K, T> {
     /// `task` computes that of `of`. What was found before stays until then.
-    pub(super) fn follow(&mut self, of: K, task: Option<Task<(), F>>) {
+    pub fn follow(&mut self, of: K, task: Option<Task<(), T>>) {
         self.asked = Some(of);
         task.into_iter().for_each(|task| self.work = task.into());
     }
@@ -27,8 +35,7 @@ impl<K: Clone, F: Into<T> + Send + 'static, T> Followed<K, F, T> {
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
         if let (Some(end), Some(of)) = (self.work.news().end, self.asked.clone()) {
-            let found = end.transpose().map(|found| (of, found.map(Into::into)));
-            self.known = found.or(self.known.take());
+            self.known = end.transpose().map(|found| (of, found)).or(self.known.take());
         }
     }
 
@@ -36,4 +43,54 @@ impl<K: Clone, F: Into<T> + Send + 'static, T> Followed<K, F, T> {
     pub fn found(&self) -> Option<&Result<T, String>> {
         self.known.as_ref().map(|(_, found)| found)
     }
+
+    /// What that is of.
+    pub fn found_of(&self) -> Option<&K> {
+        self.known.as_ref().map(|(of, _)| of)
+    }
+}
+
+/// Torque over speed of a run.
+pub type TorqueState = Followed<Arc<SolvedScene>, TorqueCurves>;
+
+impl TorqueState {
+    /// Whether the curves of `run` are still to be computed.
+    pub fn lacks(&self, run: &SolvedScene) -> bool {
+        !self.asked.as_ref().is_some_and(|asked| same(asked, run)) && matches!(run.problem.scenario, Scenario::Motor(_))
+    }
+
+    /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
+    pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
+        let good = run.fidelity.min(Fidelity::Standard);
+        let (_, found) = self.known.as_ref().filter(|(of, _)| of.number == run.number && of.fidelity >= good)?;
+        found.as_ref().ok()
+    }
+
+    /// Whether what is known is of `run`.
+    pub fn is_of(&self, run: &SolvedScene) -> bool {
+        self.found_of().is_some_and(|of| same(of, run))
+    }
+}
+
+fn same(a: &SolvedScene, b: &SolvedScene) -> bool {
+    (a.number, a.fidelity) == (b.number, b.fidelity)
+}
+
+/// A rotor, and the wave that runs round it.
+pub type RotorState = Followed<(RotorCompliance, Wave), RotorCurves>;
+
+impl RotorState {
+    /// Whether the rotor of `motor` is still to be computed, and nothing else is at work: while a dimension is dragged, one after the other.
+    pub fn lacks(&self, motor: &Motor) -> bool {
+        !self.work.running() && !self.asked.as_ref().is_some_and(|asked| is_of(asked, motor))
+    }
+
+    /// Whether what is known is of the rotor of `motor`.
+    pub fn is_of(&self, motor: &Motor) -> bool {
+        self.found_of().is_some_and(|of| is_of(of, motor))
+    }
+}
+
+fn is_of((rotor, wave): &(RotorCompliance, Wave), motor: &Motor) -> bool {
+    *rotor == motor.rotor && *wave == motor.wave()
 }

@@ -1,8 +1,8 @@
 //! What a lesson reads off the tabs: of a plate in the hand, of a start-up, of torque over speed, of a plate beside its exact results.
 
+use super::followed::TorqueState;
 use super::hold::HoldState;
 use super::startup::StartupState;
-use super::torque::TorqueState;
 use crate::job::SolvedScene;
 use crate::lessons::live::{Live, Readings};
 use crate::problem::Scenario;

@@ -1,6 +1,6 @@
 //! What charts have in common.
 
-use super::glossary;
+use super::glossary::{self, Explained};
 use super::hint::text_width;
 use super::paint::{PlotStyle, widened};
 use super::theme::on_screen;
@@ -426,16 +426,14 @@ fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
         if let Some(word) = word {
             // Charts of one tab are told apart by where they are.
             let number = number + 2 * place.top().max(0.0) as usize + 100_000 * place.left().max(0.0) as usize;
-            let response = glossary::over(ui, rect, word, number);
-            glossary::here(ui, response, word);
+            glossary::over(ui, rect, word, number).explained_here(ui, word);
         }
     }
 }
 
 /// A title above a chart, with its unit, which the glossary explains under `word`.
 pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
-    let label = ui.add(egui::Label::new(RichText::new(text).strong()).wrap());
-    glossary::here(ui, label, word);
+    ui.add(egui::Label::new(RichText::new(text).strong()).wrap()).explained_here(ui, word);
 }
 
 /// The names of what panels draw, each once, which the glossary knows.
@@ -503,7 +501,7 @@ fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce
     let size = vec2(indent * em + galley.size().x + after * em, em);
     let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
-    glossary::here(ui, response, text);
+    response.explained_here(ui, text);
     draw(ui.painter(), area.left_center(), em);
     ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }

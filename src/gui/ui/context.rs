@@ -58,14 +58,17 @@ impl<'a> DrawContext<'a> {
         ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
     }
 
+    /// What is wrong, a paragraph each; nothing of nothing.
+    pub fn alarm(&self, ui: &mut Ui, wrong: impl IntoIterator<Item = impl Into<String>>) {
+        wrong.into_iter().for_each(|text| self.say(ui, text, self.colours.alarm));
+    }
+
     /// The warnings of a computation, a paragraph each.
     pub fn warn(&self, ui: &mut Ui, warnings: &[String]) {
-        for warning in warnings {
-            // One that begins with a key keeps it as it is written.
-            let begins_with_key = warning.split(' ').next().is_some_and(|word| word.contains('.'));
-            let text = if begins_with_key { warning.clone() } else { capitalised(warning) };
-            self.say(ui, text, self.colours.alarm);
-        }
+        // One that begins with a key keeps it as it is written.
+        let begins_with_key = |text: &str| text.split(' ').next().is_some_and(|word| word.contains('.'));
+        let text = |text: &String| if begins_with_key(text) { text.clone() } else { capitalised(text) };
+        self.alarm(ui, warnings.iter().map(text));
     }
 
     /// Secondary text over as many lines as it takes.
@@ -117,7 +120,7 @@ impl<'a> DrawContext<'a> {
     pub fn say_if_stale(&self, ui: &mut Ui, run: &SolvedScene) -> bool {
         let stale = self.state.stale(run);
         if stale && self.state.activity.failure.is_some() {
-            self.say(ui, "Of the scene before this edit; the present one has no result", self.colours.alarm);
+            self.alarm(ui, ["Of the scene before this edit; the present one has no result"]);
         } else if stale {
             self.note(ui, "Of the scene before this edit");
         }

@@ -1,7 +1,7 @@
 //! The choice of a fidelity: one of the four names, or an accuracy that is typed; and of the time that a solve may take.
 
 use super::context::DrawContext;
-use super::glossary;
+use super::glossary::Explained;
 use super::hint::Hint;
 use crate::digits::parse_duration;
 use crate::fidelity::{Fidelity, parse_accuracy};
@@ -74,8 +74,7 @@ fn list<T>(
 fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext<'_>) -> Option<Fidelity> {
     let mut chosen = None;
     for fidelity in Fidelity::ALL {
-        let entry = ui.selectable_label(fidelity == present, fidelity.name());
-        if glossary::hover(ui, entry, fidelity.name()).clicked() {
+        if ui.selectable_label(fidelity == present, fidelity.name()).explained(ui, fidelity.name()).clicked() {
             ui.close();
             chosen = Some(fidelity);
         }
@@ -137,7 +136,7 @@ impl Field {
         }
         if let Some(fault) = refused {
             // Beside the list, which does not grow once it is open.
-            Tooltip::for_widget(&field).show(|ui| cx.say(ui, fault, cx.colours.alarm));
+            Tooltip::for_widget(&field).show(|ui| cx.alarm(ui, [fault]));
         }
         taken
     }

@@ -1,7 +1,7 @@
 //! Parts of forms: a field, a list to choose from, and a parameter with two values between which it is varied or chosen.
 
 use super::context::DrawContext;
-use super::hint::{Hint, beside};
+use super::hint::Hint;
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, chosen, label};
 use crate::gui::state::sweep::AxisForm;
@@ -94,7 +94,7 @@ impl AxisRow<'_> {
                 }
                 for parameter in group {
                     let entry = ui.selectable_label(parameter.key == axis.key, label(parameter));
-                    if beside(ui.clip_rect(), entry, parameter.about).clicked() {
+                    if entry.hint_beside(ui, parameter.about).clicked() {
                         *axis = AxisForm::around(cx.state.document.scene(), parameter.key, usual_count);
                     }
                 }

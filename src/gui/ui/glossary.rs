@@ -21,20 +21,27 @@ pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
     ctx.data(|data| data.get_temp::<Vec<String>>(unexplained_id())).unwrap_or_default()
 }
 
-/// Explains `word` while the pointer rests on `response`, beside the panel that it is in.
-pub fn hover(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
-    explain(ui, response, word, Some(ui.clip_rect()))
+/// What the glossary explains while the pointer rests on it.
+pub trait Explained {
+    /// Explains `word` beside the panel that is `ui`.
+    fn explained(self, ui: &Ui, word: &str) -> Self;
+    /// Explains `word` close to it: for the middle of the window.
+    fn explained_here(self, ui: &Ui, word: &str) -> Self;
 }
 
-/// Explains `word` while the pointer rests on `response`, close to it: for the middle of the window.
-pub fn here(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
-    explain(ui, response, word, None)
+impl Explained for egui::Response {
+    fn explained(self, ui: &Ui, word: &str) -> Self {
+        explain(ui, self, word, Some(ui.clip_rect()))
+    }
+
+    fn explained_here(self, ui: &Ui, word: &str) -> Self {
+        explain(ui, self, word, None)
+    }
 }
 
-/// Writes `text`, and explains `word` there as [`here`] does.
+/// Writes `text`, and explains `word` close to it.
 pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui::Response {
-    let label = ui.label(text);
-    here(ui, label, word)
+    ui.label(text).explained_here(ui, word)
 }
 
 /// What is drawn at `place`, the `number`th of its drawing, as something to point at.

@@ -15,6 +15,8 @@ pub fn describe(response: &Response, text: impl FnOnce() -> String) {
 pub trait Hint {
     /// Shows `text` at the widget.
     fn hint(self, text: impl Into<String>) -> Self;
+    /// Shows `text` beside the panel that is `ui`.
+    fn hint_beside(self, ui: &Ui, text: &str) -> Self;
 }
 
 impl Hint for Response {
@@ -22,6 +24,10 @@ impl Hint for Response {
         let text = text.into();
         describe(&self, || text.clone());
         self.on_hover_text(text)
+    }
+
+    fn hint_beside(self, ui: &Ui, text: &str) -> Self {
+        beside(ui.clip_rect(), self, text)
     }
 }
 

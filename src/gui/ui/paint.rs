@@ -1,6 +1,6 @@
 //! Axes, ticks, text and bands: the little that the views need to draw.
 
-use super::glossary;
+use super::glossary::{self, Explained};
 use super::theme::{self, Palette};
 use crate::gui::derived::format::{ends, plain};
 use crate::recording::Recording;
@@ -66,9 +66,7 @@ impl PlotStyle {
     pub(super) fn explain(&self, ui: &Ui) -> bool {
         let mut pointed = false;
         for (number, (place, word)) in self.terms.borrow_mut().drain(..).enumerate() {
-            let response = glossary::over(ui, place, &word, number);
-            pointed |= response.hovered();
-            glossary::here(ui, response, &word);
+            pointed |= glossary::over(ui, place, &word, number).explained_here(ui, &word).hovered();
         }
         pointed
     }

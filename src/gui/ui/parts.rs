@@ -31,10 +31,11 @@ pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: imp
 /// Heads of columns, each with what the glossary explains it under; one without words is empty.
 pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], colour: Color32) {
     for (head, word) in heads {
-        let label = ui.label(RichText::new(*head).color(colour));
-        if !word.is_empty() {
-            glossary::here(ui, label, word);
-        }
+        let head = RichText::new(*head).color(colour);
+        match word.is_empty() {
+            true => ui.label(head),
+            false => glossary::term(ui, head, word),
+        };
     }
 }
 

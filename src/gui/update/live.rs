@@ -43,7 +43,7 @@ impl Updater {
         let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
         if self.state.torque.lacks(&run) {
             let task = self.start_work("Torque cannot be computed", TorqueWork(Arc::clone(&run)), Duration::ZERO);
-            self.state.torque.begin(&run, task);
+            self.state.torque.follow(run, task);
         }
     }
 
@@ -53,10 +53,10 @@ impl Updater {
         let Some(problem) = &self.state.problem else { return };
         let Scenario::Motor(motor) = &problem.scenario else { return };
         if self.state.rotor.lacks(motor) {
-            let motor = motor.clone();
+            let of = (motor.rotor.clone(), motor.wave());
             let posed = Posed { scene: self.state.document.scene().clone(), problem: problem.clone() };
             let task = self.start_work("The rotor cannot be computed", RotorWork(posed), Duration::ZERO);
-            self.state.rotor.begin(&motor, task);
+            self.state.rotor.follow(of, task);
         }
     }
 

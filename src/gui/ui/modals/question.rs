@@ -143,9 +143,8 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let named = !typed.trim().is_empty();
     let writes = prompt.purposes.iter().any(Purpose::writes);
     let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
-    if replaces && !prompt.purposes.contains(&Purpose::Open) {
-        cx.say(ui, "There is such a file already", cx.colours.alarm);
-    }
+    let alone = replaces && !prompt.purposes.contains(&Purpose::Open);
+    cx.alarm(ui, alone.then_some("There is such a file already"));
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         let mut answer = None;

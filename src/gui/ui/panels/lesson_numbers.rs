@@ -2,7 +2,7 @@
 
 use crate::digits::{capitalised, significant};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
+use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::text_width;
 use crate::lessons::Step;
 use crate::lessons::check::Name;
@@ -76,8 +76,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
             };
             let text = format!("{}{unit}", capitalised(&words));
             let name = |ui: &mut Ui| {
-                let label = ui.add(egui::Label::new(&text).wrap());
-                glossary::hover(ui, label, &words);
+                ui.add(egui::Label::new(&text).wrap()).explained(ui, &words);
             };
             // A name that is longer than what is left has lines of its own, above its numbers.
             let beside = ui.available_width() - NUMBER_WIDTHS.map(|width| width * em + 4.0).iter().sum::<f32>();

@@ -198,9 +198,7 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
             return;
         }
         ui.add_space(2.0);
-        if let Some(why) = &cx.state.activity.failure {
-            cx.say(ui, why, cx.colours.alarm);
-        }
+        cx.alarm(ui, &cx.state.activity.failure);
         match (&work.unmet, &task.too_far, cx.state.awaits_result()) {
             (_, _, true) => cx.note(ui, "Solving…"),
             (Some(unmet), ..) if work.tried => cx.say(ui, format!("Not yet. {unmet}."), cx.colours.contact),

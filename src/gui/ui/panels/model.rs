@@ -12,7 +12,7 @@ use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
 use crate::gui::ui::form::choices;
-use crate::gui::ui::hint::{beside, text_width};
+use crate::gui::ui::hint::{Hint, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
@@ -171,7 +171,7 @@ impl Row<'_> {
                 self.cx.push(Command::Use { target, numerics });
             }
             let hint = "Every edit is solved at draft first, then refined up to this";
-            beside(ui.clip_rect(), combo, hint).labelled_by(label.id);
+            combo.hint_beside(ui, hint).labelled_by(label.id);
         });
         ui.add_space(4.0);
     }
@@ -182,15 +182,14 @@ impl Row<'_> {
         let height = ui.spacing().interact_size.y;
         if self.columns.one_line {
             ui.horizontal(|ui| {
-                let term = cell(ui, self.columns.term, height, Align::Min, |ui| self.term(ui, decision));
-                let term = beside(ui.clip_rect(), term, &explanation);
+                let term = cell(ui, self.columns.term, height, Align::Min, |ui| self.term(ui, decision))
+                    .hint_beside(ui, &explanation);
                 let room = ui.available_width() - self.columns.bound - ui.spacing().item_spacing.x;
                 self.combo(ui, parameter, room, &explanation, term.id);
                 cell(ui, self.columns.bound, height, Align::Max, |ui| self.bound(ui, decision));
             });
         } else {
-            let term = self.heading(ui, decision);
-            let term = beside(ui.clip_rect(), term, &explanation);
+            let term = self.heading(ui, decision).hint_beside(ui, &explanation);
             self.combo(ui, parameter, ui.available_width(), &explanation, term.id);
         }
         let asked = asked(self.document().scene(), parameter.key);
@@ -235,15 +234,14 @@ impl Row<'_> {
         } else {
             "Nothing is left out"
         };
-        let label = ui.add(egui::Label::new(text).extend());
-        beside(ui.clip_rect(), label, about);
+        ui.add(egui::Label::new(text).extend()).hint_beside(ui, about);
     }
 
     fn combo(&self, ui: &mut egui::Ui, parameter: &'static Parameter, width: f32, about: &str, labelled_by: egui::Id) {
         let name = asked(self.document().scene(), parameter.key);
         let decisions = &self.run.solution.model.decisions;
         let combo = choices(ui, (parameter, options(parameter)), &name, decisions, width, self.cx);
-        beside(ui.clip_rect(), combo, about).labelled_by(labelled_by);
+        combo.hint_beside(ui, about).labelled_by(labelled_by);
     }
 
     /// Says that the scene decides, and offers to leave it to the plan again.

@@ -9,7 +9,7 @@ use crate::gui::derived::words::{self, choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
-use crate::gui::ui::hint::{Hint, beside, text_width};
+use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
@@ -183,11 +183,9 @@ impl Panel<'_> {
         let Some(value) = self.scene.following(parameter.key) else { return };
         let explanation = format!("{}\nFollows from the keys above\n{}", parameter.about, parameter.key);
         ui.horizontal_wrapped(|ui| {
-            let name = ui.add(egui::Label::new(label(parameter)).selectable(false));
-            beside(ui.clip_rect(), name, &explanation);
+            ui.add(egui::Label::new(label(parameter)).selectable(false)).hint_beside(ui, &explanation);
             let text = format!("{} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end().to_owned();
-            let value = ui.label(RichText::new(text).color(self.cx.colours.quiet));
-            beside(ui.clip_rect(), value, &explanation);
+            ui.label(RichText::new(text).color(self.cx.colours.quiet)).hint_beside(ui, &explanation);
         });
     }
 
@@ -197,8 +195,7 @@ impl Panel<'_> {
         let text = RichText::new(label(parameter));
         let text = if is_main(self.scene, parameter) { text.strong() } else { text };
         self.beside_reset(ui, parameter, |ui| {
-            let name = ui.add(egui::Label::new(text).wrap().selectable(false));
-            beside(ui.clip_rect(), name, &explanation)
+            ui.add(egui::Label::new(text).wrap().selectable(false)).hint_beside(ui, &explanation)
         })
     }
 
@@ -244,14 +241,13 @@ impl Panel<'_> {
             if !self.scene.heeds(parameter.key) {
                 ui.disable();
             }
-            let slider = self.slider(ui, parameter, value);
-            let slider = beside(ui.clip_rect(), slider, &explanation);
+            let slider = self.slider(ui, parameter, value).hint_beside(ui, &explanation);
             match name {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
             };
-            let typed = self.field(parameter, Some(value), &field_name(parameter), field).show(ui, self.cx);
-            beside(ui.clip_rect(), typed, &explanation);
+            let typed = field_name(parameter);
+            self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
             ui.add(
                 egui::Label::new(RichText::new(parameter.unit).color(self.cx.colours.quiet)).selectable(false).extend(),
             );
@@ -301,8 +297,7 @@ impl Panel<'_> {
     fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
         let mut on = present;
         let explanation = self.explanation(parameter);
-        let checkbox = ui.checkbox(&mut on, parameter.switch);
-        if beside(ui.clip_rect(), checkbox, &explanation).changed() {
+        if ui.checkbox(&mut on, parameter.switch).hint_beside(ui, &explanation).changed() {
             self.cx.push(match (on, parameter.kind) {
                 (true, ParameterKind::Number { default, .. }) => {
                     Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
@@ -332,7 +327,7 @@ impl Panel<'_> {
             let mut on = on;
             let heeded = self.scene.heeds(parameter.key);
             let checkbox = ui.add_enabled(heeded, egui::Checkbox::new(&mut on, label(parameter)));
-            if beside(ui.clip_rect(), checkbox, &explanation).changed() {
+            if checkbox.hint_beside(ui, &explanation).changed() {
                 self.cx.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
             }
         });
@@ -347,13 +342,12 @@ impl Panel<'_> {
     fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
         let name = label(parameter);
         let field = Field { hint: name, wrapped: true, ..self.field(parameter, Some(value), name, f32::INFINITY) };
-        let field = field.show(ui, self.cx);
-        beside(ui.clip_rect(), field, parameter.about);
+        field.show(ui, self.cx).hint_beside(ui, parameter.about);
     }
 
     fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
-        let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false));
-        let name = beside(ui.clip_rect(), name, &format!("{}\n{}", parameter.about, parameter.key));
+        let about = format!("{}\n{}", parameter.about, parameter.key);
+        let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
         let field = self.field(parameter, None, label(parameter), f32::INFINITY);
         let field = Field { hint: "path of the file, then Enter", ..field };
         let field = field.show(ui, self.cx).labelled_by(name.id);
@@ -364,14 +358,13 @@ impl Panel<'_> {
             "rotor.green_csv" => "Columns x_mm and deflection_um_per_n",
             _ => "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n",
         };
-        beside(ui.clip_rect(), field, columns);
+        field.hint_beside(ui, columns);
     }
 
     fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
-            let name = ui.label(label(parameter));
-            beside(ui.clip_rect(), name, &explanation);
+            ui.label(label(parameter)).hint_beside(ui, &explanation);
             ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
         });
         quiet(ui, self.cx, "Edit the table in its file and give the file again");

@@ -3,7 +3,7 @@
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::hint::{Hint, beside};
+use crate::gui::ui::hint::Hint;
 use crate::scene::edges::with_edge;
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, RichText};
@@ -46,8 +46,7 @@ pub fn show(
             });
             egui::Grid::new((parameter.key, number)).num_columns(2).show(ui, |ui| {
                 for (place, (of, value)) in columns.iter().zip(record).enumerate() {
-                    let named = ui.add(egui::Label::new(label(of)).selectable(false));
-                    let named = beside(ui.clip_rect(), named, of.about);
+                    let named = ui.add(egui::Label::new(label(of)).selectable(false)).hint_beside(ui, of.about);
                     let spoken = format!("{}, {name}", field_name(of));
                     if let Some((value, dragging)) = cell(ui, of, value, named.id, &spoken) {
                         let mut edited = records.to_vec();
@@ -102,8 +101,7 @@ fn cell(
                 .speed(SPEED)
                 .max_decimals(4)
                 .suffix(format!(" {}", of.unit));
-            let response = ui.add(drag).labelled_by(name).accessible_name(spoken);
-            let response = beside(ui.clip_rect(), response, of.about);
+            let response = ui.add(drag).labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
             // What a drag makes of it is round.
             let number = if response.dragged() { (100.0 * number).round() / 100.0 } else { number };
             let done = response.drag_stopped();
@@ -119,14 +117,14 @@ fn cell(
                     }
                 }
             });
-            beside(ui.clip_rect(), combo.response.labelled_by(name), of.about);
+            combo.response.labelled_by(name).hint_beside(ui, of.about);
             picked.map(|value| (value, false))
         }
         (_, Value::Text(text)) => {
             let id = name.with("text");
             let mut edited = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| text.clone());
             let response = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(120.0)).labelled_by(name);
-            let response = beside(ui.clip_rect(), response.accessible_name(spoken), of.about);
+            let response = response.accessible_name(spoken).hint_beside(ui, of.about);
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
                 let kept = edited != *text && !ui.input(|input| input.key_pressed(egui::Key::Escape));

@@ -11,7 +11,7 @@ use crate::estimate::Estimate;
 use crate::export::json::beside_limit;
 use crate::gui::derived::format::{raised, uncertain};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
+use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::text_width;
 use crate::gui::ui::parts::scrolled_anew;
 use crate::job::SolvedScene;
@@ -52,12 +52,12 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             let part = egui::CollapsingHeader::new(RichText::new("Model").strong())
                 .default_open(true)
                 .show_unindented(ui, |ui| model::show(ui, run, cx));
-            glossary::hover(ui, part.header_response, "Model");
+            part.header_response.explained(ui, "Model");
         }
         let part = egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
             .default_open(true)
             .show_unindented(ui, |ui| how(ui, run, cx));
-        glossary::hover(ui, part.header_response, "How it was solved");
+        part.header_response.explained(ui, "How it was solved");
         ui.add_space(12.0);
     });
 }
@@ -236,8 +236,7 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             let font = TextStyle::Body.resolve(ui.style());
             job.append("✔ Converged", 0.0, egui::TextFormat::simple(font.clone(), cx.colours.good));
             job.append(&text, 0.0, egui::TextFormat::simple(font, cx.colours.quiet));
-            let label = ui.add(egui::Label::new(job).wrap());
-            glossary::hover(ui, label, "Converged");
+            ui.add(egui::Label::new(job).wrap()).explained(ui, "Converged");
             ui.add_space(2.0);
         }
         Status::NotConverged { residual, tolerance } => {
@@ -257,8 +256,7 @@ fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
     let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.16);
     egui::Frame::new().fill(ground).corner_radius(4).inner_margin(egui::Margin::symmetric(8, 6)).show(ui, |ui| {
         ui.set_width(ui.available_width());
-        let label = ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
-        glossary::hover(ui, label, title);
+        ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap()).explained(ui, title);
         ui.add(egui::Label::new(text).wrap());
     });
     ui.add_space(6.0);
@@ -293,8 +291,7 @@ pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str,
     if galley.size().x > room {
         galley = job(room / galley.size().x * 0.98);
     }
-    let label = ui.add(egui::Label::new(galley));
-    glossary::hover(ui, label, word);
+    ui.add(egui::Label::new(galley)).explained(ui, word);
 }
 
 /// Air and contact as parts of one bar, and what the colours mean.
@@ -311,7 +308,7 @@ fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
         if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() },
         cx.colours.film,
     );
-    glossary::hover(ui, response, "α");
+    response.explained(ui, "α");
     // Adding 0 turns −0 into 0.
     let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
     let (air, contact) = (format!("air {}", percent(alpha)), format!("contact {}", percent(1.0 - alpha)));
@@ -333,15 +330,13 @@ fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
     ui.horizontal(|ui| {
         let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
         ui.painter().rect_filled(area, 2, colour);
-        let label = ui.add(egui::Label::new(text).extend());
-        glossary::hover(ui, label, text.split(' ').next().unwrap_or_default());
+        ui.add(egui::Label::new(text).extend()).explained(ui, text.split(' ').next().unwrap_or_default());
     });
 }
 
 pub(super) fn section(ui: &mut egui::Ui, title: &str) {
     ui.add_space(8.0);
-    let label = ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
-    glossary::hover(ui, label, title);
+    ui.add(egui::Label::new(RichText::new(title).strong()).wrap()).explained(ui, title);
 }
 
 /// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
@@ -356,13 +351,11 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
     let right = egui::Layout::right_to_left(egui::Align::Center);
     if fits {
         ui.horizontal(|ui| {
-            let label = ui.add(name.extend());
-            glossary::hover(ui, label, term);
+            ui.add(name.extend()).explained(ui, term);
             ui.with_layout(right, |ui| ui.add(value.extend()));
         });
     } else {
-        let label = ui.add(name.wrap());
-        glossary::hover(ui, label, term);
+        ui.add(name.wrap()).explained(ui, term);
         ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
     }
 }

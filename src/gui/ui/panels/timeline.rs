@@ -7,8 +7,9 @@ use crate::gui::derived::format::{thousands, time};
 use crate::gui::state::hold::HoldState;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::{glossary, keys};
+use crate::gui::ui::keys;
 use crate::platform::SOLVED_HERE;
 use crate::solution::{Outcome, Status, StoppedBy};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
@@ -44,7 +45,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 }
             });
         name(&speed.response, "Speed");
-        glossary::here(ui, speed.response, "Slow motion");
+        speed.response.explained_here(ui, "Slow motion");
         if let Some(at) = scrub(ui, place, frames, ["Time in the cycle", "Drag to an instant of the cycle"]) {
             // To a recorded frame; the end of the cycle is its start.
             cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
@@ -123,8 +124,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 if run.solution.accuracy.stopped_by == StoppedBy::Budget { " as far as time allowed" } else { "" };
             let (asked, took) = (run.fidelity, 1e3 * run.wall_s);
             let text = format!("Shown: {asked}{cut}, {ended}{error}, solved{SOLVED_HERE} in {took:.1} ms");
-            let label = ui.label(text);
-            glossary::hover(ui, label, "Fidelity");
+            ui.label(text).explained(ui, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(cx.colours.alarm))),
                 Status::NotResolved { .. } => drop(ui.label(RichText::new("not resolved").color(cx.colours.alarm))),

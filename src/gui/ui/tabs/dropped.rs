@@ -2,7 +2,7 @@
 
 use crate::digits::significant;
 use crate::estimate::Estimate;
-use crate::export::figure::{Axis, Band, Colour, Line, Mark, Panel, Style};
+use crate::export::fall::panel;
 use crate::fall::Fall;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::dropped::Dropped;
@@ -14,8 +14,6 @@ use eframe::egui::{self, Color32, RichText};
 
 /// Height of the chart, a share of the tab.
 const SHARE: f32 = 0.75;
-/// Of the periodic solve.
-const GOOD: Colour = Colour::CYCLE[2];
 
 pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
@@ -44,28 +42,16 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         ui.label(RichText::new(text).color(colour));
         ui.label(RichText::new(format!("computed at {}", dropped.fidelity)).color(cx.colours.quiet));
     });
-    if dropped.stale(cx.state.document.scene()) {
-        cx.say(ui, "Of the scene before it changed; drop it again", cx.colours.alarm);
-    }
+    let stale = dropped.stale(cx.state.document.scene());
+    cx.alarm(ui, stale.then_some("Of the scene before it changed; drop it again"));
     if dropped.cycles.len() > 1 {
         way(ui, dropped, height, cx);
     }
 }
 
-/// Height over time, and the mean gap of the periodic solve.
+/// Height over time as the exported figure has it, and the mean gap of the periodic solve.
 fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) {
-    let micrometres =
-        |height: Estimate| [height.value - height.error, height.value, height.value + height.error].map(|h| 1e6 * h);
-    let cycles = dropped.cycles.iter().map(|cycle| (1e3 * cycle.time, micrometres(cycle.height)));
-    let last = dropped.cycles.last().map_or(1.0, |cycle| 1e3 * cycle.time);
-    let mut panel = Panel::new("", Axis::new("time", "ms").fixed(0.0, last), Axis::new("", "").including([0.0]));
-    if let Some([low, gap, high]) = periodic(dropped, cx).map(micrometres) {
-        panel = panel.layer(Band::new("", [0.0, last].map(|time| [time, low, high]), GOOD));
-        panel = panel.layer(Mark { style: Style::solid(GOOD), ..Mark::horizontal(gap, "") });
-    }
-    let panel = panel
-        .layer(Band::new("", cycles.clone().map(|(time, [low, _, high])| [time, low, high]), Colour::FILM))
-        .layer(Line::new("", cycles.map(|(time, [_, height, _])| [time, height]), Style::solid(Colour::FILM)));
+    let panel = panel(&dropped.cycles, periodic(dropped, cx).map(|gap| gap * 1e6));
     cx.note(ui, "Height of the plate, µm");
     let (name, words) = ("Height of the plate over time", (None, "Floating plate"));
     Chart { name, height, panel: &panel, words }.show(ui);
@@ -91,7 +77,7 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
         format!("{time} ms: height {} µm", height * 1e6)
     });
     let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
-        format!("; the periodic solve, in which it does not shake, has {} µm (green)", gap * 1e6)
+        format!("; the periodic solve, in which it does not shake, has {} µm (dashed)", gap * 1e6)
     });
     match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),

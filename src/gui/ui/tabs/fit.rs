@@ -58,13 +58,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if let Some((scene, found)) = state.found.as_ref() {
             ui.add_space(6.0);
             let height = (SHARE * height).max(LEAST_LINES * ui.text_style_height(&TextStyle::Body));
-            if state.stale(cx.state.document.scene()) {
-                let text = format!("Fitted to “{}” before the scene changed; fit again", scene.name);
-                cx.say(ui, text, cx.colours.alarm);
-            }
-            if state.asks_for_another() {
-                cx.say(ui, format!("Found for another question: {}", question(found)), cx.colours.alarm);
-            }
+            let stale = state.stale(cx.state.document.scene());
+            cx.alarm(ui, stale.then(|| format!("Fitted to “{}” before the scene changed; fit again", scene.name)));
+            let another = state.asks_for_another();
+            cx.alarm(ui, another.then(|| format!("Found for another question: {}", question(found))));
             // Both are built once for what was found.
             let drawn = once(ui, "fit", Arc::as_ptr(found) as usize, || drawn(found));
             match &**found {
@@ -123,9 +120,7 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
         let about = "Limits on other results, divided by commas: alpha<0.3, stall_torque_nm>0.2. Their names are those of the columns that are exported";
         field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
-    if let (Some(fault), true) = (&cx.state.fit.goal_fault, sought != Sought::Agreement) {
-        cx.say(ui, fault, cx.colours.alarm);
-    }
+    cx.alarm(ui, cx.state.fit.goal_fault.as_ref().filter(|_| sought != Sought::Agreement));
 }
 
 fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
@@ -162,9 +157,7 @@ fn keys(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
             if ui.horizontal_wrapped(|ui| key(ui, form, i, cx)).inner {
                 less = Some(i);
             }
-            if let Some(fault) = cx.state.fit.faults.get(i).and_then(Option::as_ref) {
-                cx.say(ui, fault, cx.colours.alarm);
-            }
+            cx.alarm(ui, cx.state.fit.faults.get(i).into_iter().flatten());
         });
     }
     less.map(|i| form.axes.remove(i));
@@ -216,9 +209,8 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
             cx.push(FitCommand::Form(form));
         }
     });
-    if let Some(failure) = &state.work.failure {
-        cx.say(ui, failure, cx.colours.alarm);
-    } else if state.work.cancelled {
+    cx.alarm(ui, &state.work.failure);
+    if state.work.cancelled && state.work.failure.is_none() {
         cx.note(ui, if state.work.running() { "Ending…" } else { "Cancelled" });
     }
 }

@@ -84,11 +84,7 @@ fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let leak = time(hold.leak_time());
     cx.note(ui, format!("The film's leak time at the mean gap is {leak}. Drag the plate."));
     let now = hold.now();
-    if now.pace < SLOW {
-        let text = format!("This computer takes {:.1} times as long as that", 1.0 / now.pace.max(1e-3));
-        cx.say(ui, text, cx.colours.alarm);
-    }
-    if let Some(failure) = &now.failure {
-        cx.say(ui, failure, cx.colours.alarm);
-    }
+    let longer = 1.0 / now.pace.max(1e-3);
+    let slow = (now.pace < SLOW).then(|| format!("This computer takes {longer:.1} times as long as that"));
+    cx.alarm(ui, slow.iter().chain(&now.failure));
 }

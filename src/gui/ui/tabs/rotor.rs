@@ -45,12 +45,14 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         let known = cx.state.rotor.found();
         match known {
             None => drop(ui.label("Computing the rotor…")),
-            // Of curves their numbers say it, so that what is dragged does not move away.
-            Some(Err(_)) if !cx.state.rotor.is_of(motor) => cx.note(ui, "Of the rotor before this edit"),
-            Some(_) => {}
-        }
-        if let Some(Err(why)) = known {
-            cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
+            Some(Err(why)) => {
+                // Of curves their numbers say it, so that what is dragged does not move away.
+                if !cx.state.rotor.is_of(motor) {
+                    cx.note(ui, "Of the rotor before this edit");
+                }
+                cx.alarm(ui, [format!("There are no curves to show: {why}")]);
+            }
+            Some(Ok(_)) => {}
         }
         let found = known.and_then(|known| known.as_ref().ok());
         let em = ui.text_style_height(&TextStyle::Body);

@@ -10,7 +10,7 @@ use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::sensitivity::SensitivityState;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
+use crate::gui::ui::glossary::{self, Explained};
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::parts::{self, first_button, scrolled};
 use crate::scene::Parameter;
@@ -27,17 +27,13 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     scrolled(ui, "sensitivity", 8.0, |ui| {
         let state = &cx.state.sensitivity;
         buttons(ui, state, cx);
-        if let Some(failure) = state.failure() {
-            cx.say(ui, format!("Nothing was found: {failure}"), cx.colours.alarm);
-        }
+        cx.alarm(ui, state.failure().map(|failure| format!("Nothing was found: {failure}")));
         let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
             cx.introduce(ui, INTRODUCTION);
             return;
         };
-        if state.stale(cx.state.document.scene()) {
-            let text = format!("Computed for “{}” before the scene changed; compute again", found.scene().name);
-            cx.say(ui, text, cx.colours.alarm);
-        }
+        let (name, stale) = (&found.scene().name, state.stale(cx.state.document.scene()));
+        cx.alarm(ui, stale.then(|| format!("Computed for “{name}” before the scene changed; compute again")));
         cx.warn(ui, found.warnings());
         let output = state.output.min(found.outputs.len() - 1);
         choose(ui, found, output, cx);
@@ -83,7 +79,7 @@ fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>
     ui.horizontal_wrapped(|ui| {
         for (i, output) in found.outputs.iter().enumerate() {
             let button = ui.selectable_label(i == present, output.words());
-            cx.on_click(&glossary::here(ui, button, output.words()), SensitivityCommand::Look(i));
+            cx.on_click(&button.explained_here(ui, output.words()), SensitivityCommand::Look(i));
         }
     });
 }
@@ -108,9 +104,8 @@ fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncer
             let spread = found.propagated(output, uncertainties);
             let text = format!("standard deviation {} from the parameters", significant(spread.deviation.value, 2));
             glossary::term(ui, RichText::new(text).color(cx.colours.accent), "Uncertainty of a parameter");
-            if !spread.unknown.is_empty() {
-                cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
-            }
+            let unknown = (!spread.unknown.is_empty()).then(|| format!("without {}", spread.unknown.join(", ")));
+            cx.alarm(ui, unknown);
         }
         if let Some(spread) = cx.state.sensitivity.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
@@ -168,11 +163,9 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
         }
     });
     let Some(carlo) = state.carlo.as_ref() else { return };
-    if let [first, ..] = &carlo.failures[..] {
-        let failed = carlo.failures.len();
-        let text = format!("{failed} could not be solved and are missing, the first because {first}");
-        cx.say(ui, text, cx.colours.alarm);
-    }
+    let failed = carlo.failures.len();
+    let because = |first| format!("{failed} could not be solved and are missing, the first because {first}");
+    cx.alarm(ui, carlo.failures.first().map(because));
     if carlo.redrawn > 0 {
         let what = "were outside of what is allowed and were drawn again, which makes the spread smaller";
         cx.note(ui, format!("{} {what}", carlo.redrawn));

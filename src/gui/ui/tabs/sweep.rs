@@ -6,14 +6,15 @@ use crate::digits::capitalised;
 use crate::gui::command::SweepCommand;
 use crate::gui::state::sweep::{Form, Swept, candidates};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::fidelity;
 use crate::gui::ui::form::{AxisRow, list};
+use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::{SWEEP, export_button};
 use crate::gui::ui::panels::parameters::GROUPS;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
-use crate::gui::ui::{fidelity, glossary};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Ui, WidgetInfo};
 
@@ -42,14 +43,10 @@ fn ask(ui: &mut Ui, form: &mut Form, cx: &DrawContext<'_>) {
     for i in 0..form.axes().len() {
         ui.push_id(i, |ui| {
             ui.horizontal_wrapped(|ui| axis_row(ui, form, i, cx));
-            if let Some(fault) = cx.state.sweep.faults.get(i).and_then(Option::as_ref) {
-                cx.say(ui, fault, cx.colours.alarm);
-            }
+            cx.alarm(ui, cx.state.sweep.faults.get(i).into_iter().flatten());
         });
     }
-    if let Some(refusal) = &cx.state.sweep.refusal {
-        cx.say(ui, refusal, cx.colours.alarm);
-    }
+    cx.alarm(ui, &cx.state.sweep.refusal);
 }
 
 fn axis_row(ui: &mut Ui, form: &mut Form, i: usize, cx: &DrawContext<'_>) {
@@ -116,7 +113,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                     cx.push(SweepCommand::Form(next));
                 }
                 combo.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
-                glossary::here(ui, combo, "Fidelity");
+                combo.explained_here(ui, "Fidelity");
             }
         }
         quantity(ui, cx);
@@ -136,7 +133,7 @@ fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     list(ui, "quantity", called, (&capitalised(present.words()), 11.0), |ui| {
         for quantity in all {
             let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(problem)));
-            cx.on_click(&glossary::hover(ui, entry, quantity.words()), SweepCommand::Draw(quantity));
+            cx.on_click(&entry.explained(ui, quantity.words()), SweepCommand::Draw(quantity));
         }
     });
 }
@@ -150,22 +147,19 @@ const INTRODUCTION: &[&str] = &[
 
 /// Of what the points are, and what is wrong with some.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
-    let mut say = |text: String, colour| cx.say(ui, text, colour);
-    if swept.stale(cx.state.document.scene()) {
-        let text = format!("Swept on “{}” before the scene changed; sweep again", swept.sweep.scene().name);
-        say(text, cx.colours.alarm);
-    }
+    let name = &swept.sweep.scene().name;
+    let stale = swept.stale(cx.state.document.scene());
+    cx.alarm(ui, stale.then(|| format!("Swept on “{name}” before the scene changed; sweep again")));
     if let Some(failure) = &swept.failure {
-        say(format!("The sweep ended early; Continue goes on with it: {failure}"), cx.colours.alarm);
+        cx.alarm(ui, [format!("The sweep ended early; Continue goes on with it: {failure}")]);
     } else if !swept.running && !swept.complete() {
-        let text = format!("Cancelled; {} of {} points are solved", swept.rows.len(), swept.sweep.len());
-        say(text, cx.colours.quiet);
+        cx.note(ui, format!("Cancelled; {} of {} points are solved", swept.rows.len(), swept.sweep.len()));
     }
     let unsound = || swept.rows.iter().filter(|row| row.status != RunStatus::Converged);
     let count = |failed: bool| unsound().filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed).count();
     for (number, what) in [(count(false), "did not converge"), (count(true), "have no solution")] {
         if number > 0 {
-            say(format!("{number} of the points {what}: crosses, point at one to read why"), cx.colours.quiet);
+            cx.note(ui, format!("{number} of the points {what}: crosses, point at one to read why"));
         }
     }
 }

@@ -33,17 +33,14 @@ const CHARTS: [(&str, &str); 3] =
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
-    let of = cx.state.torque.found_of().unwrap_or(run);
+    let of = cx.state.torque.found_of().map_or(run, AsRef::as_ref);
     let Scenario::Motor(motor) = &of.problem.scenario else { return };
     let height = ui.available_height();
     scrolled(ui, "torque", 14.0, |ui| {
         cx.say_if_stale(ui, of);
         match cx.state.torque.found() {
             None => drop(ui.label("Solving the contact without film…")),
-            Some(Err(why)) => {
-                let text = format!("There are no curves to show: {why}");
-                cx.say(ui, text, cx.colours.alarm);
-            }
+            Some(Err(why)) => cx.alarm(ui, [format!("There are no curves to show: {why}")]),
             Some(Ok(merit)) => found(ui, motor, merit, height, cx),
         }
     });

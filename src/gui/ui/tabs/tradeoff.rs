@@ -92,20 +92,17 @@ const INTRODUCTION: &[&str] = &[
 /// Of what, and whether that still is the scene.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
-        let text = format!("Measured on “{}” before the scene changed; measure again", measured.scene.name);
-        cx.say(ui, text, cx.colours.alarm);
+        cx.alarm(ui, [format!("Measured on “{}” before the scene changed; measure again", measured.scene.name)]);
     } else if measured.work.cancelled {
         let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
     }
-    if let Some(failure) = &measured.work.failure {
-        cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
-    }
+    let failed = |failure: &String| format!("The measurement failed: {failure}");
+    cx.alarm(ui, measured.work.failure.as_ref().map(failed));
     let usable = |point: &&Point| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
     let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(point)).count();
     if unconverged > 0 {
-        let text = format!("{unconverged} of the settings did not converge: they are in the table only");
-        cx.note(ui, text);
+        cx.note(ui, format!("{unconverged} of the settings did not converge: they are in the table only"));
     }
 }
 
