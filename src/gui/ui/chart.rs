@@ -348,7 +348,7 @@ impl<'a> Inset<'a> {
         };
         // The name has the left end, and a neighbour begins soon after the right one.
         let named = below.filter(|name| !name.is_empty());
-        let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(ui.painter(), name)).clamp(0.0, 0.6 * row);
+        let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(name)).clamp(0.0, 0.6 * row);
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
             let half = 0.28 * row * text.chars().count() as f32;
@@ -369,7 +369,7 @@ impl<'a> Inset<'a> {
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
         if let Some(name) = named {
             let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
-            let place = style.write(ui.painter(), corner, Align2::RIGHT_TOP, name, style.palette.quiet);
+            let place = style.write(corner, Align2::RIGHT_TOP, name, style.palette.quiet);
             style.term(place, name.split(',').next().unwrap_or(name));
         }
         shown

@@ -8,10 +8,13 @@ use crate::ticks::{Steps, round_down};
 use eframe::egui::epaint::{Mesh, Shape};
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
 use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::{Arc, OnceLock};
 
-/// Colours and text of the drawings.
+/// Draws, with the colours and the text of the drawings.
+#[derive(Clone)]
 pub(super) struct PlotStyle {
+    pub(super) painter: Painter,
     pub(super) palette: Palette,
     pub(super) text: Color32,
     pub(super) grid: Color32,
@@ -24,7 +27,7 @@ pub(super) struct PlotStyle {
     pub(super) title: f32,
     pub(super) axis: f32,
     /// Terms that were written, and where; and what they mean, if the glossary does not say.
-    terms: RefCell<Vec<(Rect, String)>>,
+    terms: Rc<RefCell<Vec<(Rect, String)>>>,
 }
 
 impl PlotStyle {
@@ -35,6 +38,7 @@ impl PlotStyle {
         let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
         let widest = ui.painter().layout_no_wrap("−0.000".to_owned(), font.clone(), palette.quiet);
         Self {
+            painter: ui.painter().clone(),
             palette,
             text: ui.visuals().text_color(),
             grid: palette.quiet.gamma_multiply(0.22),
@@ -43,7 +47,7 @@ impl PlotStyle {
             gutter: widest.size().x + 6.0,
             title: row + 7.0,
             axis: row + 3.0,
-            terms: RefCell::default(),
+            terms: Rc::default(),
         }
     }
 
@@ -52,8 +56,18 @@ impl PlotStyle {
         self.palette.canvas.lerp_to_gamma(outline, 0.72)
     }
 
-    pub(super) fn write(&self, painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
-        painter.text(at, anchor, text, self.font.clone(), colour)
+    /// The same, which draws within `rect` only.
+    pub(super) fn within(&self, rect: Rect) -> Self {
+        self.clipped(self.painter.clip_rect().intersect(rect))
+    }
+
+    /// The same, which draws on all of `clip`.
+    pub(super) fn clipped(&self, clip: Rect) -> Self {
+        Self { painter: self.painter.with_clip_rect(clip), ..self.clone() }
+    }
+
+    pub(super) fn write(&self, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
+        self.painter.text(at, anchor, text, self.font.clone(), colour)
     }
 
     /// What was written at `place` is explained by the glossary under `word`.
@@ -71,8 +85,8 @@ impl PlotStyle {
         pointed
     }
 
-    pub(super) fn width(&self, painter: &Painter, text: &str) -> f32 {
-        painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
+    pub(super) fn width(&self, text: &str) -> f32 {
+        self.painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
     /// The entry of a legend for the run that a lesson's step began with, if that is drawn.
@@ -82,33 +96,109 @@ impl PlotStyle {
 
     /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
     /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
-    pub(super) fn title(&self, painter: &Painter, plot: Rect, word: &str, titles: &[&str], legend: &[(&str, Color32)]) {
+    pub(super) fn title(&self, plot: Rect, word: &str, titles: &[&str], legend: &[(&str, Color32)]) {
         let bottom = plot.top() - 2.0;
         let gap = 0.7 * self.row;
-        let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
-        let fits =
-            |beside: f32| titles.iter().copied().find(|title| self.width(painter, title) + beside <= plot.width());
+        let width: f32 = legend.iter().map(|(text, _)| self.width(text) + gap + self.row).sum();
+        let fits = |beside: f32| titles.iter().copied().find(|title| self.width(title) + beside <= plot.width());
         let with_legend = fits(gap + width);
         let Some(title) = with_legend.or_else(|| fits(0.0)).or(titles.last().copied()) else { return };
-        let clip = painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0));
+        let left = self.within(Rect::everything_left_of(plot.right() + 1.0));
         let corner = pos2(plot.left(), bottom);
-        let place = self.write(&painter.with_clip_rect(clip), corner, Align2::LEFT_BOTTOM, title, self.text);
-        self.term(place.intersect(clip), word);
+        let place = left.write(corner, Align2::LEFT_BOTTOM, title, self.text);
+        self.term(place.intersect(left.painter.clip_rect()), word);
         if with_legend.is_none() {
             return;
         }
         let mut right = plot.right();
         for (text, colour) in legend.iter().rev() {
-            let place = self.write(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text);
+            let place = self.write(pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text);
             let left = place.left();
             let key = Rect::from_center_size(
                 pos2(left - 0.6 * self.row, bottom - 0.5 * self.row),
                 vec2(0.7 * self.row, 0.35 * self.row),
             );
-            painter.rect_filled(key, 1.0, *colour);
+            self.painter.rect_filled(key, 1.0, *colour);
             self.term(place.union(key), text);
             right = key.left() - gap;
         }
+    }
+
+    /// Fills between two lines, given as columns (x, one y, other y).
+    pub(super) fn band(&self, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
+        self.shaded(columns.map(|(x, one, other)| (x, one, other, colour)));
+    }
+
+    /// The same with a colour for each column: (x, one y, other y, colour).
+    pub(super) fn shaded(&self, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
+        let mut mesh = Mesh::default();
+        let (least, _) = columns.size_hint();
+        mesh.reserve_vertices(2 * least);
+        mesh.reserve_triangles(2 * least);
+        for (x, one, other, colour) in columns {
+            let next = mesh.vertices.len() as u32;
+            mesh.colored_vertex(pos2(x, one), colour);
+            mesh.colored_vertex(pos2(x, other), colour);
+            if next > 0 {
+                mesh.add_triangle(next - 2, next - 1, next);
+                mesh.add_triangle(next - 1, next, next + 1);
+            }
+        }
+        self.painter.add(Shape::Mesh(Arc::new(mesh)));
+    }
+
+    /// A title above `plot` with the colour bar and its ends at the right end of the same line.
+    /// `word`: what the glossary explains it under.
+    pub(super) fn title_with_bar(&self, plot: Rect, word: &str, titles: &[&str], range: [f64; 2]) {
+        let ends = ends(range.map(|pascal| pascal / 1e3));
+        // Of one value there is no scale.
+        if ends[0] == ends[1] {
+            let everywhere: Vec<_> =
+                titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
+            self.title(plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
+            return;
+        }
+        self.title_with_ends(plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
+    }
+
+    /// The same with what is written at the ends of the bar.
+    pub(super) fn title_with_ends(&self, plot: Rect, word: &str, titles: &[&str], ends: [&str; 2]) {
+        let bottom = plot.top() - 2.0;
+        let written = self.width(ends[0]) + self.width(ends[1]) + 2.0 * self.row;
+        let room = plot.width() - written - 2.0 * self.row;
+        // The longest title that leaves a bar of some length; if none does, none is written.
+        let title = titles.iter().copied().find(|title| self.width(title) < room).unwrap_or_default();
+        let length = (room - self.width(title)).clamp(2.0 * self.row, 9.0 * self.row);
+        let place = self.write(pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text);
+        self.term(place, word);
+        let right = self.write(pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, ends[1], self.palette.quiet).left();
+        let bar = Rect::from_min_max(
+            pos2(right - 4.0 - length, bottom - 0.8 * self.row),
+            pos2(right - 4.0, bottom - 0.2 * self.row),
+        );
+        let colours = field_colours();
+        let column =
+            |i: u8| (bar.left() + bar.width() * f32::from(i) / 255.0, bar.top(), bar.bottom(), colours[usize::from(i)]);
+        self.shaded((0..=255u8).step_by(5).map(column));
+        self.write(pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], self.palette.quiet);
+    }
+
+    /// A vertical bar left of `axes`, as long as a round number of micrometres.
+    pub(super) fn scale_bar(&self, axes: &Axes) {
+        let (plot, scale) = (axes.rect, axes.points_per_metre());
+        let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
+        let height = (length * 1e-6 * scale) as f32;
+        let x = plot.left() - 6.0;
+        let middle = plot.center().y;
+        let (top, bottom) = (middle - 0.5 * height, middle + 0.5 * height);
+        let stroke = Stroke::new(1.5, self.text);
+        self.painter.vline(x, top..=bottom, stroke);
+        for y in [top, bottom] {
+            self.painter.hline(x - 3.0..=x + 3.0, y, stroke);
+        }
+        let at = pos2(x - 5.0, middle);
+        self.write(at - vec2(0.0, 0.5 * self.row), Align2::RIGHT_CENTER, &plain(length), self.text);
+        self.write(at + vec2(0.0, 0.5 * self.row), Align2::RIGHT_CENTER, "µm", self.text);
     }
 }
 
@@ -203,13 +293,13 @@ impl Axes {
         (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
     }
 
-    pub(super) fn canvas(&self, painter: &Painter, style: &PlotStyle) {
-        painter.rect_filled(self.rect, 2.0, style.palette.canvas);
+    pub(super) fn canvas(&self, style: &PlotStyle) {
+        style.painter.rect_filled(self.rect, 2.0, style.palette.canvas);
     }
 
-    pub(super) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
+    pub(super) fn x_grid(&self, style: &PlotStyle, unit: f64) {
         for value in self.x_values(style, unit).values() {
-            painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, style.grid));
+            style.painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, style.grid));
         }
     }
 
@@ -219,27 +309,26 @@ impl Axes {
     }
 
     /// Values below the plot, and the name of the axis left of them.
-    pub(super) fn x_labels(&self, painter: &Painter, style: &PlotStyle, unit: f64, name: &str) {
+    pub(super) fn x_labels(&self, style: &PlotStyle, unit: f64, name: &str) {
         let ticks = self.x_values(style, unit);
         let top = self.rect.bottom() + 1.0;
-        let place =
-            style.write(painter, pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, style.palette.quiet);
+        let place = style.write(pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, style.palette.quiet);
         style.term(place, name.split(',').next().unwrap_or(name));
         let named = place.right();
         for value in ticks.values() {
             let text = ticks.format(value);
-            let half = 0.5 * style.width(painter, &text);
+            let half = 0.5 * style.width(&text);
             let x = self.px(value * unit);
             if x - half > named + 2.0 && x + half < self.rect.right() + 8.0 {
-                style.write(painter, pos2(x, top), Align2::CENTER_TOP, &text, style.palette.quiet);
+                style.write(pos2(x, top), Align2::CENTER_TOP, &text, style.palette.quiet);
             }
         }
     }
 
     /// The line under the pointer.
-    pub(super) fn cursor(&self, painter: &Painter, style: &PlotStyle, x: Option<f64>) {
+    pub(super) fn cursor(&self, style: &PlotStyle, x: Option<f64>) {
         if let Some(x) = x.filter(|x| (self.x[0]..=self.x[1]).contains(x)) {
-            painter.vline(self.px(x), self.rect.y_range(), Stroke::new(1.0, style.palette.accent));
+            style.painter.vline(self.px(x), self.rect.y_range(), Stroke::new(1.0, style.palette.accent));
         }
     }
 }
@@ -257,29 +346,6 @@ pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     [low - half, high + half]
 }
 
-/// Fills between two lines, given as columns (x, one y, other y).
-pub(super) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
-    shaded(painter, columns.map(|(x, one, other)| (x, one, other, colour)));
-}
-
-/// The same with a colour for each column: (x, one y, other y, colour).
-pub(super) fn shaded(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
-    let mut mesh = Mesh::default();
-    let (least, _) = columns.size_hint();
-    mesh.reserve_vertices(2 * least);
-    mesh.reserve_triangles(2 * least);
-    for (x, one, other, colour) in columns {
-        let next = mesh.vertices.len() as u32;
-        mesh.colored_vertex(pos2(x, one), colour);
-        mesh.colored_vertex(pos2(x, other), colour);
-        if next > 0 {
-            mesh.add_triangle(next - 2, next - 1, next);
-            mesh.add_triangle(next - 1, next, next + 1);
-        }
-    }
-    painter.add(Shape::Mesh(Arc::new(mesh)));
-}
-
 /// Colours of the field in 256 steps.
 pub(super) fn field_colours() -> &'static [Color32; 256] {
     static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
@@ -290,74 +356,6 @@ pub(super) fn field_colours() -> &'static [Color32; 256] {
 pub(super) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
     let [least, most] = ends([low / 1e3, high / 1e3]);
     if least == most { 0.0 } else { 255.0 / (high - low) }
-}
-
-/// A title above `plot` with the colour bar and its ends at the right end of the same line.
-/// `word`: what the glossary explains it under.
-pub(super) fn title_with_bar(
-    painter: &Painter,
-    style: &PlotStyle,
-    plot: Rect,
-    word: &str,
-    titles: &[&str],
-    range: [f64; 2],
-) {
-    let ends = ends(range.map(|pascal| pascal / 1e3));
-    // Of one value there is no scale.
-    if ends[0] == ends[1] {
-        let everywhere: Vec<_> = titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
-        style.title(painter, plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
-        return;
-    }
-    title_with_ends(painter, style, plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
-}
-
-/// The same with what is written at the ends of the bar.
-pub(super) fn title_with_ends(
-    painter: &Painter,
-    style: &PlotStyle,
-    plot: Rect,
-    word: &str,
-    titles: &[&str],
-    ends: [&str; 2],
-) {
-    let bottom = plot.top() - 2.0;
-    let written = style.width(painter, ends[0]) + style.width(painter, ends[1]) + 2.0 * style.row;
-    let room = plot.width() - written - 2.0 * style.row;
-    // The longest title that leaves a bar of some length; if none does, none is written.
-    let title = titles.iter().copied().find(|title| style.width(painter, title) < room).unwrap_or_default();
-    let length = (room - style.width(painter, title)).clamp(2.0 * style.row, 9.0 * style.row);
-    let place = style.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, style.text);
-    style.term(place, word);
-    let right =
-        style.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, ends[1], style.palette.quiet).left();
-    let bar = Rect::from_min_max(
-        pos2(right - 4.0 - length, bottom - 0.8 * style.row),
-        pos2(right - 4.0, bottom - 0.2 * style.row),
-    );
-    let colours = field_colours();
-    let column =
-        |i: u8| (bar.left() + bar.width() * f32::from(i) / 255.0, bar.top(), bar.bottom(), colours[usize::from(i)]);
-    shaded(painter, (0..=255u8).step_by(5).map(column));
-    style.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], style.palette.quiet);
-}
-
-/// A vertical bar left of `axes`, as long as a round number of micrometres.
-pub(super) fn scale_bar(painter: &Painter, style: &PlotStyle, axes: &Axes) {
-    let (plot, scale) = (axes.rect, axes.points_per_metre());
-    let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
-    let height = (length * 1e-6 * scale) as f32;
-    let x = plot.left() - 6.0;
-    let middle = plot.center().y;
-    let (top, bottom) = (middle - 0.5 * height, middle + 0.5 * height);
-    let stroke = Stroke::new(1.5, style.text);
-    painter.vline(x, top..=bottom, stroke);
-    for y in [top, bottom] {
-        painter.hline(x - 3.0..=x + 3.0, y, stroke);
-    }
-    let at = pos2(x - 5.0, middle);
-    style.write(painter, at - vec2(0.0, 0.5 * style.row), Align2::RIGHT_CENTER, &plain(length), style.text);
-    style.write(painter, at + vec2(0.0, 0.5 * style.row), Align2::RIGHT_CENTER, "µm", style.text);
 }
 
 #[cfg(test)]

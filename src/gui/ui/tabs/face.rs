@@ -10,7 +10,7 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::paint::{PlotStyle, field_colours, title_with_ends};
+use crate::gui::ui::paint::{PlotStyle, field_colours};
 use crate::surface::height_map::HeightMap;
 use eframe::egui::{self, Color32, ColorImage, Grid, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -64,7 +64,7 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     let [length, width] = [wide, tall].map(|metres| significant(f64::from(metres) * 1e6, 3));
     let long = format!("Heights, {length} × {width} µm, x along the wave");
     let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
-    title_with_ends(ui.painter(), &style, titled, "Measured face", &[&long, "Heights"], [&ends[0], &ends[1]]);
+    style.title_with_ends(titled, "Measured face", &[&long, "Heights"], [&ends[0], &ends[1]]);
     let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover());
     let name = "Heights of the measured face: point to see the profile along x there";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));

@@ -4,7 +4,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Plane, between};
-use eframe::egui::{Color32, ColorImage, Id, Painter, Rect, TextureHandle, TextureOptions, Ui, pos2};
+use eframe::egui::{Color32, ColorImage, Id, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
 /// Texels across the width: the field is smooth, the graphics card interpolates.
 const MOST_ROWS: usize = 96;
@@ -36,20 +36,12 @@ struct Picture {
 
 /// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `rect`: all of
 /// it, so that it needs no canvas below. Returns the axes, along x and across the width.
-pub(super) fn draw(
-    ui: &Ui,
-    style: &PlotStyle,
-    painter: &Painter,
-    rect: Rect,
-    recording: &Recording,
-    name: &str,
-    stamp: Stamp,
-) -> Axes {
+pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording, name: &str, stamp: Stamp) -> Axes {
     let half = sample::half_width(recording);
     let axes = Axes::new(rect, stamp.x, [-half, half]);
     let stamp = Stamp { x: axes.x, ..stamp };
     let ground = style.palette.canvas;
-    let scale = painter.pixels_per_point();
+    let scale = style.painter.pixels_per_point();
     let texels = |length: f32, most: usize| ((length * scale).round().max(1.0) as usize).min(most);
     let size = [texels(rect.width(), MOST_COLUMNS), texels(rect.height(), MOST_ROWS)];
     let id = Id::unique(("squeezefilm map", name));
@@ -70,7 +62,7 @@ pub(super) fn draw(
         }
     };
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    painter.image(texture.id(), rect, whole, Color32::WHITE);
+    style.painter.image(texture.id(), rect, whole, Color32::WHITE);
     axes
 }
 

@@ -107,7 +107,7 @@ fn plot(
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", good)];
     let legend = if aim.is_some() { &both[..] } else { &[] };
-    style.title(ui.painter(), rect, quantity.word, &quantity.titles, legend);
+    style.title(rect, quantity.word, &quantity.titles, legend);
 
     let cap = WIDEST_BAND * (high - low);
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };

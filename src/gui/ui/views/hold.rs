@@ -11,12 +11,12 @@ use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::chart::{Inset, between, dots, level, line};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, field_colours, room, scale_bar, shaded, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, field_colours, room};
 use crate::hold::Reading;
 use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
-use eframe::egui::{self, Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use egui_plot::LineStyle;
 
 /// Parts of the drawing below the stator's face, and above the highest underside of the plate.
@@ -39,7 +39,7 @@ const SAMPLES: usize = 80;
 pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let Some(area) = room(ui) else { return };
     let style = PlotStyle::new(ui);
-    let painter = ui.painter_at(area);
+    let clipped = style.within(area);
     let plate = &hold.plate;
     let (unit, half) = (unit(plate), 0.5 * plate.length);
     let (title, axis) = (style.title, style.axis);
@@ -56,14 +56,14 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let mut next = |part: f32| column.next(title, part * body);
     let drawing = next(parts[0]);
     let profile_place = next(parts[1]);
-    let axes = draw_plate(&painter, &style, drawing, hold);
+    let axes = draw_plate(&clipped, drawing, hold);
     profile(ui, &style, profile_place, hold);
     let mut last = profile_place;
     if with_map {
         last = next(parts[2]);
-        map(ui, &painter, &style, last, hold);
+        map(ui, &clipped, last, hold);
     }
-    Axes::new(last, [-half, half], [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
+    Axes::new(last, [-half, half], [0.0, 1.0]).x_labels(&clipped, 1e-3, "x, mm");
 
     let top = charts.top() + title;
     let (right, bottom) = (charts.right() - 0.5 * style.row, charts.bottom() - axis);
@@ -79,7 +79,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     chart(ui, &style, gap_chart, hold, ("Gap, µm", 1e-6, rotor), |r| [r.gap, 0.0], hold.reach(), plate.mean_gap);
     let (text, film) = (format!("Force, {}", unit.0), style.palette.film);
     chart(ui, &style, force_chart, hold, (&text, unit.1, film), |r| [r.force, r.error], hold.force_range, 0.0);
-    time_labels(&painter, &style, force_chart, hold.window());
+    time_labels(&clipped, force_chart, hold.window());
     let boyle_chart = place(middle + 0.5 * style.row, right, top, bottom);
     boyle(ui, &style, boyle_chart, hold);
     for (name, rect) in [("held plate", drawing), ("boyle", boyle_chart)] {
@@ -120,15 +120,15 @@ fn unit(plate: &Plate) -> (&'static str, f64) {
     load_unit(0.1 * plate.gas.ambient_pressure * plate.area(), plate.is_strip())
 }
 
-fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
+fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
     let Reading { gap, force, error, ratio, mean_pressure, .. } = hold.shown().reading;
     let highest = hold.reach()[1];
     let part = f64::from(1.0 - BELOW - ABOVE);
     let bottom = -highest * f64::from(BELOW) / part;
     let half = 0.5 * hold.plate.length;
     let axes = Axes::new(rect, [-half, half], [bottom, bottom + highest / part]);
-    axes.canvas(painter, style);
-    scale_bar(painter, style, &axes);
+    axes.canvas(style);
+    style.scale_bar(&axes);
     let (name, unit) = unit(&hold.plate);
     let force_text = with_known_digits(force / unit, error / unit);
     let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));
@@ -137,28 +137,28 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldState
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
     let titles = titles.each_ref().map(String::as_str);
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
-    style.title(painter, rect, "Held plate", &titles, &legend);
+    style.title(rect, "Held plate", &titles, &legend);
 
-    let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let inside = &style.within(rect);
     let (wall, under) = (axes.py(0.0), axes.py(gap));
     film(inside, &axes, [under, wall], hold);
     let thickness = PLATE * rect.height();
-    wall_and_plate(inside, style, rect, [wall, under], thickness);
+    wall_and_plate(inside, rect, [wall, under], thickness);
     // Where it was before it was taken.
     let mean = axes.py(hold.plate.mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
-    inside.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, style.palette.quiet), 6.0, 5.0));
-    tag(inside, style, pos2(rect.right() - 6.0, mean), Align2::RIGHT_CENTER, "mean gap");
-    arrow(inside, style, rect, under - 0.5 * thickness, force, hold);
+    inside.painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, style.palette.quiet), 6.0, 5.0));
+    tag(inside, pos2(rect.right() - 6.0, mean), Align2::RIGHT_CENTER, "mean gap");
+    arrow(inside, rect, under - 0.5 * thickness, force, hold);
     axes
 }
 
 /// The film, coloured by the pressure at mid-width.
-fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
+fn film(style: &PlotStyle, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
     let [low, high] = hold.pressure_range;
     let colours = field_colours();
     let colour = |pressure: f64| colours[(255.0 * (pressure - low) / (high - low)).clamp(0.0, 255.0) as usize];
-    shaded(painter, profile_points(hold).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
+    style.shaded(profile_points(hold).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
 }
 
 /// (x, absolute pressure) at mid-width, from end to end.
@@ -171,34 +171,34 @@ fn profile_points(hold: &HoldState) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// The force of the film on the plate: up where it pushes, down where it pulls.
-fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64, hold: &HoldState) {
+fn arrow(style: &PlotStyle, rect: Rect, from: f32, force: f64, hold: &HoldState) {
     let [low, high] = hold.force_range;
     // A tenth of the ambient pressure is seen, and what was greatest is as long as there is room.
     let greatest = high.max(-low).max(0.1 * hold.plate.gas.ambient_pressure * hold.plate.area());
     let length = ARROW * rect.height() * (force / greatest) as f32;
     let colour = style.palette.film;
     let at = pos2(rect.left() + 0.12 * rect.width(), from);
-    painter.circle_filled(at, 4.0, colour);
+    style.painter.circle_filled(at, 4.0, colour);
     // Below that the dot covers it.
     if length.abs() > 6.0 {
         let tip = at - vec2(0.0, length);
         let size = style.row.min(length.abs());
         let head = vec2(0.45 * size, 0.7 * size * length.signum());
-        painter.line_segment([at, tip + vec2(0.0, head.y)], Stroke::new(5.0, colour));
+        style.painter.line_segment([at, tip + vec2(0.0, head.y)], Stroke::new(5.0, colour));
         let corners = vec![tip, tip + head, tip + vec2(-head.x, head.y)];
-        painter.add(Shape::convex_polygon(corners, colour, Stroke::new(1.0, style.palette.canvas)));
+        style.painter.add(Shape::convex_polygon(corners, colour, Stroke::new(1.0, style.palette.canvas)));
     }
     let (name, unit) = unit(&hold.plate);
     let text = format!("{} {name}", number(force / unit));
-    tag(painter, style, at + vec2(0.9 * style.row, 0.0), Align2::LEFT_CENTER, &text);
+    tag(style, at + vec2(0.9 * style.row, 0.0), Align2::LEFT_CENTER, &text);
 }
 
 /// Text that can be read on any colour.
-fn tag(painter: &Painter, style: &PlotStyle, at: Pos2, anchor: Align2, text: &str) {
-    let size = vec2(style.width(painter, text), style.row);
+fn tag(style: &PlotStyle, at: Pos2, anchor: Align2, text: &str) {
+    let size = vec2(style.width(text), style.row);
     let ground = anchor.anchor_size(at, size).expand2(vec2(4.0, 1.0));
-    painter.rect_filled(ground, 3.0, style.palette.canvas.gamma_multiply(0.8));
-    style.write(painter, at, anchor, text, style.text);
+    style.painter.rect_filled(ground, 3.0, style.palette.canvas.gamma_multiply(0.8));
+    style.write(at, anchor, text, style.text);
 }
 
 /// Pressure along x at mid-width.
@@ -207,7 +207,7 @@ fn profile(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     let margin = 0.06 * (high - low);
     let wide = hold.plate.width.is_some();
     let titles = [if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"];
-    title_with_bar(ui.painter(), style, rect, "Film pressure", &titles, hold.pressure_range);
+    style.title_with_bar(rect, "Film pressure", &titles, hold.pressure_range);
     let bounds = [[-0.5, 0.5].map(|end| 1e3 * end * hold.plate.length), [low - margin, high + margin]];
     Inset { name: "Pressure along the held plate", rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(hold.plate.gas.ambient_pressure * 1e-3, style.palette.quiet, 1.0));
@@ -217,7 +217,7 @@ fn profile(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
 }
 
 /// The pressure over the whole plate.
-fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldState) {
+fn map(ui: &Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     let now = hold.shown();
     let length = hold.plate.length;
     let recording = Recording {
@@ -232,9 +232,9 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, hold: &HoldSta
     let range = hold.pressure_range;
     let x = [-0.5 * length, 0.5 * length];
     let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x, range };
-    let axes = field::draw(ui, style, painter, rect, &recording, "held plate", stamp);
-    style.title(painter, rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
-    y_labels(painter, style, &axes);
+    let axes = field::draw(ui, style, rect, &recording, "held plate", stamp);
+    style.title(rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
+    y_labels(style, &axes);
 }
 
 /// What was read off lately, against time. `of`: the value and its error; `reach`: what the axis holds at least; `rest`: the value at rest.
@@ -252,7 +252,7 @@ fn chart(
     let [low, high] = span(reach.into_iter().chain([of(&hold.now().reading)[0]])).map(|value| value / unit);
     let margin = 0.08 * (high - low);
     let name = title.split(',').next().unwrap_or(title);
-    style.title(ui.painter(), rect, name, &[title], &[]);
+    style.title(rect, name, &[title], &[]);
     // The dot at the present instant is whole.
     let bounds = [[-hold.window(), 0.02 * hold.window()], [low - margin, high + margin]];
     Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
@@ -269,12 +269,12 @@ fn chart(
 }
 
 /// How far the charts go back.
-fn time_labels(painter: &Painter, style: &PlotStyle, chart: Rect, window: f64) {
+fn time_labels(style: &PlotStyle, chart: Rect, window: f64) {
     let (scale, unit) = if window < 1e-2 { (1e6, "µs") } else { (1e3, "ms") };
     let top = chart.bottom() + 1.0;
     let text = format!("{} {unit} ago", number(window * scale));
-    style.write(painter, pos2(chart.left(), top), Align2::LEFT_TOP, &text, style.palette.quiet);
-    style.write(painter, pos2(chart.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
+    style.write(pos2(chart.left(), top), Align2::LEFT_TOP, &text, style.palette.quiet);
+    style.write(pos2(chart.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
 }
 
 /// Mean pressure against the gap: the way just gone, and Boyle's hyperbola, which gas follows that has no time to leave.
@@ -292,7 +292,7 @@ fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
         "Mean p, kPa absolute",
         "p, kPa",
     ];
-    style.title(ui.painter(), rect, "Loop", &titles, &[("film", film), ("Boyle", contact)]);
+    style.title(rect, "Loop", &titles, &[("film", film), ("Boyle", contact)]);
     let bounds = [[near - side, far + side].map(|gap| gap * 1e6), [0.9 * low, 1.06 * high]];
     let name = "Mean pressure against the gap of the held plate";
     Inset { name, rect, bounds, below: Some("gap, µm") }.show(ui, style, |plot| {

@@ -21,7 +21,7 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
     ];
     let mut legend = vec![("contact", contact), ("film", film)];
     legend.extend(style.at_first(shown.first.as_ref()));
-    style.title(ui.painter(), rect, "Gauge pressure", &title, &legend);
+    style.title(rect, "Gauge pressure", &title, &legend);
     let [low, high] = shown.ranges.loads.map(|load| load * kilo);
     let margin = 0.06 * (high - low).max(1e-3);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];

@@ -3,13 +3,12 @@
 use super::field::{self, Stamp};
 use super::frame::Frame;
 use crate::gui::derived::format::plain;
-use crate::gui::ui::paint::{Axes, PlotStyle, title_with_bar};
-use eframe::egui::{Align2, Painter, Rect, Ui, pos2};
+use crate::gui::ui::paint::{Axes, PlotStyle};
+use eframe::egui::{Align2, Rect, Ui, pos2};
 
 /// Draws the map, of this name, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
 pub(super) fn draw<T>(
     ui: &Ui,
-    painter: &Painter,
     style: &PlotStyle,
     rect: Rect,
     shown: &Frame<'_, T>,
@@ -17,19 +16,19 @@ pub(super) fn draw<T>(
 ) -> Axes {
     let range = shown.ranges.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
-    let axes = field::draw(ui, style, painter, rect, shown.recording, name, stamp);
-    title_with_bar(painter, style, rect, "Pressure map", titles, range);
-    y_labels(painter, style, &axes);
-    axes.cursor(painter, style, shown.view.cursor_x);
+    let axes = field::draw(ui, style, rect, shown.recording, name, stamp);
+    style.title_with_bar(rect, "Pressure map", titles, range);
+    y_labels(style, &axes);
+    axes.cursor(style, shown.view.cursor_x);
     axes
 }
 
 /// The ends of y, and its name between them if there is room.
-pub(super) fn y_labels(painter: &Painter, style: &PlotStyle, axes: &Axes) {
+pub(super) fn y_labels(style: &PlotStyle, axes: &Axes) {
     let x = axes.rect.left() - 4.0;
     let (top, bottom) = (axes.rect.top(), axes.rect.bottom());
     let write = |y: f32, anchor: Align2, text: &str| {
-        style.write(painter, pos2(x, y), anchor, text, style.palette.quiet);
+        style.write(pos2(x, y), anchor, text, style.palette.quiet);
     };
     if bottom - top > 2.0 * style.row {
         let text = |value: f64| plain(value * 1e3);

@@ -60,17 +60,17 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     let recording = shown.recording;
     let underside = shown.lines.underside(recording);
     let style = PlotStyle::new(ui);
-    let painter = ui.painter_at(area);
-    let layout = Layout::new(area, style.row, style.gutter, readout_height(&LONGEST, &painter, &style, area.width()));
+    let inside = style.within(area);
+    let layout = Layout::new(area, style.row, style.gutter, readout_height(&LONGEST, &style, area.width()));
 
-    let axes = wave::draw(&painter, &style, layout.wave, shown, &underside);
+    let axes = wave::draw(&inside, layout.wave, shown, &underside);
     let charted = loads::draw(ui, &style, layout.loads, shown);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute", "Film"];
-    let mapped = map::draw(ui, &painter, &style, layout.map, shown, ("all teeth", &titles));
-    mapped.x_labels(&painter, &style, 1e-3, "x, mm");
+    let mapped = map::draw(ui, &inside, layout.map, shown, ("all teeth", &titles));
+    mapped.x_labels(&inside, 1e-3, "x, mm");
     let [left, right] = shown.followed().map(|x| mapped.px(x));
     let followed = Rect::from_x_y_ranges(left..=right, layout.map.y_range());
-    painter.rect_stroke(followed, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
+    inside.painter.rect_stroke(followed, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
     if let Some([rect, profile]) = layout.side {
         ring::draw(ui, &style, rect, (shown, &underside, &axes), cx);
         velocity(ui, &style, profile, shown);
@@ -82,8 +82,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
         }
         cx.mark(ui, "tooth", rect);
     }
-    wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, shown);
-    read_out(&readout(shown), &painter, &style, layout.readout);
+    wave::ellipse(&style.clipped(area.expand(0.6 * style.row)), &axes, shown);
+    read_out(&readout(shown), &inside, layout.readout);
 
     let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
     let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");

@@ -12,7 +12,7 @@ use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
 use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
@@ -154,7 +154,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     let fixed = 5.0 * title + 2.0 * axis + (count - 1.0) * gap + 8.0;
     let least = fixed + 4.0 * LEAST_PLOT * style.row + count * LEAST_MAP * style.row;
     let area = take(ui, height.max(least));
-    let painter = ui.painter_at(area);
+    let inside = style.within(area);
     let body = area.height() - fixed;
     let map = (0.20 * body / count).clamp(LEAST_MAP * style.row, MOST_MAP * style.row);
     let rest = body - count * map;
@@ -174,7 +174,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     let x = common(ends);
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
 
-    let axes = draw_surfaces(&painter, &style, wave, runs, x, &along, cursor);
+    let axes = draw_surfaces(&inside, wave, runs, x, &along, cursor);
     let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
     let charts = [0, 1]
         .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
@@ -186,20 +186,20 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         "Maps, one scale",
         "Maps",
     ];
-    title_with_bar(&painter, &style, maps[0], "Pressure map", &titles, range);
+    inside.title_with_bar(maps[0], "Pressure map", &titles, range);
     for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
         let metre = along.metre(run.recording.length);
         // In metres of this run: its own teeth are where its own x says.
         let x = x.map(|x| x / metre);
         let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
-        let axes = field::draw(ui, &style, &painter, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
-        key_beside(&painter, *rect, run.colour);
-        axes.cursor(&painter, &style, cursor.map(|x| x / metre));
+        let axes = field::draw(ui, &inside, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
+        key_beside(&inside.painter, *rect, run.colour);
+        axes.cursor(&inside, cursor.map(|x| x / metre));
         map_name(ui, *rect, run.label, range);
     }
     if let Some(last) = maps.last() {
         let name = if along.alike { "x, mm" } else { "x/λ" };
-        Axes::new(*last, x, [0.0, 1.0]).x_labels(&painter, &style, 1.0 / along.written(), name);
+        Axes::new(*last, x, [0.0, 1.0]).x_labels(&inside, 1.0 / along.written(), name);
     }
 
     let period = common_period(runs.iter().map(|run| run.recording.period));
@@ -275,7 +275,6 @@ fn over_cycle(
 }
 
 fn draw_surfaces(
-    painter: &Painter,
     style: &PlotStyle,
     rect: Rect,
     runs: &[Pinned<'_, Motor>],
@@ -291,16 +290,16 @@ fn draw_surfaces(
     let margin = 0.08 * (high - low).max(1e-9);
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
     let vertical = times(axes.exaggeration() * along.to_metres(1.0));
-    axes.canvas(painter, style);
-    scale_bar(painter, style, &axes);
+    axes.canvas(style);
+    style.scale_bar(&axes);
     let titles = [
         format!("Rotor undersides (thick) over tooth tops (thin), vertical {vertical}"),
         format!("Rotor (thick), teeth (thin), {vertical}"),
         "Rotor and teeth".to_owned(),
     ];
-    style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(painter, style, 1.0 / along.written());
+    style.title(rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
+    let style = &style.within(rect);
+    axes.x_grid(style, 1.0 / along.written());
     for run in runs {
         let metre = along.metre(run.recording.length);
         let at = |tooth: usize, node: usize, height: f64| {
@@ -308,13 +307,13 @@ fn draw_surfaces(
         };
         for tooth in 0..run.recording.teeth {
             let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.colour));
+            style.painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.colour));
         }
         let underside = run.lines.underside(run.recording);
         let underside = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
-        painter.line(underside, Stroke::new(2.2, run.colour));
+        style.painter.line(underside, Stroke::new(2.2, run.colour));
     }
-    axes.cursor(painter, style, cursor);
+    axes.cursor(style, cursor);
     axes
 }
 
@@ -332,7 +331,7 @@ fn draw_pressure(
     let [low, high] = common(ranges.chain([[0.0, 0.0]]));
     let margin = 0.06 * (high - low).max(1e-3);
     let written = along.written();
-    style.title(ui.painter(), rect, word, &[name], &[]);
+    style.title(rect, word, &[name], &[]);
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
     Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
@@ -368,7 +367,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let map = PLATE_MAP * style.row;
     let fixed = 2.0 * title + 2.0 * axis + 8.0 + if rows > 0.0 { title + rows * (map + 6.0) } else { 0.0 };
     let area = take(ui, height.max(fixed + 3.2 * LEAST_PLOT * style.row));
-    let painter = ui.painter_at(area);
+    let inside = style.within(area);
     let body = area.height() - fixed;
     let mut column = Column::of(area, &style);
     let (start, right) = (column.x.min, column.x.max);
@@ -383,7 +382,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
-    style.title(&painter, chart, "Film pressure", &titles, &[]);
+    inside.title(chart, "Film pressure", &titles, &[]);
     let written = along.written();
     let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
     let name = "Plates along their length: point to read values";
@@ -412,15 +411,15 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
         }
         if slot == 0 {
             let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale", "Maps"];
-            title_with_bar(&painter, &style, row, "Pressure map", &titles, range);
+            inside.title_with_bar(row, "Pressure map", &titles, range);
         }
         let (beside, step) = ((slot % columns) as f32, (right - start) / columns as f32);
         let left = start + beside * step;
         let rect = row.with_min_x(left + if beside > 0.0 { 16.0 } else { 0.0 }).with_max_x(left + step);
         let x = [-0.5, 0.5].map(|x| x * run.of.length);
         let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
-        field::draw(ui, &style, &painter, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
-        key_beside(&painter, rect, run.colour);
+        field::draw(ui, &inside, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
+        key_beside(&inside.painter, rect, run.colour);
         map_name(ui, rect, run.label, range);
     }
 

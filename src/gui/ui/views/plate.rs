@@ -9,11 +9,11 @@ use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::Curve;
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, scale_bar};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
-use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
+use eframe::egui::{self, Color32, CursorIcon, Rect, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
 const LOOP_SAMPLES: u32 = 180;
@@ -28,10 +28,10 @@ impl PlateFrame<'_> {
 
 pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
-    let painter = ui.painter_at(area);
+    let inside = style.within(area);
 
     let (title, axis) = (style.title, style.axis);
-    let reserved = readout_height(&LONGEST, &painter, &style, area.width());
+    let reserved = readout_height(&LONGEST, &style, area.width());
     let with_map = shown.of.width.is_some();
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
@@ -40,15 +40,15 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let right = column.x.max;
     let mut next = |part: f32| column.next(title, part * body);
     let (wall, profile) = (next(parts[0]), next(parts[1]));
-    let axes = draw_gap(&painter, &style, wall, shown);
+    let axes = draw_gap(&inside, wall, shown);
     let charted = draw_profile(ui, &style, profile, shown);
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
         let titles = ["Pressure map, kPa absolute", "Map, absolute", "Map"];
-        map::draw(ui, &painter, &style, last, shown, ("plate", &titles));
+        map::draw(ui, &inside, last, shown, ("plate", &titles));
     }
-    Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
+    Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&inside, 1e-3, "x, mm");
 
     let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + style.row);
     let count = if area.width() > 40.0 * style.row { 3 } else { 2 };
@@ -68,7 +68,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
         draw_velocity(ui, &style, *rect, shown);
     }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
-    read_out(&readout(shown), &painter, &style, place);
+    read_out(&readout(shown), &inside, place);
 
     let wall_response = named(ui, wall, "Plate along its length: point to read values");
     let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
@@ -90,41 +90,35 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
 }
 
 /// The wall, the plate above it, the film between them.
-fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
+fn draw_gap(style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
     let highest = shown.ranges.thickness[1].max(1e-9);
     let (below, above) = (0.16, 0.26);
     let part = 1.0 - below - above;
     let bottom = -highest * below / part;
     let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
-    axes.canvas(painter, style);
-    scale_bar(painter, style, &axes);
+    axes.canvas(style);
+    style.scale_bar(&axes);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(axes.exaggeration()));
     let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
-    style.title(painter, rect, "Gap", &[&title, &short], &legend);
+    style.title(rect, "Gap", &[&title, &short], &legend);
 
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let style = &style.within(rect);
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
     let film = Rect::from_x_y_ranges(rect.x_range(), plate..=wall);
-    painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
-    wall_and_plate(painter, style, rect, [wall, plate], 0.8 * above as f32 * rect.height());
-    axes.cursor(painter, style, shown.view.cursor_x);
+    style.painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
+    wall_and_plate(style, rect, [wall, plate], 0.8 * above as f32 * rect.height());
+    axes.cursor(style, shown.view.cursor_x);
     axes
 }
 
 /// The wall up to one height, and from another one on the plate, which keeps its thickness and moves.
-pub(super) fn wall_and_plate(
-    painter: &Painter,
-    style: &PlotStyle,
-    rect: Rect,
-    [wall, under]: [f32; 2],
-    thickness: f32,
-) {
+pub(super) fn wall_and_plate(style: &PlotStyle, rect: Rect, [wall, under]: [f32; 2], thickness: f32) {
     let parts =
         [(wall, wall..=rect.bottom(), style.palette.stator), (under, under - thickness..=under, style.palette.rotor)];
     for (face, heights, colour) in parts {
-        painter.rect_filled(Rect::from_x_y_ranges(rect.x_range(), heights), 0.0, style.solid(colour));
-        painter.hline(rect.x_range(), face, Stroke::new(1.5, colour));
+        style.painter.rect_filled(Rect::from_x_y_ranges(rect.x_range(), heights), 0.0, style.solid(colour));
+        style.painter.hline(rect.x_range(), face, Stroke::new(1.5, colour));
     }
 }
 
@@ -141,7 +135,7 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
     // Both are grey; what the plate began with is the one to be told apart.
     let faint = if behind.is_some() { quiet.gamma_multiply(0.55) } else { quiet };
     let legend: Vec<_> = [("film", film)].into_iter().chain(behind).chain([("ambient", faint)]).collect();
-    style.title(ui.painter(), rect, "Film pressure", &[title, "p, kPa absolute"], &legend);
+    style.title(rect, "Film pressure", &[title, "p, kPa absolute"], &legend);
     let name = "Pressure along the plate: point to read values";
     Inset { name, rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, faint, 1.0));
@@ -233,7 +227,7 @@ pub(super) fn show_loops(
         "p, kPa gauge",
         "p, kPa",
     ];
-    style.title(ui.painter(), rect, "Loop", &titles, legend);
+    style.title(rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
     Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));

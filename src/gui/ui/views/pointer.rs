@@ -1,7 +1,7 @@
 //! Regions that are pointed at and clicked, and the row of values below a view.
 
 use crate::gui::ui::paint::PlotStyle;
-use eframe::egui::{self, Align2, Painter, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+use eframe::egui::{self, Align2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
 /// A named region that is clicked.
 pub(super) fn named(ui: &Ui, rect: Rect, name: &str) -> Response {
@@ -11,11 +11,11 @@ pub(super) fn named(ui: &Ui, rect: Rect, name: &str) -> Response {
 }
 
 /// Values beside each other, in as many lines as they take.
-fn lines<T: AsRef<str>>(values: &[T], painter: &Painter, style: &PlotStyle, width: f32) -> Vec<String> {
+fn lines<T: AsRef<str>>(values: &[T], style: &PlotStyle, width: f32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for value in values.iter().map(AsRef::as_ref) {
         let longer = lines.last().map(|line| format!("{line}   {value}"));
-        match (lines.last_mut(), longer.filter(|longer| style.width(painter, longer) <= width)) {
+        match (lines.last_mut(), longer.filter(|longer| style.width(longer) <= width)) {
             (Some(line), Some(longer)) => *line = longer,
             _ => lines.push(value.to_owned()),
         }
@@ -24,16 +24,16 @@ fn lines<T: AsRef<str>>(values: &[T], painter: &Painter, style: &PlotStyle, widt
 }
 
 /// Height of the lines that `values` take.
-pub(super) fn readout_height(values: &[&str], painter: &Painter, style: &PlotStyle, width: f32) -> f32 {
-    lines(values, painter, style, width).len() as f32 * style.row + 4.0
+pub(super) fn readout_height(values: &[&str], style: &PlotStyle, width: f32) -> f32 {
+    lines(values, style, width).len() as f32 * style.row + 4.0
 }
 
 /// Writes the values under the cursor; one alone is a hint.
-pub(super) fn read_out(values: &[String], painter: &Painter, style: &PlotStyle, rect: Rect) {
+pub(super) fn read_out(values: &[String], style: &PlotStyle, rect: Rect) {
     let mut at = pos2(rect.left(), rect.top() + 4.0);
     let colour = if values.len() == 1 { style.palette.quiet } else { style.text };
-    for line in lines(values, painter, style, rect.width()) {
-        style.write(painter, at, Align2::LEFT_TOP, &line, colour);
+    for line in lines(values, style, rect.width()) {
+        style.write(at, Align2::LEFT_TOP, &line, colour);
         at.y += style.row;
     }
 }

@@ -45,19 +45,19 @@ pub(super) fn draw(
         exaggeration: axes.exaggeration(),
         followed: shown.tooth,
     };
-    let painter = &ui.painter_at(rect.expand2(egui::vec2(0.0, 2.0 * style.row)));
-    painter.rect_filled(rect, 2.0, style.palette.canvas);
+    let style = &style.within(rect.expand2(egui::vec2(0.0, 2.0 * style.row)));
+    style.painter.rect_filled(rect, 2.0, style.palette.canvas);
     let title = format!("Ring, vertical {}", times(ring.exaggeration));
-    style.title(painter, rect, "Ring", &[&title, "Ring"], &[]);
+    style.title(rect, "Ring", &[&title, "Ring"], &[]);
     let scale = 0.48 * f64::from(rect.width().min(rect.height())) / ring.reach();
     let faces = ring.faces(orbit);
-    painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.ranges.pressure)));
+    style.painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.ranges.pressure)));
 
     let response = ui.interact(rect, ui.scope_id().with("ring"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, NAME));
     describe(&response, || ABOUT.to_owned());
     if response.has_focus() {
-        painter.rect_stroke(rect, 2.0, Stroke::new(1.0, style.palette.accent), StrokeKind::Inside);
+        style.painter.rect_stroke(rect, 2.0, Stroke::new(1.0, style.palette.accent), StrokeKind::Inside);
     }
     if let Some(turned) = turned(ui, &response, orbit) {
         cx.push(Command::Orbit(turned));

@@ -52,7 +52,7 @@ impl Series<'_> {
             _ => (1.0, "t/T"),
         };
         let now = cx.state.view.phase;
-        style.title(ui.painter(), rect, self.word, self.titles, self.legend);
+        style.title(rect, self.word, self.titles, self.legend);
         let name = format!("{}: click to jump there", self.name);
         let bounds = [[0.0, scale], [low - margin, high + margin]];
         let inset = Inset { name: &name, rect, bounds, below: Some(below) };

@@ -20,7 +20,7 @@ use crate::gui::ui::chart::{Chart, between, legend, line, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::paint::{PlotStyle, field_colours, title_with_ends};
+use crate::gui::ui::paint::{PlotStyle, field_colours};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::scene::Scale;
 use crate::solution::StoppedBy;
@@ -260,7 +260,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
         let ends = drawn.extent.map(written);
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), style.title), Sense::hover());
         let below = row.translate(vec2(0.0, row.height()));
-        title_with_ends(ui.painter(), style, below, quantity.words(), &[&title], ends.each_ref().map(String::as_str));
+        style.title_with_ends(below, quantity.words(), &[&title], ends.each_ref().map(String::as_str));
     }
     let up = format!("↑ {}, {}", label(y.parameter), y.parameter.unit);
     ui.label(up.trim_end_matches(", ")).hint(about(y));

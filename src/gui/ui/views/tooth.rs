@@ -19,7 +19,7 @@ pub(super) fn draw(
     cx: &DrawContext<'_>,
 ) -> [Rect; 2] {
     let recording = shown.recording;
-    let painter = &ui.painter_at(row.expand(2.0 * style.row));
+    let inside = &style.within(row.expand(2.0 * style.row));
     let gap = 0.6 * style.row;
     let cell = (row.width() - 2.0 * gap) / 3.0;
     let places: [Rect; 3] = std::array::from_fn(|i| {
@@ -32,13 +32,13 @@ pub(super) fn draw(
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
     let (x, range) = ([-reach, reach], shown.ranges.pressure);
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x, range };
-    let axes = field::draw(ui, style, painter, places[0], recording, "followed tooth", stamp);
+    let axes = field::draw(ui, inside, places[0], recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
-    style.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
-    y_labels(painter, style, &axes);
-    axes.x_labels(painter, style, 1e-3, "x, mm");
+    inside.title(places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
+    y_labels(inside, &axes);
+    axes.x_labels(inside, 1e-3, "x, mm");
     let middle = shown.tooth as f64 * recording.pitch;
-    axes.cursor(painter, style, shown.view.cursor_x.map(|x| x - middle));
+    axes.cursor(inside, shown.view.cursor_x.map(|x| x - middle));
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };

@@ -61,7 +61,7 @@ impl<T> Place<'_, T> {
         let [long, middle] = ["Velocity across the film, z in µm, at x =", "Velocity, z in µm, x ="]
             .map(|text| format!("{text} {place} mm"));
         let palette = &style.palette;
-        style.title(ui.painter(), rect, "Velocity across the film", &[&long, &middle, "Velocity, z in µm"], &[]);
+        style.title(rect, "Velocity across the film", &[&long, &middle, "Velocity, z in µm"], &[]);
         let below = format!("u, {unit}");
         let name = "Velocity across the film over the height above the tooth in µm";
         let inset = Inset { name, rect, bounds: [across, up], below: Some(&below) };

@@ -4,9 +4,9 @@
 
 use super::frame::Frame;
 use crate::gui::derived::format::times;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar};
+use crate::gui::ui::paint::{Axes, PlotStyle};
 use crate::problem::Motor;
-use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2, vec2};
+use eframe::egui::{Align2, Pos2, Rect, Stroke, pos2, vec2};
 use std::f64::consts::TAU;
 
 /// Part of the height below the lowest stator top, and of the teeth in it.
@@ -20,13 +20,7 @@ const ABOVE: f32 = 0.16;
 
 /// Draws the wave into `rect`, with the rotor's `underside` as in [`Lines::underside`](crate::recording::sample::Lines). Returns the axes, whose
 /// y is height \[m\].
-pub(super) fn draw(
-    painter: &Painter,
-    style: &PlotStyle,
-    rect: Rect,
-    shown: &Frame<'_, Motor>,
-    underside: &[[f64; 2]],
-) -> Axes {
+pub(super) fn draw(style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>, underside: &[[f64; 2]]) -> Axes {
     let minimum = shown.of.spacing();
     let low = shown.ranges.stator[0];
     let high = (shown.ranges.rotor[1] - minimum).max(low);
@@ -35,30 +29,30 @@ pub(super) fn draw(
     let bottom = low - span * f64::from(BELOW) / part;
     let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + span / part]);
 
-    axes.canvas(painter, style);
-    scale_bar(painter, style, &axes);
+    axes.canvas(style);
+    style.scale_bar(&axes);
     let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
     let mut legend =
         vec![("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
     legend.extend(style.at_first(shown.first.as_ref()));
     let short = format!("Wave, vertical {}", times(axes.exaggeration()));
-    style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
+    style.title(rect, "Travelling wave", &[&title, &short], &legend);
 
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let style = &style.within(rect);
     let [left, right] = shown.followed().map(|x| axes.px(x));
     let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
-    painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
-    stator(painter, style, &axes, shown);
-    rotor(painter, style, &axes, shown, underside);
-    touching(painter, style, &axes, shown);
+    style.painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
+    stator(style, &axes, shown);
+    rotor(style, &axes, shown, underside);
+    touching(style, &axes, shown);
     if let Some(first) = &shown.first {
-        outline(painter, style, &axes, first);
+        outline(style, &axes, first);
     }
-    axes.cursor(painter, style, shown.view.cursor_x);
+    axes.cursor(style, shown.view.cursor_x);
     axes
 }
 
-fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
+fn stator(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let colour = style.palette.stator;
     let recording = shown.recording;
     let phase = shown.phase();
@@ -68,9 +62,9 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, M
     let samples = 96;
     let at = |i: usize| axes.x[0] + (axes.x[1] - axes.x[0]) * i as f64 / samples as f64;
     let fill = style.solid(colour);
-    band(painter, (0..=samples).map(|i| (axes.px(at(i)), body(at(i)), axes.rect.bottom())), fill);
+    style.band((0..=samples).map(|i| (axes.px(at(i)), body(at(i)), axes.rect.bottom())), fill);
     let numbered = f64::from(axes.rect.width()) / recording.teeth.max(1) as f64 > 1.6 * f64::from(style.row);
-    painter.line((0..=samples).map(|i| pos2(axes.px(at(i)), body(at(i)))).collect(), Stroke::new(1.0, colour));
+    style.painter.line((0..=samples).map(|i| pos2(axes.px(at(i)), body(at(i)))).collect(), Stroke::new(1.0, colour));
     for tooth in 0..recording.teeth {
         let middle = tooth as f64 * recording.pitch;
         let heights = &shown.lines.stator[shown.lines.of(tooth)];
@@ -79,23 +73,23 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, M
         let feet = [body(middle + first), body(middle + last)];
         // A pixel below the body's edge, so that no seam shows.
         let foot = feet[0].max(feet[1]) + 2.0;
-        band(painter, top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
+        style.band(top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
         let followed = tooth == shown.tooth;
         let stroke = if followed { Stroke::new(2.0, style.palette.accent) } else { Stroke::new(1.0, colour) };
         let mut outline = Vec::with_capacity(top.len() + 2);
         outline.push(pos2(axes.px(middle + first), feet[0]));
         outline.extend_from_slice(&top);
         outline.push(pos2(axes.px(middle + last), feet[1]));
-        painter.line(outline, stroke);
+        style.painter.line(outline, stroke);
         if numbered {
             let at = pos2(axes.px(middle), axes.rect.bottom() - 2.0);
             let colour = if followed { style.palette.accent } else { style.palette.canvas };
-            style.write(painter, at, Align2::CENTER_BOTTOM, &tooth.to_string(), colour);
+            style.write(at, Align2::CENTER_BOTTOM, &tooth.to_string(), colour);
         }
     }
 }
 
-fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>, underside: &[[f64; 2]]) {
+fn rotor(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>, underside: &[[f64; 2]]) {
     let recording = shown.recording;
     let lines = &shown.lines;
     // The film, where there is any.
@@ -106,19 +100,19 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Mo
             let top = lines.stator[k] + lines.film_thickness[k] - shown.of.spacing();
             (axes.px(middle + xi), axes.py(top), axes.py(lines.stator[k]))
         });
-        band(painter, columns, film);
+        style.band(columns, film);
     }
     let underside: Vec<Pos2> = underside.iter().map(|[x, height]| axes.at(*x, *height)).collect();
     let colour = style.palette.rotor;
-    band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
+    style.band(underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
     if shown.of.rotor_speed != 0.0 {
-        marks(painter, style, &underside, axes, shown);
+        marks(style, &underside, axes, shown);
     }
-    painter.line(underside, Stroke::new(1.5, colour));
+    style.painter.line(underside, Stroke::new(1.5, colour));
 }
 
 /// Marks on the rotor above its underside, which goes from left to right; they move as it does.
-fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], axes: &Axes, shown: &Frame<'_, Motor>) {
+fn marks(style: &PlotStyle, underside: &[Pos2], axes: &Axes, shown: &Frame<'_, Motor>) {
     let (Some(first), Some(last)) = (underside.first(), underside.last()) else { return };
     let (apart, scale) = (MARKS * style.row, axes.points_per_metre());
     let turned = shown.of.rotor_speed / shown.of.frequency * (shown.view.cycles + shown.phase()) * scale;
@@ -128,14 +122,14 @@ fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], axes: &Axes, 
         let right = underside.partition_point(|at| at.x < x).max(1);
         let (a, b) = (underside[right - 1], underside[right]);
         let y = a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x).max(f32::EPSILON);
-        painter.line_segment([pos2(x, y - 2.0), pos2(x, y - 2.0 - 0.8 * style.row)], stroke);
+        style.painter.line_segment([pos2(x, y - 2.0), pos2(x, y - 2.0 - 0.8 * style.row)], stroke);
         x += apart;
     }
 }
 
 /// While the rotor turns, the ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring. That of an outer
 /// tooth is wider than there is room in the view: it is drawn after all that is beside it.
-pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
+pub(super) fn ellipse(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let motor = shown.of;
     if motor.rotor_speed == 0.0 {
         return;
@@ -149,15 +143,15 @@ pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: 
         centre + vec2(wide * sin as f32, -high * cos as f32)
     };
     let stroke = Stroke::new(1.0, style.palette.accent);
-    painter.line((0..=POINTS).map(|i| at(f64::from(i) / f64::from(POINTS))).collect(), stroke);
+    style.painter.line((0..=POINTS).map(|i| at(f64::from(i) / f64::from(POINTS))).collect(), stroke);
     let phase = shown.phase() + middle / shown.recording.length;
     let (top, along) = (at(phase), wide * (TAU * phase).cos() as f32);
-    painter.circle_filled(top, 4.0, style.palette.accent);
-    painter.arrow(top, vec2(along, 0.0), Stroke::new(2.5, style.palette.accent));
+    style.painter.circle_filled(top, 4.0, style.palette.accent);
+    style.painter.arrow(top, vec2(along, 0.0), Stroke::new(2.5, style.palette.accent));
 }
 
 /// The tops of the teeth and the rotor's underside above them, of the motor that this one is compared with.
-fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
+fn outline(style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
     let stroke = Stroke::new(1.5, style.palette.quiet);
     let (recording, lines) = (first.recording, &first.lines);
     for tooth in 0..recording.teeth {
@@ -166,13 +160,13 @@ fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &Frame<'_, 
         let top = |k: usize| lines.stator[k];
         for height in [&top as &dyn Fn(usize) -> f64, &underside] {
             let points = recording.x.iter().zip(lines.of(tooth)).map(|(x, k)| axes.at(middle + x, height(k)));
-            painter.line(points.collect(), stroke);
+            style.painter.line(points.collect(), stroke);
         }
     }
 }
 
 /// A thick line wherever the contact carries load.
-fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
+fn touching(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let recording = shown.recording;
     let nodes = recording.x.len();
     let stroke = Stroke::new(4.0, style.palette.contact);
@@ -192,7 +186,7 @@ fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &Frame<'_,
                 run = vec![only - reach, only + reach];
             }
             if run.len() > 1 {
-                painter.line(std::mem::take(&mut run), stroke);
+                style.painter.line(std::mem::take(&mut run), stroke);
             }
         }
     }
