@@ -206,12 +206,12 @@ fn quitting_asks_about_work_that_goes_on() {
     window.type_over(Role::TextInput, "Values along x", "2000");
     window.step();
     window.get_by_label("Start the sweep").click();
-    until(&mut window, "the sweep", |app| app.state().sweep.swept().is_some_and(|swept| swept.running));
+    until(&mut window, "the sweep", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| swept.running));
     close(&mut window);
     assert!(!window.known().quitting);
     window.get_by_label_contains("of 2000 points");
     window.click_on("Keep the window open");
-    assert!(window.known().sweep.swept().is_some_and(|swept| swept.running));
+    assert!(window.known().sweep.swept.as_ref().is_some_and(|swept| swept.running));
     window.ctrl(Key::Q);
     window.click_on("Quit anyway");
     assert!(window.known().quitting);

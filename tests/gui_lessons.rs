@@ -56,7 +56,7 @@ fn open(window: &mut Window, title: &str) {
     window.click_on("Lessons");
     window.get_by_label_contains(title).click();
     window.run_steps(20);
-    assert!(window.known().lessons.running().is_some(), "{title}");
+    assert!(window.known().lessons.running.is_some(), "{title}");
 }
 
 fn step(window: &Window) -> (usize, Step) {
@@ -65,7 +65,7 @@ fn step(window: &Window) -> (usize, Step) {
 }
 
 fn work(window: &Window) -> StepWork {
-    let running = window.known().lessons.running().unwrap();
+    let running = window.known().lessons.running.as_ref().unwrap();
     running.work[running.step].clone()
 }
 
@@ -92,7 +92,7 @@ fn change(window: &mut Window, key: &str, value: &str) {
 fn drag_plate(window: &mut Window, gap: f64) {
     let rect = window.get_by_label("Held plate: drag it up and down").rect();
     let holding = window.known().hold.as_ref().unwrap();
-    let (from, reach) = (holding.now().reading.gap * 1e6, holding.reach()[1] * 1e6);
+    let (from, reach) = (holding.now.reading.gap * 1e6, holding.reach()[1] * 1e6);
     // Its reach is seven tenths of the drawing.
     let way = 0.7 * rect.height() * ((from - gap) / reach) as f32;
     let begin = rect.center();
@@ -106,7 +106,7 @@ fn drag_plate(window: &mut Window, gap: f64) {
     window.drop_at(begin + vec2(0.0, way));
     let target = gap / reach;
     until(window, "the plate is there", |app| {
-        let now = app.state().hold.as_ref().unwrap().now().reading.gap * 1e6;
+        let now = app.state().hold.as_ref().unwrap().now.reading.gap * 1e6;
         (now / reach - target).abs() < 0.02
     });
 }
@@ -271,7 +271,7 @@ fn walk(lesson: usize) {
             assert_eq!(window.known().document.scene(), &step.scene, "{name}");
             if step.tab.as_deref() == Some("Hold") {
                 until(&mut window, "the plate is at rest again", |app| {
-                    app.state().hold.as_ref().is_some_and(|holding| holding.now().reading.time == 0.0)
+                    app.state().hold.as_ref().is_some_and(|holding| holding.now.reading.time == 0.0)
                 });
             }
             let started = step.tab.as_deref() == Some("Start-up") && window.known().startup.as_ref().is_some();
@@ -280,7 +280,7 @@ fn walk(lesson: usize) {
             act(&mut window, &task.example);
             if !task.example.acts.is_empty() {
                 until(&mut window, name, |app| {
-                    let running = app.state().lessons.running().unwrap();
+                    let running = app.state().lessons.running.as_ref().unwrap();
                     running.work[running.step].fulfilled
                 });
             }
@@ -316,7 +316,7 @@ fn walk(lesson: usize) {
     window.run_steps(20);
     solved(&mut window);
     let app = window.state();
-    assert!(app.state().lessons.running().is_none() && app.state().document.scene() == &before);
+    assert!(app.state().lessons.running.is_none() && app.state().document.scene() == &before);
     assert!(app.state().lessons.progress(&app.state().lessons.lessons[lesson]).done);
     window.get_by_label("share of the load carried by air");
 }
@@ -421,7 +421,7 @@ fn unsaved_changes_are_asked_about_from_within_a_lesson_too() {
     window.click_on("Presets");
     window.click_part("Levitating");
     assert!(window.known().document.scene().name.starts_with("Levitating"));
-    assert!(window.known().lessons.running().is_none());
+    assert!(window.known().lessons.running.is_none());
 }
 
 #[test]
@@ -438,7 +438,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     let mut window = window_with(memory);
     window.run_steps(2);
     let app = window.state();
-    assert!(app.state().lessons.running().is_none());
+    assert!(app.state().lessons.running.is_none());
     assert_eq!(app.state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
     window.click_on("Lessons");
     window.get_by_label_contains("at step 3 of 6");
@@ -474,7 +474,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
         }
     }
     assert!(window.known().lessons.tour.is_none());
-    assert_eq!((window.known().lessons.running().unwrap().lesson, step(&window).0), (0, 0));
+    assert_eq!((window.known().lessons.running.as_ref().unwrap().lesson, step(&window).0), (0, 0));
     window.click_on("Leave");
     let memory = left(&mut window);
     drop(window);
@@ -588,7 +588,7 @@ fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
         go_on(&mut window);
     }
     window.press(Key::Enter);
-    assert_eq!(window.known().lessons.running().unwrap().lesson, 1);
+    assert_eq!(window.known().lessons.running.as_ref().unwrap().lesson, 1);
 }
 
 /// Seconds that the clock of a test has been put forward.
@@ -653,7 +653,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
                     press(&mut window, Key::Enter);
                 }
             }
-            until(&mut window, &step.title, |app| app.state().lessons.running().unwrap().work[number].fulfilled);
+            until(&mut window, &step.title, |app| app.state().lessons.running.as_ref().unwrap().work[number].fulfilled);
             let Some(lessons::Answer::Choice { right, .. }) = step.observe.as_ref().map(|observe| &observe.answer)
             else {
                 continue;
@@ -661,14 +661,14 @@ fn the_keyboard_alone_walks_the_first_lesson() {
             press(&mut window, keys[*right]);
             // Whoever presses Enter after every answer reads what is told all the same.
             press(&mut window, Key::Enter);
-            assert_eq!(window.known().lessons.running().unwrap().step, number, "{}", step.title);
+            assert_eq!(window.known().lessons.running.as_ref().unwrap().step, number, "{}", step.title);
             SKIPPED.store(SKIPPED.load(Relaxed) + 1, Relaxed);
         }
         assert_eq!(stage(&window), Stage::Told, "{}", step.title);
         press(&mut window, Key::Enter);
         window.run_steps(5);
     }
-    let running = window.known().lessons.running().unwrap();
+    let running = window.known().lessons.running.as_ref().unwrap();
     assert_eq!(running.step, window.known().lessons.lessons[0].steps.len());
 }
 
@@ -927,19 +927,20 @@ fn the_highest_pressure_of_a_push_is_kept() {
     let (_, step) = step(&window);
     solved(&mut window);
     predict(&mut window, &step);
-    let live = |window: &Window, live: Live| window.known().lessons.running().unwrap().tabs.now.get(live).unwrap();
+    let live =
+        |window: &Window, live: Live| window.known().lessons.running.as_ref().unwrap().tabs.now.get(live).unwrap();
     let highest = |window: &Window| {
         let hold = window.known().hold.as_ref().unwrap();
         hold.trail().map(|reading| 1e-3 * reading.mean_pressure).fold(0.0, f64::max)
     };
     drag_plate(&mut window, 0.5);
-    until(&mut window, "the air has left", |app| app.state().hold.as_ref().unwrap().now().reading.ratio < 0.2);
+    until(&mut window, "the air has left", |app| app.state().hold.as_ref().unwrap().now.reading.ratio < 0.2);
     let (now, kept) = (live(&window, Live::HeldPressure), live(&window, Live::HeldPeak));
     assert!(now < 125.0 && kept > 160.0, "{now} {kept}");
     assert!((kept - highest(&window)).abs() < 1e-6, "{kept}: that of the chart is {}", highest(&window));
     // With the charts it begins anew.
     window.click_on("Reset");
-    until(&mut window, "it is at rest", |app| app.state().hold.as_ref().unwrap().now().reading.time == 0.0);
+    until(&mut window, "it is at rest", |app| app.state().hold.as_ref().unwrap().now.reading.time == 0.0);
     assert!(live(&window, Live::HeldPeak) < 102.0);
 }
 
@@ -1181,14 +1182,14 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     write(folder.path(), "3-squeeze-number", GOOD);
     window.state_mut().load_lessons(folder.path());
     window.run_steps(3);
-    assert!(window.known().lessons.running().is_none());
+    assert!(window.known().lessons.running.is_none());
     // A good file ends a lesson; what is unsaved is asked about.
     open(&mut window, "Pushing on trapped air");
     drop_file(&mut window, &good);
     window.get_by_label_contains("Save the changes");
     window.click_on("Don't save");
     assert_eq!(window.known().document.scene().name, "Good");
-    assert!(window.known().lessons.running().is_none());
+    assert!(window.known().lessons.running.is_none());
 }
 
 #[test]
@@ -1207,7 +1208,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     show_me(&mut window);
     assert_eq!(window.known().view.tab, Tab::Startup);
     until(&mut window, "it comes to its end", |app| {
-        let running = app.state().lessons.running().unwrap();
+        let running = app.state().lessons.running.as_ref().unwrap();
         running.work[running.step].fulfilled
     });
     // A start-up of before does not count when the step begins again.
@@ -1224,7 +1225,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     predict(&mut window, &step);
     window.click_on("Motion");
     show_me(&mut window);
-    until(&mut window, "the plate is pushed", |app| app.state().lessons.running().unwrap().work[0].fulfilled);
+    until(&mut window, "the plate is pushed", |app| app.state().lessons.running.as_ref().unwrap().work[0].fulfilled);
 }
 
 #[test]

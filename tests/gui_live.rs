@@ -81,7 +81,7 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     assert!(recording.transient);
     assert_eq!(recording.other_pressure.len(), (recording.teeth - 1) * recording.pressure.len());
     assert!(first < 0.9 * starting(app).points.last().unwrap().main().value);
-    assert_eq!(starting(app).chosen(), cycles(app));
+    assert_eq!(starting(app).chosen, cycles(app));
 
     // A cycle is looked at by a click, then the cycles are played one after the other.
     let plot = window.get_by_label_contains("α against the cycle: click").rect();
@@ -90,15 +90,15 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     window.step();
     window.drop_at(plot.left_center() + vec2(4.0, 0.0));
     window.run_steps(2);
-    assert_eq!(starting(window.state()).chosen(), 1);
+    assert_eq!(starting(window.state()).chosen, 1);
     window.get_by_label_contains("Shown is cycle 1:");
     window.get_by_role_and_label(Role::Slider, "Speed").click();
     window.run_steps(3);
     window.click_part("one cycle in 0.5 s");
     window.click_on("Play from rest");
-    until(&mut window, "the third cycle is played", |app| starting(app).chosen() == 3);
+    until(&mut window, "the third cycle is played", |app| starting(app).chosen == 3);
     window.click_on("Follow the newest cycle");
-    assert_eq!(starting(window.state()).chosen(), cycles(window.state()));
+    assert_eq!(starting(window.state()).chosen, cycles(window.state()));
 }
 
 #[test]
@@ -142,16 +142,16 @@ fn held(app: &App) -> &HoldState {
 }
 
 fn ratio(app: &App) -> f64 {
-    held(app).now().reading.ratio
+    held(app).now.reading.ratio
 }
 
 fn gap(app: &App) -> f64 {
-    held(app).now().reading.gap / held(app).plate.mean_gap
+    held(app).now.reading.gap / held(app).plate.mean_gap
 }
 
 fn at_rest(window: &mut Window) {
     until(window, "the film is at rest", |app| ratio(app).abs() < 2e-4);
-    let number = |window: &Window| held(window.state()).now().number;
+    let number = |window: &Window| held(window.state()).now.number;
     for _ in 0..200 {
         let before = number(window);
         std::thread::sleep(Duration::from_millis(200));
@@ -194,7 +194,7 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     }
     until(&mut window, "it pushes back", |app| ratio(app) > 0.2);
     let app = window.state();
-    assert!(gap(app) < 0.9 && held(app).target() < 0.8 * held(app).plate.mean_gap);
+    assert!(gap(app) < 0.9 && held(app).target < 0.8 * held(app).plate.mean_gap);
     // Held there, the pressure falls though nothing moves.
     until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
     let kept = gap(window.state());
@@ -202,24 +202,24 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     at_rest(&mut window);
     assert!((gap(window.state()) - kept).abs() < 1e-3, "it stays where the hand left it");
     // At rest nothing is computed, and nothing is drawn again.
-    let number = held(window.state()).now().number;
+    let number = held(window.state()).now.number;
     std::thread::sleep(Duration::from_millis(200));
     window.run();
-    assert_eq!(held(window.state()).now().number, number);
+    assert_eq!(held(window.state()).now.number, number);
 
     // Let go, it flies back and sucks.
     window.click_on("Let go");
     until(&mut window, "it sucks", |app| ratio(app) < -0.05);
     until(&mut window, "it is back", |app| (gap(app) - 1.0).abs() < 1e-3);
     window.click_on("Reset");
-    until(&mut window, "it is at rest", |app| held(app).now().reading.time == 0.0);
+    until(&mut window, "it is at rest", |app| held(app).now.reading.time == 0.0);
     assert_eq!(ratio(window.state()), 0.0);
 }
 
 /// What is read off the held plate now, and as it is shown.
 fn readings(window: &Window) -> [Reading; 2] {
     let hold = held(window.state());
-    [hold.now().reading, hold.shown().reading]
+    [hold.now.reading, hold.shown().reading]
 }
 
 /// Some redraws, in which a held plate that goes on would have gone on.
@@ -277,7 +277,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
 
     // It goes on from there: neither held nor at rest, and no time is missed.
     window.click_on("Play");
-    until(&mut window, "it goes on", |app| held(app).now().reading.time > paused.time);
+    until(&mut window, "it goes on", |app| held(app).now.reading.time > paused.time);
     window.get_by_label("Stop");
     let hold = held(window.state());
     let next = hold.trail().find(|reading| reading.time > paused.time).unwrap();
@@ -292,7 +292,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     until(&mut window, "it follows the hand", |app| held(app).playing);
     until(&mut window, "it is there", |app| {
         let hold = held(app);
-        (hold.now().reading.gap / hold.target() - 1.0).abs() < 1e-3
+        (hold.now.reading.gap / hold.target - 1.0).abs() < 1e-3
     });
 }
 
@@ -334,7 +334,7 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     solved(&mut window);
     window.get_by_label("Load / (p_a · area)");
     window.click_on("Let go");
-    until(&mut window, "it floats by itself", |app| held(app).now().reading.time > 1e-4);
+    until(&mut window, "it floats by itself", |app| held(app).now.reading.time > 1e-4);
     assert!(gap(window.state()) > 0.9);
     window.click_on("Stop");
     until(&mut window, "it sinks", |app| gap(app) < 0.8);
@@ -377,5 +377,5 @@ fn keys_and_slider_move_it_within_its_reach_only() {
     // Elsewhere the same keys do nothing to it.
     window.ctrl(Key::Num1);
     window.press(Key::ArrowDown);
-    assert!((held(window.state()).target() / held(window.state()).plate.mean_gap - 3.0).abs() < 1e-9);
+    assert!((held(window.state()).target / held(window.state()).plate.mean_gap - 3.0).abs() < 1e-9);
 }

@@ -168,7 +168,7 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
         settle(&mut window);
     }
     window.click_on("Start the sweep");
-    until(&mut window, "swept", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
+    until(&mut window, "swept", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
     window
 }
 

@@ -180,7 +180,7 @@ fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
 }
 
 fn swept(app: &App) -> &Swept {
-    app.state().sweep.swept().unwrap()
+    app.state().sweep.swept.as_ref().unwrap()
 }
 
 #[test]
@@ -189,11 +189,13 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     solved(&mut window);
     window.ctrl(Key::Num3);
     assert_eq!(window.known().view.tab, Tab::Sweep);
-    assert!(window.known().sweep.swept().is_none(), "nothing is solved before it is asked for");
+    assert!(window.known().sweep.swept.is_none(), "nothing is solved before it is asked for");
     // So many that the sweep is still at work when it is cancelled, whatever else the machine does.
     window.type_into("Values along x", "1000");
     window.click_on("Start the sweep");
-    until(&mut window, "some points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.rows.is_empty()));
+    until(&mut window, "some points", |app| {
+        app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.rows.is_empty())
+    });
     window.get_by_label("Cancel the sweep").click();
     until(&mut window, "the end", |app| !swept(app).running);
     let part = swept(window.state()).rows.len();
@@ -227,7 +229,7 @@ fn a_point_is_read_and_opened_as_one_edit() {
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "5");
     window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
+    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
     let drawing = "Sweep: point to read a value, click to make its scene the present one";
     let rect = window.get_by_label(drawing).rect();
     // Right of the middle: the fourth of five.
@@ -256,7 +258,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     window.type_into("Values along y", "1");
     window.get_by_label_contains("allowed 2 to 10000");
     window.click_on("Start the sweep");
-    assert!(window.known().sweep.swept().is_none());
+    assert!(window.known().sweep.swept.is_none());
     window.type_into("Values along y", "3");
     assert!(window.query_by_label_contains("allowed 2 to 10000").is_none());
     window.type_into("From along x", "-1");
@@ -264,7 +266,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     window.type_into("From along x", "1");
     // A fault that only both keys together have is told when it begins.
     window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
+    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
     assert_eq!(swept(window.state()).rows.len(), 12);
     assert_eq!(swept(window.state()).sweep.axes().len(), 2);
     // Its contours are computed once.
@@ -285,7 +287,7 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "9000");
     window.click_on("Start the sweep");
-    until(&mut window, "its points", |app| app.state().sweep.swept().is_some_and(|swept| swept.running));
+    until(&mut window, "its points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| swept.running));
     window.ctrl(Key::Num2);
     window.click_part("Pin a preset");
     let slow = presets::find("doubled-mesh").unwrap().name;
@@ -394,7 +396,7 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "3");
     window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
+    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
     export(&mut window, "Sweep as table…", &at("sweep.csv"));
     let text = std::fs::read_to_string(at("sweep.csv")).unwrap();
     let (shown, mut written) = (swept(window.state()), Vec::new());
@@ -516,7 +518,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Sweep, before", &["Fidelity"]);
     window.type_into("Values along x", "3");
     window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| swept.complete()));
+    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| swept.complete()));
     explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
     hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
     hovers(faults, &mut window, "stated error", "the numerical error only");

@@ -44,7 +44,7 @@ pub struct Document {
     /// The parameter that a pointer is dragging: its edits are one.
     dragging: Option<&'static str>,
     /// Whether a lesson has set it up to try things on: it is never saved, and nothing is lost with it.
-    practice: bool,
+    pub practice: bool,
 }
 
 impl Default for Document {
@@ -64,11 +64,6 @@ impl Document {
     /// A scene to try things on: it never counts as unsaved.
     pub fn practice(scene: Scene) -> Self {
         Self { practice: true, ..Self::opened(scene, None) }
-    }
-
-    /// Whether it is there to try things on.
-    pub fn is_practice(&self) -> bool {
-        self.practice
     }
 
     /// The same, solved up to this fidelity.

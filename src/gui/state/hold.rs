@@ -1,7 +1,7 @@
 //! The held plate as the window has it: where it is held, how it was lately, which of that is shown, and the ranges of its axes.
 
 use crate::gui::derived::scales::span;
-use crate::hold::{Hold, Reading, leak_time};
+use crate::hold::{Hold, Reading};
 use crate::job::hold::{HeldPlate, SNAPSHOTS, Snapshot, slowed};
 use crate::problem::Plate;
 use crate::scene::Scene;
@@ -27,10 +27,11 @@ pub struct HoldState {
     /// Seconds that the leak time takes.
     pub seconds: f64,
     /// Where it is held \[m\].
-    target: f64,
+    pub target: f64,
     /// Whether it is let go, and if so, whether the face below it vibrates.
     pub free: Option<bool>,
-    now: Arc<Snapshot>,
+    /// The film now, whatever is shown of it.
+    pub now: Arc<Snapshot>,
     trail: VecDeque<Arc<Snapshot>>,
     /// The time of the film that is shown of what was recorded \[s\], while the plate does not go on; `None`: the plate itself.
     recorded: Option<f64>,
@@ -188,16 +189,6 @@ impl HoldState {
         Hold::reach(&self.plate)
     }
 
-    /// Where it is held \[m\].
-    pub fn target(&self) -> f64 {
-        self.target
-    }
-
-    /// The film now, whatever is shown of it.
-    pub fn now(&self) -> &Snapshot {
-        &self.now
-    }
-
     /// The film as it is shown.
     pub fn shown(&self) -> &Snapshot {
         self.recorded.and_then(|_| self.trail.get(self.place())).unwrap_or(&self.now)
@@ -216,11 +207,6 @@ impl HoldState {
     /// Time of the film that the charts hold \[s\].
     pub fn window(&self) -> f64 {
         WINDOW / self.slowed()
-    }
-
-    /// Leak time at the mean gap \[s\].
-    pub fn leak_time(&self) -> f64 {
-        leak_time(&self.plate, self.plate.mean_gap)
     }
 
     /// Seconds for a second of the film.

@@ -39,7 +39,7 @@ impl OffTabs {
     /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
     pub fn read(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
         if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
-            let (plate, now) = (&hold.plate, hold.now().reading);
+            let (plate, now) = (&hold.plate, hold.now.reading);
             self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
             let rest = (plate.mean_gap, plate.gas.ambient_pressure);
             self.start.read_held(rest.0, rest.1);

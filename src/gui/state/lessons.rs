@@ -67,9 +67,10 @@ pub struct LessonState {
     pub lessons: Vec<Lesson>,
     /// What is wrong with lessons that could not be read.
     pub faults: Vec<LessonError>,
-    /// Folders that lessons were read from, in full.
-    folders: Vec<PathBuf>,
-    running: Option<RunningLesson>,
+    /// Folders that lessons were read from, in full: they can be read again.
+    pub folders: Vec<PathBuf>,
+    /// The lesson that is followed.
+    pub running: Option<RunningLesson>,
     progress: BTreeMap<String, Progress>,
     /// The stop of the tour.
     pub tour: Option<usize>,
@@ -85,21 +86,6 @@ impl LessonState {
         let (lessons, faults) = window_names(lessons::built_in);
         let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
         Self { lessons, faults, progress, ..Self::default() }
-    }
-
-    /// Whether lessons were read from folders, which can be read again.
-    pub fn has_folders(&self) -> bool {
-        !self.folders.is_empty()
-    }
-
-    /// The lesson that is followed.
-    pub fn running(&self) -> Option<&RunningLesson> {
-        self.running.as_ref()
-    }
-
-    /// The same, to be changed.
-    pub fn running_mut(&mut self) -> Option<&mut RunningLesson> {
-        self.running.as_mut()
     }
 
     /// The step on screen, with its lesson.

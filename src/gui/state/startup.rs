@@ -62,7 +62,8 @@ pub struct StartupState {
     pub ranges: Option<Ranges>,
     /// How it ended.
     pub ended: Option<Result<Startup, String>>,
-    chosen: usize,
+    /// Number of the cycle looked at; 0 before the first.
+    pub chosen: usize,
     /// Whether the newest cycle is looked at.
     pub follows_newest: bool,
 }
@@ -150,11 +151,6 @@ impl StartupState {
     /// The cycle looked at.
     pub fn run(&self) -> Option<&Arc<SolvedScene>> {
         self.kept.get(&self.chosen)
-    }
-
-    /// Number of the cycle looked at; 0 before the first.
-    pub fn chosen(&self) -> usize {
-        self.chosen
     }
 
     /// Whether `scene` is another one than was started.

@@ -233,7 +233,8 @@ impl Swept {
 /// What the tab knows.
 #[derive(Debug, Default)]
 pub struct SweepState {
-    form: Option<Form>,
+    /// What is asked for; there is something as soon as a scene was seen.
+    pub form: Option<Form>,
     /// What was asked for of the kind of scene before this one.
     before: Option<Form>,
     /// The scene that the form was checked with; none once the form has changed.
@@ -242,25 +243,16 @@ pub struct SweepState {
     pub faults: Vec<Option<String>>,
     quantity: Option<Quantity>,
     task: Option<(SweepTask, Instant)>,
-    swept: Option<Swept>,
+    /// What was begun.
+    pub swept: Option<Swept>,
     /// Why the last sweep that was asked for could not begin.
     pub refusal: Option<String>,
 }
 
 impl SweepState {
-    /// What is asked for; there is something as soon as a scene was seen.
-    pub fn form(&self) -> Option<&Form> {
-        self.form.as_ref()
-    }
-
     /// Whether its points are being made: there is no row to show yet.
     pub fn building(&self) -> bool {
         self.task.is_some() && self.swept.as_ref().is_none_or(|swept| !swept.running)
-    }
-
-    /// What was begun.
-    pub fn swept(&self) -> Option<&Swept> {
-        self.swept.as_ref()
     }
 
     /// What is drawn of these.
@@ -362,7 +354,7 @@ mod tests {
     use crate::solve::Settings;
 
     fn ask(sweeps: &mut SweepState, change: impl Fn(&mut Form)) {
-        let mut form = sweeps.form().unwrap().clone();
+        let mut form = sweeps.form.as_ref().unwrap().clone();
         change(&mut form);
         sweeps.ask(form);
     }
@@ -408,18 +400,18 @@ mod tests {
         sweeps.review(&motor);
         ask(&mut sweeps, |form| form.axes[0].from = "50".to_owned());
         sweeps.review(&motor);
-        assert_eq!(sweeps.form().unwrap().axes[0].from, "50");
+        assert_eq!(sweeps.form.as_ref().unwrap().axes[0].from, "50");
         assert_eq!(sweeps.faults, [None]);
         // What has no effect on a plate is not offered.
         assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
         ask(&mut sweeps, |form| form.set_second(true));
         sweeps.review(&plate);
-        let form = sweeps.form().unwrap();
+        let form = sweeps.form.as_ref().unwrap();
         assert!(form.axes[0].key == "plate.frequency_khz" && form.second, "{form:?}");
         assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
         // Back at a motor, what was asked for of one is there again.
         sweeps.review(&motor);
-        assert_eq!(sweeps.form().unwrap().axes[0].from, "50");
+        assert_eq!(sweeps.form.as_ref().unwrap().axes[0].from, "50");
     }
 
     #[test]

@@ -154,7 +154,7 @@ impl State {
             Export::Animation => cfg!(feature = "render") && self.run.is_some(),
             Export::Comparison | Export::ComparisonReport => self.pins.runs.len() > 1,
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
-                self.sweep.swept().is_some_and(|swept| !swept.rows.is_empty())
+                self.sweep.swept.as_ref().is_some_and(|swept| !swept.rows.is_empty())
             }
             Export::Sensitivity => self.sensitivity.found.is_some(),
             Export::Fit => self.fit.found.is_some(),
@@ -168,7 +168,7 @@ impl State {
     /// Work that was asked for and would be lost if the window closed now, in words.
     pub fn unfinished(&self) -> Vec<String> {
         let export = self.exports.running.as_ref().map(|running| format!("An export: {}", running.export.title()));
-        let swept = self.sweep.swept().filter(|swept| swept.running);
+        let swept = self.sweep.swept.as_ref().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
         let fit = self.fit.work.running().then(|| "A fit".to_owned());

@@ -33,17 +33,6 @@ const STRAIGHT: f64 = 5e-4;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
-/// A plot: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn with the right button, and back with a
-/// double click. The wheel alone scrolls the tab that it is in.
-fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
-    Plot::new(name.to_owned())
-        .id(id(name))
-        .height(height)
-        .allow_scroll(false)
-        .allow_axis_zoom_drag(false)
-        .show_crosshair(false)
-}
-
 fn id(name: &str) -> Id {
     Id::unique(("chart", name))
 }
@@ -217,7 +206,7 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
                 plot.line(line(piece, colour, width, dashes(style.dash)));
             }
             if style.marker.is_some() {
-                plot.points(named_dots(name, pieces.concat(), colour, 2.0));
+                plot.points(dots(name, pieces.concat(), colour, 2.0));
             }
         }
         Layer::Band(band) => {
@@ -233,7 +222,7 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
                 plot.line(line(&bar, colour(*of), 1.0, LineStyle::Solid));
             }
             let points = pieces(points.iter().map(|point| at(*point))).concat();
-            let dots = named_dots(name, points, colour(*of), 0.9 * marker.size as f32);
+            let dots = dots(name, points, colour(*of), 0.9 * marker.size as f32);
             plot.points(dots.shape(shape(marker.shape)).filled(!marker.hollow));
         }
         Layer::Mark(Mark { direction, at: value, style, .. }) => {
@@ -272,11 +261,6 @@ fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
     }
 }
 
-/// Dots that say what they are when the pointer is near.
-fn named_dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
-    Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
-}
-
 fn dashes(dash: Dash) -> LineStyle {
     match dash {
         Dash::Solid => LineStyle::Solid,
@@ -296,11 +280,17 @@ fn shape(shape: Shape) -> MarkerShape {
     }
 }
 
-/// A plot with numbers at its axes, and no words at the pointer.
+/// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn
+/// with the right button, and back with a double click. The wheel alone scrolls the tab that it is in.
 fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
     // The spacers leave room for every number: none is to fade because others are near.
     let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
-    bare(name, height)
+    Plot::new(name.to_owned())
+        .id(id(name))
+        .height(height)
+        .allow_scroll(false)
+        .allow_axis_zoom_drag(false)
+        .show_crosshair(false)
         .custom_x_axes(x)
         .custom_y_axes(y)
         .show_x(false)
@@ -407,9 +397,9 @@ pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
     VLine::new("", x).color(colour).width(width).allow_hover(false)
 }
 
-/// Dots that do not answer to the pointer.
-pub(super) fn dots<'a>(points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
-    Points::new("", points).color(colour).radius(radius).allow_hover(false)
+/// Dots, which say what they are when the pointer is near, if they have a name.
+pub(super) fn dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
+    Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
 }
 
 /// The area between two curves, given as (x, one y, other y).

@@ -3,8 +3,7 @@
 use crate::gui::ui::theme::mathematics;
 use crate::lessons::formula::{Mark, Node, SUM};
 use eframe::egui::text::{LayoutJob, TextFormat};
-use eframe::egui::{Color32, FontId, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
-use std::sync::Arc;
+use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 /// Letters without a stem.
 const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
@@ -44,18 +43,6 @@ impl Style {
     }
 }
 
-/// A text as a galley, with its width and the height of its baseline below its top.
-pub(super) fn galley(painter: &Painter, text: &str, size: f32, colour: Color32, slanted: bool) -> (Arc<Galley>, f32) {
-    let format =
-        TextFormat { font_id: FontId::proportional(size), color: colour, italics: slanted, ..Default::default() };
-    let mut job = LayoutJob::single_section(text.to_owned(), format);
-    job.wrap.max_width = f32::INFINITY;
-    let galley = painter.layout_job(job);
-    let baseline = galley.rows.first().and_then(|row| Some(row.pos.y + row.row.glyphs.first()?.pos.y));
-    let baseline = baseline.unwrap_or_default();
-    (galley, baseline)
-}
-
 impl Typeset {
     /// Sets `nodes` side by side.
     pub(super) fn of(painter: &Painter, nodes: &[Node], style: Style) -> Self {
@@ -85,20 +72,37 @@ impl Typeset {
         self.shapes.extend(part.moved(by));
     }
 
-    fn text(painter: &Painter, text: &str, style: Style, slanted: bool) -> Self {
-        let (galley, baseline) = galley(painter, text, style.size, style.colour, slanted);
-        let width = galley.size().x;
+    /// Sets a text on one line.
+    pub(super) fn text(painter: &Painter, text: &str, Style { size, colour, .. }: Style, slanted: bool) -> Self {
+        let font_id = FontId::proportional(size);
+        let format = TextFormat { font_id, color: colour, italics: slanted, ..Default::default() };
+        let mut job = LayoutJob::single_section(text.to_owned(), format);
+        job.wrap.max_width = f32::INFINITY;
+        let galley = painter.layout_job(job);
+        let baseline = galley.rows.first().and_then(|row| Some(row.pos.y + row.row.glyphs.first()?.pos.y));
         Self {
-            width: if slanted { width + 0.04 * style.size } else { width },
-            ascent: mathematics::ASCENT * style.size,
-            descent: mathematics::DESCENT * style.size,
-            shapes: vec![Shape::galley(pos2(0.0, -baseline), galley, style.colour)],
+            width: galley.size().x,
+            ascent: mathematics::ASCENT * size,
+            descent: mathematics::DESCENT * size,
+            shapes: vec![Shape::galley(pos2(0.0, -baseline.unwrap_or_default()), galley, colour)],
         }
+    }
+
+    /// Puts a ground of this colour behind a text, a little wider.
+    pub(super) fn with_ground(mut self, colour: Color32) -> Self {
+        if let Some(Shape::Text(text)) = self.shapes.first() {
+            let place = Rect::from_min_size(text.pos, text.galley.size()).expand2(vec2(2.0, 0.0));
+            self.shapes.insert(0, Shape::rect_filled(place, 3.0, colour));
+        }
+        self
     }
 
     fn node(painter: &Painter, node: &Node, style: Style) -> Self {
         match node {
-            Node::Letter(letter) => Self::text(painter, &letter.to_string(), style, true),
+            Node::Letter(letter) => {
+                let set = Self::text(painter, &letter.to_string(), style, true);
+                Self { width: set.width + 0.04 * style.size, ..set }
+            }
             Node::Upright(text) => Self::text(painter, text, style, false),
             Node::Sign(sign) => Self::text(painter, &sign.to_string(), style, false),
             Node::Space(room) => Self { width: room * style.size, ..Self::default() },

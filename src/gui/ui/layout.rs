@@ -64,7 +64,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         format!("{name}{size}{window}")
     };
     // A lesson comes first for the keyboard.
-    if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
+    if state.view.results && state.lessons.running.as_ref().is_some_and(|running| !running.all_results) {
         LESSON
             .fit(egui::Panel::right(id("lesson", &LESSON)), width, false)
             .frame(side)
@@ -73,7 +73,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width, telephone).frame(side).show(ui, |ui| {
             // As wide before the first result as after it.
             ui.set_min_width(ui.available_width());
-            if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {
+            if state.lessons.running.is_some() && ui.button("Back to the lesson").clicked() {
                 cx.push(LessonCommand::AllResults(false));
             }
             if let (Tab::Hold, Some(hold)) = (state.view.tab, &state.hold) {

@@ -1,12 +1,11 @@
 //! Text with formulas in it, broken into lines.
 
-use super::formula::{Style as MathStyle, Typeset, galley};
+use super::formula::{Style as MathStyle, Typeset};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::theme::{mathematics, palette};
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
-use eframe::egui::{self, Color32, FontId, Galley, Rect, Response, Sense, TextStyle, Ui, pos2, vec2};
-use std::sync::Arc;
+use eframe::egui::{self, Color32, FontId, Response, Sense, TextStyle, Ui, pos2, vec2};
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
@@ -80,19 +79,11 @@ fn shown(ui: &mut Ui, picture: &Picture) {
 
 /// One piece that is not broken.
 struct Atom {
-    width: f32,
-    ascent: f32,
-    descent: f32,
+    set: Typeset,
     /// Room before it, if it does not begin a line; none if nothing is between it and what comes before.
     space: Option<f32>,
     /// Whether it is not parted from what comes before: a unit from its number, thousands from the rest.
     glued: bool,
-    drawn: Drawn,
-}
-
-enum Drawn {
-    Words(Arc<Galley>, f32, Color32, Option<Color32>),
-    Math(Typeset),
 }
 
 /// Shows one paragraph; its response has the whole text.
@@ -111,7 +102,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     }
     for unit in units {
         let inside: f32 = unit.iter().skip(1).filter_map(|atom| atom.space).sum();
-        let width = inside + unit.iter().map(|atom| atom.width).sum::<f32>();
+        let width = inside + unit.iter().map(|atom| atom.set.width).sum::<f32>();
         let space = unit.first().and_then(|atom| atom.space).unwrap_or_default();
         if at > 0.0 && at + space + width > room {
             lines.push(Vec::new());
@@ -126,7 +117,8 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
     let heights: Vec<(f32, f32)> = lines
         .iter()
-        .map(|line| line.iter().fold((ascent, descent), |(a, d), atom| (a.max(atom.ascent), d.max(atom.descent))))
+        .map(|line| line.iter().map(|atom| &atom.set))
+        .map(|sets| sets.fold((ascent, descent), |(a, d), set| (a.max(set.ascent), d.max(set.descent))))
         .collect();
     let height: f32 = heights.iter().map(|(ascent, descent)| ascent + descent + lead).sum();
     let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
@@ -141,18 +133,8 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
                 if i > 0 {
                     x += atom.space.unwrap_or_default();
                 }
-                match &atom.drawn {
-                    Drawn::Words(galley, baseline, colour, ground) => {
-                        let place = pos2(x, writing - baseline);
-                        if let Some(ground) = ground {
-                            let rect = Rect::from_min_size(place, galley.size()).expand2(vec2(2.0, 0.0));
-                            ui.painter().rect_filled(rect, 3.0, *ground);
-                        }
-                        ui.painter().galley(place, Arc::clone(galley), *colour);
-                    }
-                    Drawn::Math(set) => ui.painter().extend(set.moved(vec2(x, writing))),
-                }
-                x += atom.width;
+                ui.painter().extend(atom.set.moved(vec2(x, writing)));
+                x += atom.set.width;
             }
             top += ascent + descent + lead;
         }
@@ -181,7 +163,7 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
         .size()
         .x
         .max(0.25 * look.size);
-    let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
+    let style = |colour: Color32| MathStyle { size: look.size, colour, display: false };
     let mut atoms = Vec::new();
     // Whether white space came before, and before that a number.
     let (mut apart, mut number) = (true, false);
@@ -190,14 +172,11 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
             // Numbers are filled in by whoever knows the run.
             Inline::Number(_) => {}
             Inline::Math(formula) => {
-                let style = MathStyle { size: look.size, colour: look.colour, display: false };
-                let set = Typeset::of(painter, &formula.nodes, style);
-                let (width, ascent, descent) = (set.width, set.ascent, set.descent);
-                let space = apart.then_some(space);
-                atoms.push(Atom { width, ascent, descent, space, glued: false, drawn: Drawn::Math(set) });
+                let set = Typeset::of(painter, &formula.nodes, style(look.colour));
+                atoms.push(Atom { set, space: apart.then_some(space), glued: false });
                 (apart, number) = (false, false);
             }
-            Inline::Text { text, style } => {
+            Inline::Text { text, style: kind } => {
                 let mut rest = text.as_str();
                 while !rest.is_empty() {
                     let trimmed = rest.trim_start();
@@ -208,17 +187,18 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     if word.is_empty() {
                         break;
                     }
-                    let (colour, ground) = match style {
-                        Style::Plain | Style::Slanted => (look.colour, None),
+                    let set = match kind {
+                        Style::Plain => Typeset::text(painter, word, style(look.colour), false),
+                        Style::Slanted => Typeset::text(painter, word, style(look.colour), true),
                         // The fonts have one weight: what is strong has a colour.
-                        Style::Strong => (palette(ui.visuals().dark_mode).film, None),
-                        Style::Code => (look.colour, Some(ui.visuals().extreme_bg_color)),
+                        Style::Strong => {
+                            Typeset::text(painter, word, style(palette(ui.visuals().dark_mode).film), false)
+                        }
+                        Style::Code => Typeset::text(painter, word, style(look.colour), false)
+                            .with_ground(ui.visuals().extreme_bg_color),
                     };
-                    let (galley, baseline) = galley(painter, word, look.size, colour, *style == Style::Slanted);
-                    let width = galley.size().x;
-                    let drawn = Drawn::Words(galley, baseline, colour, ground);
                     let glued = number && (word.starts_with(|c: char| c.is_ascii_digit()) || is_unit(word));
-                    atoms.push(Atom { width, ascent, descent, space: apart.then_some(space), glued, drawn });
+                    atoms.push(Atom { set, space: apart.then_some(space), glued });
                     (apart, number) = (false, word.ends_with(|c: char| c.is_ascii_digit()));
                 }
             }

@@ -43,7 +43,7 @@ impl Updater {
     fn content(&self, export: Export) -> Option<Content> {
         let of_run = |what| Some(Content::Run(what, Box::new(self.named()?)));
         let of_sweep = |what: fn(Quantity) -> OfSweep| {
-            let swept = self.state.sweep.swept()?;
+            let swept = self.state.sweep.swept.as_ref()?;
             let quantity = self.state.sweep.quantity(&swept.sweep.quantities());
             Some(Content::Sweep(what(quantity), Arc::clone(&swept.sweep), swept.rows.to_vec()))
         };

@@ -22,7 +22,7 @@ impl Updater {
 
     /// Reads all folders of lessons again; a lesson that is followed goes on at its step.
     fn reload_lessons(&mut self) {
-        let place = self.state.lessons.running().map(|running| (running.lesson, running.step));
+        let place = self.state.lessons.running.as_ref().map(|running| (running.lesson, running.step));
         let changed = self.state.lessons.reload();
         if let (true, Some((lesson, step))) = (changed, place) {
             self.teach(LessonCommand::Open(lesson, Some(step)));
@@ -66,7 +66,7 @@ impl Updater {
             LessonCommand::SetUp => lessons.set_up(document, view, true),
             LessonCommand::ShowMe => lessons.show_me(document),
             LessonCommand::AllResults(all) => {
-                lessons.running_mut().into_iter().for_each(|running| running.all_results = all);
+                lessons.running.iter_mut().for_each(|running| running.all_results = all);
                 false
             }
             LessonCommand::Choose(choice) => return self.choose(choice),
@@ -98,7 +98,7 @@ impl Updater {
             Some(Stage::Question) => self.teach(LessonCommand::Predict(Prediction::Choice(choice))),
             Some(Stage::Observation) => {
                 let now = self.now();
-                self.state.lessons.running_mut().into_iter().for_each(|running| running.answered = Some(now));
+                self.state.lessons.running.iter_mut().for_each(|running| running.answered = Some(now));
                 self.teach(LessonCommand::Observe(choice));
             }
             _ => {}
@@ -116,7 +116,7 @@ impl Updater {
         }
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Commit),
-            Some(Stage::Task) => self.state.lessons.running_mut().into_iter().for_each(RunningLesson::enter_marked),
+            Some(Stage::Task) => self.state.lessons.running.iter_mut().for_each(RunningLesson::enter_marked),
             Some(Stage::Observation) => {}
             // An answer is followed by Enter out of habit.
             Some(Stage::Told) if self.state.lessons.has_just_answered(self.now()) => {}

@@ -15,7 +15,7 @@ impl Updater {
     /// Copies a link to the step of the lesson that runs, or to the scene.
     pub(super) fn copy_link(&mut self) {
         let state = &self.state;
-        let link = match state.lessons.running() {
+        let link = match state.lessons.running.as_ref() {
             Some(running) => {
                 // The recap behind the last step has no number.
                 let steps = state.lessons.lessons[running.lesson].steps.len();
@@ -39,7 +39,7 @@ impl Updater {
             }
         };
         let lessons = &self.state.lessons;
-        let lesson = lessons.running().zip(lessons.step()).map(|(running, (lesson, step))| {
+        let lesson = lessons.running.as_ref().zip(lessons.step()).map(|(running, (lesson, step))| {
             let (number, of) = (running.step + 1, lesson.steps.len());
             format!("{}, step {number} of {of}: {}. {}", lesson.title, step.title, plain_blocks(&step.body))
         });

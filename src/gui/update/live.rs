@@ -96,7 +96,7 @@ impl Updater {
         let mean_gap = hold.plate.mean_gap;
         match command {
             HoldCommand::To(gap) => hold.move_to(gap),
-            HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),
+            HoldCommand::By(share) => hold.move_to(hold.target + share * mean_gap),
             HoldCommand::LetGo { vibrates } => hold.let_go(vibrates),
             HoldCommand::Reset => hold.reset(),
             HoldCommand::Replay => hold.replay(),

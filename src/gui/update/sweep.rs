@@ -12,13 +12,13 @@ impl Updater {
             SweepCommand::Start => self.start_sweep(),
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
-                if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running) {
+                if let Some(swept) = self.state.sweep.swept.as_ref().filter(|swept| !swept.running) {
                     self.begin_sweep(SweepWork::Known(Arc::clone(&swept.sweep), swept.rows.to_vec()));
                 }
             }
             SweepCommand::Open(point) => {
                 // Every point is a scene: the sweep has made them all.
-                let scene = self.state.sweep.swept().and_then(|swept| swept.sweep.scene_at(point).ok());
+                let scene = self.state.sweep.swept.as_ref().and_then(|swept| swept.sweep.scene_at(point).ok());
                 if let Some(mut scene) = scene {
                     // A sweep says in its name what was changed; the present scene keeps its own.
                     let present = self.state.document.scene();
@@ -33,7 +33,7 @@ impl Updater {
 
     fn start_sweep(&mut self) {
         let scene = self.state.document.scene();
-        let fidelity = self.state.sweep.form().map(|form| form.fidelity).unwrap_or_default();
+        let fidelity = self.state.sweep.form.as_ref().map(|form| form.fidelity).unwrap_or_default();
         // What is wrong with an axis is said at the axis.
         let Ok(vary) = self.state.sweep.asked(scene) else { return };
         let mut swept = scene.clone();

@@ -15,7 +15,7 @@ use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, T
 /// Shows the lesson that is followed.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let lessons = &cx.state.lessons;
-    let Some(running) = lessons.running() else { return };
+    let Some(running) = lessons.running.as_ref() else { return };
     let Some(lesson) = lessons.lessons.get(running.lesson) else { return };
     ui.add_space(6.0);
     ui.horizontal(|ui| {

@@ -20,7 +20,7 @@ const UNCHANGED: f64 = 5e-4;
 /// The numbers that the step is about: at its beginning, now, and their ratio.
 pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
-    let Some(running) = cx.state.lessons.running() else { return };
+    let Some(running) = cx.state.lessons.running.as_ref() else { return };
     if step.show.is_empty() {
         return;
     }

@@ -55,7 +55,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
         let place = match document.path() {
             Some(path) => path.display().to_string(),
-            None if document.is_practice() => "set up by the lesson, to try things on".to_owned(),
+            None if document.practice => "set up by the lesson, to try things on".to_owned(),
             None => "built-in preset, not saved".to_owned(),
         };
         title.hint(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
@@ -159,11 +159,17 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         }
     }
     ui.separator();
-    let running = state.running().is_some();
+    let running = state.running.is_some();
     item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
     if HAS_FILES {
         item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
-        item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
+        item(
+            ui,
+            "Read lessons of folders again",
+            !state.folders.is_empty(),
+            Command::Lesson(LessonCommand::Reload),
+            cx,
+        );
     }
     export_item(ui, Export::Answers, cx.state.can_export(Export::Answers), cx);
     if !state.faults.is_empty() {

@@ -1,6 +1,5 @@
 //! Panels: what is around the middle of the window.
 
-pub mod convergence;
 pub mod exports;
 pub mod field;
 pub mod held;

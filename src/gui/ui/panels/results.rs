@@ -1,6 +1,6 @@
 //! The right panel: the numbers of a run. Every text can be selected and copied.
 
-use super::{convergence, model};
+use super::model;
 use crate::analysis::exact::units;
 use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
@@ -8,8 +8,10 @@ use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{capitalised, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
+use crate::export::figures::convergence;
 use crate::export::json::beside_limit;
 use crate::gui::derived::format::{raised, uncertain};
+use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::text_width;
@@ -25,6 +27,8 @@ const DIGITS: usize = 4;
 const HEADLINE: f32 = 2.1;
 /// Size of its error relative to the text.
 const HEADLINE_ERROR: f32 = 1.35;
+/// Height of the chart of the rounds, in lines of text.
+const ROUNDS: f32 = 9.0;
 
 /// Shows the results of `run`, and the switches of its model.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
@@ -217,7 +221,10 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     if !run.history.is_empty() {
         ui.add_space(6.0);
         cx.note(ui, "Change in each round, one line for each grid; dashed, where it may stop");
-        convergence::show(ui, &run.history);
+        let panel = &convergence(&run.history).panels[0];
+        let height = ROUNDS * ui.text_style_height(&TextStyle::Body);
+        let words = (Some("Rounds"), "Change of the last round");
+        Chart { name: "Change in each round", height, panel, words }.show(ui);
     }
     ui.add_space(4.0);
 }

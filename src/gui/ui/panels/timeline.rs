@@ -74,7 +74,7 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         if let Some(at) = scrub(ui, place, most, ["Recorded time", "Drag to an instant that was recorded"]) {
             cx.push(Command::Seek(at / most));
         }
-        let ago = hold.now().reading.time - hold.shown().reading.time;
+        let ago = hold.now.reading.time - hold.shown().reading.time;
         ui.label(match (ago > 0.0, hold.playing) {
             (true, _) => format!("{} ago", time(ago)),
             (false, true) => "now".to_owned(),

@@ -8,6 +8,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::tabs::labels::LOW;
 use crate::gui::ui::{glossary, views};
+use crate::hold::leak_time;
 use crate::scene::quantity_text;
 use eframe::egui::{self, Slider, TextStyle};
 
@@ -48,7 +49,7 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         let [least, most] = hold.reach().map(|gap| gap * 1e6);
         // As the slider rounds it: a plate that falls is not taken in the hand.
-        let mut gap = egui::emath::round_to_decimals(hold.target() * 1e6, GAP_DECIMALS);
+        let mut gap = egui::emath::round_to_decimals(hold.target * 1e6, GAP_DECIMALS);
         ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
         let label = glossary::term(ui, "Gap", "Gap");
         let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
@@ -81,9 +82,9 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
 
 /// How slow the slow motion is, in words; and whether this computer keeps up.
 fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
-    let leak = time(hold.leak_time());
+    let leak = time(leak_time(&hold.plate, hold.plate.mean_gap));
     cx.note(ui, format!("The film's leak time at the mean gap is {leak}. Drag the plate."));
-    let now = hold.now();
+    let now = &hold.now;
     let longer = 1.0 / now.pace.max(1e-3);
     let slow = (now.pace < SLOW).then(|| format!("This computer takes {longer:.1} times as long as that"));
     cx.alarm(ui, slow.iter().chain(&now.failure));

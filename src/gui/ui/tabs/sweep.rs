@@ -20,7 +20,7 @@ use eframe::egui::{Ui, WidgetInfo};
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
-    let Some(form) = cx.state.sweep.form() else { return };
+    let Some(form) = cx.state.sweep.form.as_ref() else { return };
     outline_fields(ui);
     let mut asked = form.clone();
     ask(ui, &mut asked, cx);
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.push(SweepCommand::Form(asked.clone()));
     }
     buttons(ui, &asked, cx);
-    let Some(swept) = cx.state.sweep.swept() else {
+    let Some(swept) = cx.state.sweep.swept.as_ref() else {
         cx.introduce(ui, INTRODUCTION);
         return;
     };
@@ -80,7 +80,7 @@ fn axis_row(ui: &mut Ui, form: &mut Form, i: usize, cx: &DrawContext<'_>) {
 }
 
 fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
-    let swept = cx.state.sweep.swept();
+    let swept = cx.state.sweep.swept.as_ref();
     let running = swept.filter(|swept| swept.running);
     let building = cx.state.sweep.building();
     ui.horizontal_wrapped(|ui| {
@@ -125,7 +125,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
 
 /// What is drawn of the points: changing it solves nothing.
 fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
-    let swept = cx.state.sweep.swept().map(|swept| swept.sweep.problem());
+    let swept = cx.state.sweep.swept.as_ref().map(|swept| swept.sweep.problem());
     let Some(problem) = swept.or(cx.state.problem.as_ref()) else { return };
     let all: Vec<Quantity> = Quantity::of(problem).collect();
     let present = cx.state.sweep.quantity(&all);

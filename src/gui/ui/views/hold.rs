@@ -100,7 +100,7 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
         let wanted = if response.drag_started() {
             // What the pointer has moved until it counted as a drag is the plate's too.
             let from = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
-            Some(hold.target() + per_point * f64::from(from.y - at.y))
+            Some(hold.target + per_point * f64::from(from.y - at.y))
         } else {
             // From where it was, and not from where the drawing is: that may move under a still hand.
             ui.data(|data| data.get_temp::<f64>(id)).map(|gap| gap - per_point * f64::from(response.drag_delta().y))
@@ -248,8 +248,8 @@ fn chart(
     reach: [f64; 2],
     rest: f64,
 ) {
-    let end = hold.now().reading.time;
-    let [low, high] = span(reach.into_iter().chain([of(&hold.now().reading)[0]])).map(|value| value / unit);
+    let end = hold.now.reading.time;
+    let [low, high] = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
     let margin = 0.08 * (high - low);
     let name = title.split(',').next().unwrap_or(title);
     style.title(rect, name, &[title], &[]);
@@ -264,7 +264,7 @@ fn chart(
         plot.hline(level(rest / unit, style.palette.quiet, 1.0));
         plot.add(between(&band.collect::<Vec<_>>(), colour.gamma_multiply(0.3)));
         plot.line(line(&hold.trail().map(at).collect::<Vec<_>>(), colour, 1.6, LineStyle::Solid));
-        plot.points(dots(vec![at(&hold.shown().reading)], colour, 3.0));
+        plot.points(dots("", vec![at(&hold.shown().reading)], colour, 3.0));
     });
 }
 
@@ -304,6 +304,6 @@ fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
         plot.hline(level(hold.plate.gas.ambient_pressure * 1e-3, style.palette.quiet, 1.0));
         plot.line(line(&hyperbola, contact, 1.4, LineStyle::dashed_dense()));
         plot.line(line(&way, film, 1.6, LineStyle::Solid));
-        plot.points(dots(vec![at(now.gap, now.mean_pressure)], film, 4.0));
+        plot.points(dots("", vec![at(now.gap, now.mean_pressure)], film, 4.0));
     });
 }

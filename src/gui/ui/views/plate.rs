@@ -234,7 +234,7 @@ pub(super) fn show_loops(
         for (colour, at) in loops {
             let points: Vec<_> = (0..=LOOP_SAMPLES).map(|i| at(f64::from(i) / f64::from(LOOP_SAMPLES))).collect();
             plot.line(line(&points, *colour, 1.6, LineStyle::Solid));
-            plot.points(dots(vec![at(phase)], *colour, 3.5));
+            plot.points(dots("", vec![at(phase)], *colour, 3.5));
         }
     });
 }

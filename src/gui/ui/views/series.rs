@@ -65,7 +65,7 @@ impl Series<'_> {
                 let points: Vec<_> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
                 let style = if trace.behind { LineStyle::dashed_dense() } else { LineStyle::Solid };
                 plot.line(line(&points, trace.colour, 1.6, style));
-                plot.points(dots(vec![point(now)], trace.colour, 3.5));
+                plot.points(dots("", vec![point(now)], trace.colour, 3.5));
             }
         });
         let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());

@@ -78,7 +78,7 @@ impl<T> Place<'_, T> {
             let points: Vec<_> = curve(&velocity).into_iter().map(|[u, z]| [u / size, z * 1e6]).collect();
             plot.line(line(&points, palette.film, 1.8, LineStyle::Solid));
             let [lower, upper] = velocity.walls.map(|u| u / size);
-            plot.points(dots(vec![[lower, 0.0], [upper, thickness]], palette.accent, 3.5));
+            plot.points(dots("", vec![[lower, 0.0], [upper, thickness]], palette.accent, 3.5));
         });
     }
 }
