@@ -231,9 +231,11 @@ impl Parameter {
 
     /// The value of an absent key; `None` if its absence has a meaning of its own.
     pub fn default(&self) -> Option<Value> {
-        if self.absent.is_some() {
-            return None;
-        }
+        self.usual().filter(|_| self.absent.is_none())
+    }
+
+    /// The default, and the value that an optional key has at first when it is switched on.
+    pub fn usual(&self) -> Option<Value> {
         Some(match self.kind {
             ParameterKind::Number { default, .. } => Value::Number(default),
             ParameterKind::Whole { default, .. } => Value::Whole(i64::from(default)),

@@ -19,35 +19,33 @@ pub struct Activity {
 pub struct Running {
     /// Which fidelity.
     pub fidelity: Fidelity,
-    /// Grid, of how many, and round.
-    pub level: (usize, usize, usize),
-    /// ln residual at the start of this grid, now, and at the tolerance.
-    pub decay: (f64, f64, f64),
+    /// Its newest round.
+    pub round: Progress,
+    /// Residual at the start of this grid.
+    first: f64,
 }
 
 impl Running {
     /// Progress between 0 and 1.
     pub fn fraction(&self) -> f32 {
-        let (first, now, last) = self.decay;
-        let here = if first > last { ((first - now) / (first - last)).clamp(0.0, 1.0) } else { 0.0 };
-        ((self.level.0 as f64 + here) / self.level.1.max(1) as f64) as f32
+        let Progress { level, levels, residual, tolerance, .. } = self.round;
+        let fell = |to: f64| (self.first / to.max(f64::MIN_POSITIVE)).ln();
+        let here = if fell(tolerance) > 0.0 { (fell(residual) / fell(tolerance)).clamp(0.0, 1.0) } else { 0.0 };
+        ((level as f64 + here) / levels.max(1) as f64) as f32
     }
 
     /// In words.
     pub fn text(&self) -> String {
-        format!("solving {}, grid {} of {}, round {}", self.fidelity, self.level.0 + 1, self.level.1, self.level.2)
+        let Progress { level, levels, iteration, .. } = self.round;
+        format!("solving {}, grid {} of {levels}, round {iteration}", self.fidelity, level + 1)
     }
 }
 
 impl Activity {
     /// Takes the progress of the request's solve at `fidelity`.
     pub fn advance(&mut self, fidelity: Fidelity, progress: &Progress) {
-        let now = progress.residual.max(f64::MIN_POSITIVE).ln();
-        let same = self.running.filter(|running| running.fidelity == fidelity && running.level.0 == progress.level);
-        self.running = Some(Running {
-            fidelity,
-            level: (progress.level, progress.levels, progress.iteration),
-            decay: (same.map_or(now, |running| running.decay.0), now, progress.tolerance.ln()),
-        });
+        let same = self.running.filter(|running| running.fidelity == fidelity && running.round.level == progress.level);
+        let first = same.map_or(progress.residual.max(f64::MIN_POSITIVE), |running| running.first);
+        self.running = Some(Running { fidelity, round: *progress, first });
     }
 }

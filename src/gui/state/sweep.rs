@@ -50,12 +50,7 @@ impl AxisForm {
         let mut form = Self { key, from: String::new(), to: String::new(), count: count.to_string(), log: false };
         let Some(parameter) = Parameter::find(key) else { return form };
         let (range, log) = slider_range(scene, parameter);
-        let default = match parameter.kind {
-            ParameterKind::Number { default, .. } => default,
-            ParameterKind::Whole { default, .. } => f64::from(default),
-            _ => 0.0,
-        };
-        let present = scene.get(key).and_then(|value| value.as_number()).unwrap_or(default);
+        let present = scene.get(key).or(parameter.usual()).and_then(|value| value.as_number()).unwrap_or_default();
         // What is beyond the slider is still allowed.
         let range = if range.contains(present) { range } else { scene.range(key).unwrap_or(range) };
         let wanted = if log {

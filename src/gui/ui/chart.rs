@@ -366,8 +366,15 @@ impl<'a> Inset<'a> {
     }
 }
 
+/// The x of the chart `name` that was clicked, or that its vertical line was dragged to.
+pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<()>, line: Option<f64>, name: &str) -> Option<f64> {
+    let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
+    let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
+    line.and_then(|x| dragged(ui, &shown.transform, x, name)).or(clicked)
+}
+
 /// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
-pub(super) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
+fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
     let place = pos2(at.position_from_point_x(x), at.frame().center().y);
     let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
     if !strip.is_positive() {

@@ -207,15 +207,6 @@ pub(super) fn has_fields(recording: &Recording) -> bool {
     recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()
 }
 
-/// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
-pub(super) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
-    if !has_fields(recording) {
-        ui.label("This run has no fields to show.");
-        return None;
-    }
-    room(ui)
-}
-
 /// Takes the whole of `ui`; `None`, with a word about it, if that is too little to draw in.
 pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
     let size = ui.available_size();
@@ -352,10 +343,16 @@ pub(super) fn field_colours() -> &'static [Color32; 256] {
     COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
 }
 
-/// Colours of the field per pascal over a range; none where both ends are written as the same number, and the rest is noise.
-pub(super) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
-    let [least, most] = ends([low / 1e3, high / 1e3]);
-    if least == most { 0.0 } else { 255.0 / (high - low) }
+/// The colour of a value of the field, of which these get the first colour and the last.
+pub(super) fn colour_between([low, high]: [f64; 2]) -> impl Fn(f64) -> Color32 {
+    let (colours, per_unit) = (field_colours(), 255.0 / (high - low).max(f64::MIN_POSITIVE));
+    move |value| colours[((value - low) * per_unit).clamp(0.0, 255.0) as usize]
+}
+
+/// The same of pressures \[Pa\]; of those that are written as the same number there is one, since the rest is noise.
+pub(super) fn pressure_colour(range: [f64; 2]) -> impl Fn(f64) -> Color32 {
+    let [least, most] = ends(range.map(|pascal| pascal / 1e3));
+    colour_between(if least == most { [range[0], f64::INFINITY] } else { range })
 }
 
 #[cfg(test)]

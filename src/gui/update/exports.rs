@@ -19,10 +19,7 @@ impl Updater {
         }
         let path = match export.complete(path.to_owned()) {
             Ok(path) => path,
-            Err(reason) => {
-                self.state.failed_path = Some((Purpose::Export(export), path.display().to_string()));
-                return self.state.fail(reason);
-            }
+            Err(reason) => return self.fail_at(Purpose::Export(export), path, reason),
         };
         let Some(content) = self.content(export) else { return };
         let work = Files { path, content };

@@ -135,10 +135,10 @@ impl Updater {
                 self.state.view.opened += 1;
                 self.scene_replaced();
             }
-            Err(error) => {
-                self.state.failed_path = path.map(|path| (Purpose::Open, path.display().to_string()));
-                self.state.fail(error);
-            }
+            Err(error) => match path {
+                Some(path) => self.fail_at(Purpose::Open, &path, error),
+                None => self.state.fail(error),
+            },
         }
     }
 
@@ -158,10 +158,7 @@ impl Updater {
         };
         match named {
             Ok(path) => self.save_to(&path, then),
-            Err(reason) => {
-                self.state.failed_path = Some((Purpose::Save(None), path.display().to_string()));
-                self.state.fail(reason);
-            }
+            Err(reason) => self.fail_at(Purpose::Save(None), &path, reason),
         }
     }
 
@@ -174,10 +171,7 @@ impl Updater {
                 self.state.exports.wrote(vec![path.to_owned()], now);
                 then.into_iter().for_each(|next| self.proceed_now(next));
             }
-            Err(error) => {
-                self.state.failed_path = Some((Purpose::Save(None), path.display().to_string()));
-                self.state.fail(error);
-            }
+            Err(error) => self.fail_at(Purpose::Save(None), path, error),
         }
     }
 

@@ -64,6 +64,12 @@ impl Updater {
         Task::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
+    /// Says why something did not come of a file; its path is offered to whoever tries once more.
+    pub(super) fn fail_at(&mut self, purpose: Purpose, path: &Path, error: impl ToString) {
+        self.state.failed_path = Some((purpose, path.display().to_string()));
+        self.state.fail(error);
+    }
+
     /// The scene in SI units; what is wrong with it is said.
     pub(super) fn problem(&mut self) -> Option<Problem> {
         Problem::try_from(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()

@@ -298,14 +298,9 @@ impl Panel<'_> {
         let mut on = present;
         let explanation = self.explanation(parameter);
         if ui.checkbox(&mut on, parameter.switch).hint_beside(ui, &explanation).changed() {
-            self.cx.push(match (on, parameter.kind) {
-                (true, ParameterKind::Number { default, .. }) => {
-                    Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
-                }
-                (true, ParameterKind::Whole { default, .. }) => {
-                    Command::Set { key: parameter.key, value: Value::Whole(i64::from(default)), dragging: false }
-                }
-                _ => Command::Reset { key: parameter.key },
+            self.cx.push(match parameter.usual().filter(|_| on) {
+                Some(value) => Command::Set { key: parameter.key, value, dragging: false },
+                None => Command::Reset { key: parameter.key },
             });
         }
         if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {

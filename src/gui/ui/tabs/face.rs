@@ -10,7 +10,7 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::paint::{PlotStyle, field_colours};
+use crate::gui::ui::paint::{PlotStyle, colour_between};
 use crate::surface::height_map::HeightMap;
 use eframe::egui::{self, Color32, ColorImage, Grid, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -77,16 +77,14 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
 }
 
 /// The heights in the colours of fields, y upwards.
-fn picture(map: &HeightMap, [low, high]: [f64; 2]) -> ColorImage {
-    let size = [map.nx.min(DRAWN), map.ny.min(DRAWN)];
-    let colours = field_colours();
+fn picture(map: &HeightMap, range: [f64; 2]) -> ColorImage {
+    let (size, colour) = ([map.nx.min(DRAWN), map.ny.min(DRAWN)], colour_between(range));
     let at = |pixel: usize, pixels: usize, points: usize| (2 * pixel + 1) * points / (2 * pixels);
-    let colour = |k: usize| {
+    let height = |k: usize| {
         let (ix, iy) = (at(k % size[0], size[0], map.nx), at(k / size[0], size[1], map.ny));
-        let height = map.heights[(map.ny - 1 - iy) * map.nx + ix];
-        colours[(255.0 * (height - low) / (high - low).max(f64::MIN_POSITIVE)).clamp(0.0, 255.0) as usize]
+        map.heights[(map.ny - 1 - iy) * map.nx + ix]
     };
-    ColorImage::new(size, (0..size[0] * size[1]).map(colour).collect())
+    ColorImage::new(size, (0..size[0] * size[1]).map(|k| colour(height(k))).collect())
 }
 
 fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {

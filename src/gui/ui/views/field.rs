@@ -1,7 +1,7 @@
 //! The pressure map as a picture: resampled from the graded nodes to pixels, one texture for each map on screen.
 
 use crate::fidelity::Fidelity;
-use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
+use crate::gui::ui::paint::{Axes, PlotStyle, pressure_colour};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Plane, between};
 use eframe::egui::{Color32, ColorImage, Id, Rect, TextureHandle, TextureOptions, Ui, pos2};
@@ -73,9 +73,7 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], gro
     let half = sample::half_width(recording);
     let places: Vec<Option<(usize, f64)>> =
         (0..rows).map(|j| plane.row(half * (1.0 - (2.0 * j as f64 + 1.0) / rows as f64))).collect();
-    let colours = field_colours();
-    let [low, high] = stamp.range;
-    let per_colour = colours_per_pascal([low, high]);
+    let colour = pressure_colour(stamp.range);
     let mut values = vec![0.0; recording.map_y.len()];
     for i in 0..columns {
         let x = stamp.x[0] + (i as f64 + 0.5) / columns as f64 * (stamp.x[1] - stamp.x[0]);
@@ -85,8 +83,7 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], gro
         }
         for (j, place) in places.iter().enumerate() {
             if let Some(place) = *place {
-                let colour = (between(&values, place) - low) * per_colour;
-                pixels[j * columns + i] = colours[colour.clamp(0.0, 255.0) as usize];
+                pixels[j * columns + i] = colour(between(&values, place));
             }
         }
     }
@@ -96,6 +93,7 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], gro
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gui::ui::paint::field_colours;
     use crate::recording::LineLoads;
 
     #[test]
@@ -118,8 +116,8 @@ mod tests {
         assert_eq!(at(10, 4), field_colours()[85]);
         assert_eq!(at(30, 4), field_colours()[255]);
         // What is written as one number is one colour.
-        assert_eq!(colours_per_pascal([101_325.0, 101_325.3]), 0.0);
-        assert!((colours_per_pascal([100_000.0, 102_000.0]) - 0.1275).abs() < 1e-12);
+        assert_eq!(pressure_colour([101_325.0, 101_325.3])(101_325.3), field_colours()[0]);
+        assert_eq!(pressure_colour([100_000.0, 102_000.0])(101_000.0), field_colours()[127]);
         for i in 0..columns {
             for j in 0..rows {
                 assert_eq!(at(i, j), at(i, rows - 1 - j));

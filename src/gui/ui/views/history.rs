@@ -6,7 +6,7 @@ use crate::gui::command::StartupCommand;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
 use crate::gui::state::startup::StartupState;
-use crate::gui::ui::chart::{Inset, between, dots, dragged, level, line, upright};
+use crate::gui::ui::chart::{Inset, between, chosen, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::job::SolvedScene;
@@ -114,7 +114,7 @@ fn plot(
     let name = format!("{}: click to look at a cycle", quantity.titles[0]);
     let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], [low - margin, high + margin]];
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
-    let chosen = startup.chosen as f64;
+    let present = startup.chosen as f64;
     let shown = inset.show(ui, style, |plot| {
         if let Some(Estimate { value: aim, error }) = aim {
             let band = Span::new("", aim - reach(error)..=aim + reach(error)).axis(Axis::Y);
@@ -130,19 +130,17 @@ fn plot(
         let kept = startup.kept().filter_map(|kept| curve.get(kept.wrapping_sub(1)).copied());
         plot.points(dots("", kept.collect(), film, 2.0));
         if let Some(at) = curve.get(startup.chosen.wrapping_sub(1)) {
-            plot.vline(upright(chosen, style.palette.accent, 1.0));
+            plot.vline(upright(present, style.palette.accent, 1.0));
             plot.points(dots("", vec![*at], style.palette.accent, 4.5));
             plot.points(dots("", vec![*at], film, 3.0));
         }
     });
-    let response = shown.response.on_hover_cursor(CursorIcon::PointingHand);
-    let at = |place: Pos2| shown.transform.value_from_position(place).x;
-    let clicked = response.interact_pointer_pos().filter(|_| response.clicked()).map(at);
-    let to = dragged(ui, &shown.transform, chosen, &name).filter(|_| startup.chosen > 0);
     let cycle = |x: f64| x.round().max(1.0) as usize;
-    if let Some(x) = to.or(clicked) {
+    if let Some(x) = chosen(ui, &shown, Some(present).filter(|_| startup.chosen > 0), &name) {
         cx.push(StartupCommand::Choose(cycle(x)));
     }
+    let response = shown.response.on_hover_cursor(CursorIcon::PointingHand);
+    let at = |place: Pos2| shown.transform.value_from_position(place).x;
     let hovered = response.hover_pos().and_then(|place| points.get(cycle(at(place)) - 1));
     if let Some(row) = hovered {
         response.on_hover_text_at_pointer(words(row));

@@ -4,6 +4,7 @@
 use super::field::{self, Stamp};
 use super::map::y_labels;
 use super::plate::wall_and_plate;
+use super::pointer::named;
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
@@ -11,12 +12,12 @@ use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::chart::{Inset, between, dots, level, line};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, field_colours, room};
+use crate::gui::ui::paint::{Axes, Column, PlotStyle, colour_between, room};
 use crate::hold::Reading;
 use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
-use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::LineStyle;
 
 /// Parts of the drawing below the stator's face, and above the highest underside of the plate.
@@ -92,8 +93,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
 /// The drag that moves the plate: where it was taken it stays in the hand.
 fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     let name = "Held plate: drag it up and down";
-    let response = ui.interact(axes.rect, ui.scope_id().with(name), Sense::drag());
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
+    let response = named(ui, axes.rect, name, Sense::drag());
     let per_point = (axes.y[1] - axes.y[0]) / f64::from(axes.rect.height());
     let id = response.id.with("in hand");
     if let Some(at) = response.interact_pointer_pos() {
@@ -155,9 +155,7 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
 
 /// The film, coloured by the pressure at mid-width.
 fn film(style: &PlotStyle, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
-    let [low, high] = hold.pressure_range;
-    let colours = field_colours();
-    let colour = |pressure: f64| colours[(255.0 * (pressure - low) / (high - low)).clamp(0.0, 255.0) as usize];
+    let colour = colour_between(hold.pressure_range);
     style.shaded(profile_points(hold).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
 }
 

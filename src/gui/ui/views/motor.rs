@@ -10,7 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
 use crate::recording::sample::{self, Lines};
-use eframe::egui::{self, CursorIcon, Pos2, Rect, Stroke, StrokeKind, pos2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, pos2};
 
 /// Where the parts go.
 #[derive(Clone, Copy, Debug)]
@@ -85,8 +85,10 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     wave::ellipse(&style.clipped(area.expand(0.6 * style.row)), &axes, shown);
     read_out(&readout(shown), &inside, layout.readout);
 
-    let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
-    let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
+    let name = "Motor along one wavelength: point to read values, click a tooth to follow it";
+    let wave = named(ui, layout.wave, name, Sense::click());
+    let name = "Pressure maps of the teeth: point to read values, click a tooth to follow it";
+    let map = named(ui, layout.map, name, Sense::click());
     let along = |at: Pos2| axes.x_at(at.x);
     let charted_along = |at: Pos2| Some(1e-3 * charted.transform.value_from_position(at).x);
     let charted_response = charted.response.clone();

@@ -107,13 +107,9 @@ impl Along {
         (chart.response, x)
     }
 
-    /// x under the pointer as the other views have it \[m\], and back.
-    fn to_metres(&self, x: f64) -> f64 {
-        if self.alike { x } else { x * self.first }
-    }
-
-    fn on_axis(&self, x: f64) -> f64 {
-        if self.alike { x } else { x / self.first }
+    /// What a metre of the first run is, which the x that all views have is of.
+    fn of_first(&self) -> f64 {
+        self.metre(self.first)
     }
 
     /// Tells the other views where on the axis the pointer is, and shows the values of all `runs` there: `of` writes those of one, below `heads`.
@@ -128,7 +124,7 @@ impl Along {
     ) {
         let response = response.on_hover_cursor(CursorIcon::Crosshair);
         let Some(x) = x else { return };
-        cx.point_at(self.to_metres(x));
+        cx.point_at(x / self.of_first());
         response.on_hover_ui_at_pointer(|ui| {
             let (value, unit) = if self.alike { (x * 1e3, "mm") } else { (x, lengths) };
             ui.label(format!("x {} {unit}", number(value)));
@@ -172,7 +168,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         [-half * metre, (run.recording.length - half) * metre]
     });
     let x = common(ends);
-    let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
+    let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
 
     let axes = draw_surfaces(&inside, wave, runs, x, &along, cursor);
     let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
@@ -220,7 +216,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     let names =
         ["Motors along one wavelength: point to read values", "Pressure maps of the motors: point to read values"];
     let painted = [(wave, names[0]), (maps, names[1])].map(|(rect, name)| {
-        let response = named(ui, rect, name);
+        let response = named(ui, rect, name, Sense::click());
         let x = response.hover_pos().and_then(|at| axes.x_at(at.x));
         (response, x)
     });
@@ -241,9 +237,7 @@ fn key_beside(painter: &Painter, map: Rect, colour: Color32) {
 /// What a map is, for screen readers.
 fn map_name(ui: &Ui, rect: Rect, label: &str, range: [f64; 2]) {
     let [low, high] = range.map(|pressure| number(pressure / 1e3));
-    let name = format!("Pressure map of {label}, colours from {low} to {high} kPa");
-    let response = ui.interact(rect, ui.scope_id().with(&name), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, &name));
+    named(ui, rect, &format!("Pressure map of {label}, colours from {low} to {high} kPa"), Sense::hover());
 }
 
 /// The period that all have; not a number if they differ.
@@ -289,7 +283,7 @@ fn draw_surfaces(
     let [low, high] = common(heights);
     let margin = 0.08 * (high - low).max(1e-9);
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
-    let vertical = times(axes.exaggeration() * along.to_metres(1.0));
+    let vertical = times(axes.exaggeration() / along.of_first());
     axes.canvas(style);
     style.scale_bar(&axes);
     let titles = [
@@ -376,7 +370,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let chart = column.next(title, 0.52 * body);
     let along = Along::of(runs.iter().map(|run| run.of.length));
     let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.of.length * along.metre(run.of.length))));
-    let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
+    let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
     let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
     let ambient = common(runs.iter().map(|run| [run.of.gas.ambient_pressure; 2]));
     let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);

@@ -13,7 +13,7 @@ use crate::gui::ui::paint::{Axes, Column, PlotStyle};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
-use eframe::egui::{self, Color32, CursorIcon, Rect, Stroke, pos2};
+use eframe::egui::{self, Color32, CursorIcon, Rect, Sense, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
 
 const LOOP_SAMPLES: u32 = 180;
@@ -70,8 +70,9 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
     read_out(&readout(shown), &inside, place);
 
-    let wall_response = named(ui, wall, "Plate along its length: point to read values");
-    let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
+    let wall_response = named(ui, wall, "Plate along its length: point to read values", Sense::click());
+    let name = "Pressure map of the plate: point to read values";
+    let map_response = with_map.then(|| named(ui, last, name, Sense::click()));
     let painted = [Some(wall_response), map_response].into_iter().flatten();
     let painted =
         painted.filter_map(|response| axes.x_at(response.on_hover_cursor(CursorIcon::Crosshair).hover_pos()?.x));

@@ -3,9 +3,9 @@
 use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{self, Align2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
-/// A named region that is clicked.
-pub(super) fn named(ui: &Ui, rect: Rect, name: &str) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(name), Sense::click());
+/// A named region that is pointed at, clicked or dragged.
+pub(super) fn named(ui: &Ui, rect: Rect, name: &str, sense: Sense) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with(name), sense);
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
     response
 }

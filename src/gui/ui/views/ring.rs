@@ -2,19 +2,18 @@
 //! turned with the mouse or, once it has the keyboard, with the arrow keys. Where things are is in `derived::ring`.
 
 use super::frame::Frame;
+use super::pointer::named;
 use super::wave::TOOTH;
 use crate::gui::command::Command;
 use crate::gui::derived::format::times;
 use crate::gui::derived::ring::{Face, Orbit, Part, Ring};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::describe;
-use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
+use crate::gui::ui::paint::{Axes, PlotStyle, pressure_colour};
 use crate::gui::ui::theme;
 use crate::problem::Motor;
 use eframe::egui::epaint::{Mesh, Shape};
-use eframe::egui::{
-    self, CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
-};
+use eframe::egui::{self, CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2};
 use std::f32::consts::PI;
 
 const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
@@ -53,8 +52,7 @@ pub(super) fn draw(
     let faces = ring.faces(orbit);
     style.painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.ranges.pressure)));
 
-    let response = ui.interact(rect, ui.scope_id().with("ring"), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, NAME));
+    let response = named(ui, rect, NAME, Sense::click_and_drag());
     describe(&response, || ABOUT.to_owned());
     if response.has_focus() {
         style.painter.rect_stroke(rect, 2.0, Stroke::new(1.0, style.palette.accent), StrokeKind::Inside);
@@ -90,8 +88,7 @@ fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
 
 /// The faces, `scale` points to a contact radius, round the middle of `rect`; `range`: pressures of the first and last colour.
 fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
-    let (low, per_colour) = (range[0], colours_per_pascal(range));
-    let colours = field_colours();
+    let coloured = pressure_colour(range);
     let palette = &style.palette;
     let [stator, rotor] = [palette.stator, palette.rotor].map(|colour| style.solid(colour));
     let mut mesh = Mesh::default();
@@ -100,7 +97,7 @@ fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f
     for face in faces {
         let lit = |colour| [theme::lit(colour, face.light as f32); 2];
         let [from, to] = match face.part {
-            Part::Film(ends) => ends.map(|p| colours[((p - low) * per_colour).clamp(0.0, 255.0) as usize]),
+            Part::Film(ends) => ends.map(&coloured),
             Part::Stator => lit(stator),
             Part::Followed => lit(palette.accent),
             Part::Rotor => lit(rotor),

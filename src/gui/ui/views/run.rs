@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::{motor, plate};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::area;
+use crate::gui::ui::paint::{has_fields, room};
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Scenario};
 use eframe::egui::Ui;
@@ -18,7 +18,10 @@ pub fn show(
     first: Option<&SolvedScene>,
     cx: &DrawContext<'_>,
 ) {
-    let Some(area) = area(ui, &run.solution.recording) else { return };
+    if !has_fields(&run.solution.recording) {
+        return drop(ui.label("This run has no fields to show."));
+    }
+    let Some(area) = room(ui) else { return };
     let first = first.filter(|first| first.number != run.number);
     if let Some(shown) = frame(ui, run, within, first, motor_of, cx) {
         motor::show(ui, area, &shown, cx);

@@ -2,7 +2,7 @@
 
 use crate::gui::command::Command;
 use crate::gui::derived::scales::Curve;
-use crate::gui::ui::chart::{Inset, dots, dragged, line, upright};
+use crate::gui::ui::chart::{Inset, chosen, dots, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{Color32, Rect, Ui};
@@ -68,9 +68,7 @@ impl Series<'_> {
                 plot.points(dots("", vec![point(now)], trace.colour, 3.5));
             }
         });
-        let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
-        let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
-        if let Some(x) = dragged(ui, &shown.transform, now * scale, &name).or(clicked) {
+        if let Some(x) = chosen(ui, &shown, Some(now * scale), &name) {
             cx.push(Command::Seek((x / scale).clamp(0.0, 1.0 - 1e-9)));
         }
     }

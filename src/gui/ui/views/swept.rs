@@ -20,7 +20,7 @@ use crate::gui::ui::chart::{Chart, between, legend, line, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::paint::{PlotStyle, field_colours};
+use crate::gui::ui::paint::{PlotStyle, colour_between};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::scene::Scale;
 use crate::solution::StoppedBy;
@@ -304,7 +304,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
 fn ground(plot: &mut PlotUi<'_>, drawn: &Drawn, font: FontId) {
     let [low, high] = span(drawn.values.iter().copied());
     let part = |value: f64| if high > low { (value - low) / (high - low) } else { 0.0 };
-    let colour = |value: f64| field_colours()[(255.0 * part(value)).clamp(0.0, 255.0) as usize];
+    let colour = colour_between([low, high]);
     let rows = drawn.edges[1].len().saturating_sub(1).max(1);
     for (k, value) in drawn.values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
         let [[left, bottom], [right, top]] = drawn.cell(k / rows, k % rows);
