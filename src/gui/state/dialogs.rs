@@ -46,11 +46,24 @@ const TABLE: Filter = Some(("Table", &["csv"]));
 const REPORT: Filter = Some(("Report", &["html"]));
 const FIGURE: Filter = Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }));
 
+/// What there is to say of an export.
+#[derive(Clone, Copy, Debug)]
+pub struct Described {
+    /// Its entry in menus.
+    pub entry: &'static str,
+    /// What its file is called at first.
+    pub file_name: &'static str,
+    /// Kind of file and its extensions; `None` for a folder.
+    pub filter: Filter,
+    /// What is written, for whoever has to choose.
+    pub about: &'static str,
+}
+
 impl Export {
-    /// Its entry in menus, what its file is called at first, the kind of file, and what is written.
+    /// What there is to say of it.
     #[rustfmt::skip]
-    fn described(self) -> (&'static str, &'static str, Filter, &'static str) {
-        match self {
+    pub fn described(self) -> Described {
+        let (entry, file_name, filter, about): (_, _, Filter, _) = match self {
             Self::Data => ("All results, into a folder…", "results", None,
                 "Everything about the run on screen: the scene, the numbers as JSON, loads and fields as CSV and NumPy arrays, and all figures"),
             Self::Figures => ("Figures, into a folder…", "figures", None,
@@ -77,48 +90,21 @@ impl Export {
                 "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"),
             Self::Answers => ("Save my answers…", "answers.csv", Some(("Record", &["csv", "jsonl"])),
                 "What you answered and did in lessons, to hand in: nothing leaves this computer by itself"),
-        }
-    }
-
-    /// Its entry in menus.
-    pub fn entry(self) -> &'static str {
-        self.described().0
+        };
+        Described { entry, file_name, filter, about }
     }
 
     /// What is asked.
     pub fn title(self) -> &'static str {
-        self.entry().trim_end_matches('…')
-    }
-
-    /// What its file is called at first.
-    pub fn file_name(self) -> &'static str {
-        self.described().1
-    }
-
-    /// Kind of file and its extensions; `None` for a folder.
-    pub fn filter(self) -> Filter {
-        self.described().2
-    }
-
-    /// What is written, for whoever has to choose.
-    pub fn about(self) -> &'static str {
-        self.described().3
-    }
-
-    /// `path` with the extension of a format that this is written in: without one it gets the usual one.
-    ///
-    /// # Errors
-    /// If its folder is not there, its extension is that of something else, or there is a file already under the completed name, which
-    /// nobody has agreed to replace.
-    pub fn complete(self, path: PathBuf) -> Result<PathBuf, String> {
-        self.filter().map_or(Ok(path.clone()), |(kind, extensions)| complete(path, kind, extensions))
+        self.described().entry.trim_end_matches('…')
     }
 }
 
 /// `path` of a `kind` of file with one of `extensions`, the first if it has none.
 ///
 /// # Errors
-/// As [`Export::complete`].
+/// If its folder is not there, its extension is that of something else, or there is a file already under the completed name, which
+/// nobody has agreed to replace.
 pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         return Err(format!("{}: there is no folder {}", path.display(), folder.display()));
@@ -185,7 +171,7 @@ impl Purpose {
         match self {
             Self::Open | Self::Save(_) => Some(("Preset", &["toml"])),
             Self::Picture(_) => Some(("Picture", &["png"])),
-            Self::Export(export) => export.filter(),
+            Self::Export(export) => export.described().filter,
             Self::Lessons => None,
             Self::Measurements => TABLE,
             Self::Heights => Some(("Heights", &["csv", "txt"])),

@@ -184,7 +184,7 @@ impl State {
                 format!("{}.toml", stem.to_lowercase())
             }
             (Purpose::Picture(_), _) => PICTURE.to_owned(),
-            (Purpose::Export(export), _) => export.file_name().to_owned(),
+            (Purpose::Export(export), _) => export.described().file_name.to_owned(),
             (Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights, _) => String::new(),
         }
     }

@@ -92,6 +92,13 @@ impl<'a> DrawContext<'a> {
         }
     }
 
+    /// Asks for `command` if what `response` is of was changed.
+    pub fn on_change(&self, response: &Response, command: impl Into<Command>) {
+        if response.changed() {
+            self.push(command);
+        }
+    }
+
     /// A button that asks for `command`; `about` is told on hover.
     pub fn button(&self, ui: &mut Ui, text: &str, about: impl Into<String>, command: impl Into<Command>) {
         self.on_click(&ui.button(text).hint(about), command);

@@ -3,7 +3,7 @@
 use super::updater::{REDRAW, Updater};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
-use crate::gui::state::dialogs::{Export, Purpose};
+use crate::gui::state::dialogs::{Export, Purpose, complete};
 use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
@@ -17,7 +17,8 @@ impl Updater {
             self.state.fail("Another export goes on: wait until it has ended, or cancel it.");
             return;
         }
-        let path = match export.complete(path.to_owned()) {
+        let kind = export.described().filter;
+        let path = match kind.map_or(Ok(path.to_owned()), |(kind, allowed)| complete(path.to_owned(), kind, allowed)) {
             Ok(path) => path,
             Err(reason) => return self.fail_at(Purpose::Export(export), path, reason),
         };

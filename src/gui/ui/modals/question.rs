@@ -126,7 +126,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
         cx.note(ui, text);
         ui.add_space(6.0);
     }
-    let folder = matches!(&prompt.purposes[..], [Purpose::Export(export)] if export.filter().is_none());
+    let folder = prompt.purposes.iter().all(|purpose| purpose.filter().is_none());
     let label = ui.label(if folder { "Folder" } else { "Path" });
     let mut typed = prompt.path.clone();
     let field = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY)).labelled_by(label.id);

@@ -111,9 +111,8 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                     let field = egui::DragValue::new(&mut number).speed(0.01).max_decimals(6);
                     let field = field.custom_parser(|text| quantity_text::number(unit, text));
                     let field = ui.add_enabled(!work.committed, field);
-                    if field.labelled_by(name.id).changed() {
-                        cx.push(LessonCommand::Predict(Prediction::Number(number)));
-                    }
+                    let predict = LessonCommand::Predict(Prediction::Number(number));
+                    cx.on_change(&field.labelled_by(name.id), predict);
                     if !unit.is_empty() {
                         ui.label(unit);
                     }

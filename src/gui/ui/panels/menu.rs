@@ -1,7 +1,7 @@
 //! The menu bar.
 
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::state::dialogs::{Export, Purpose};
+use crate::gui::state::dialogs::{Described, Export, Purpose};
 use crate::gui::state::document::Next;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
@@ -68,7 +68,13 @@ pub fn menu(ui: &mut egui::Ui, name: &str, entries: &mut dyn FnMut(&mut egui::Ui
 }
 
 fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &DrawContext<'_>) {
-    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys::of(&command))).clicked() {
+    let entry = ui.add_enabled(enabled, Button::new(text).shortcut_text(keys::of(&command)));
+    take(ui, entry, command, cx);
+}
+
+/// Asks for `command` if this entry was clicked, and closes the menu.
+fn take(ui: &egui::Ui, entry: Response, command: impl Into<Command>, cx: &DrawContext<'_>) {
+    if entry.clicked() {
         cx.push(command);
         ui.close();
     }
@@ -99,11 +105,9 @@ pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) 
 }
 
 fn export_item(ui: &mut egui::Ui, export: Export, enabled: bool, cx: &DrawContext<'_>) {
-    let entry = ui.add_enabled(enabled, Button::new(export.entry()));
-    if beside(ui.max_rect(), entry, export.about()).clicked() {
-        cx.push(Command::Ask(Purpose::Export(export)));
-        ui.close();
-    }
+    let Described { entry, about, .. } = export.described();
+    let entry = ui.add_enabled(enabled, Button::new(entry));
+    take(ui, beside(ui.max_rect(), entry, about), Command::Ask(Purpose::Export(export)), cx);
 }
 
 fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
@@ -153,10 +157,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             (step, ..) => format!("at step {} of {steps}", (step + 1).min(steps)),
         };
         let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
-        if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {
-            cx.push(LessonCommand::Open(i, None));
-            ui.close();
-        }
+        take(ui, beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)), LessonCommand::Open(i, None), cx);
     }
     ui.separator();
     let running = state.running.is_some();
@@ -190,10 +191,7 @@ pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command
                 ui.separator();
             }
             let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));
-            if beside(ui.max_rect(), entry, &scene.about).clicked() {
-                cx.push(command(preset.name));
-                ui.close();
-            }
+            take(ui, beside(ui.max_rect(), entry, &scene.about), command(preset.name), cx);
         }
     });
 }

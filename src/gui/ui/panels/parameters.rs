@@ -217,11 +217,9 @@ impl Panel<'_> {
             // Placed over the row, which keeps its height when the button comes and goes.
             let corner = egui::pos2(right - side, row.response.rect.top());
             let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
-            let response = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
+            let button = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
                 .hint(format!("Reset to {}", self.in_words(parameter, &value)));
-            if response.clicked() {
-                self.cx.push(Command::Set { key: parameter.key, value, dragging: false });
-            }
+            self.cx.on_click(&button, Command::Set { key: parameter.key, value, dragging: false });
         }
         row.inner
     }
@@ -322,9 +320,8 @@ impl Panel<'_> {
             let mut on = on;
             let heeded = self.scene.heeds(parameter.key);
             let checkbox = ui.add_enabled(heeded, egui::Checkbox::new(&mut on, label(parameter)));
-            if checkbox.hint_beside(ui, &explanation).changed() {
-                self.cx.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
-            }
+            let set = Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false };
+            self.cx.on_change(&checkbox.hint_beside(ui, &explanation), set);
         });
     }
 

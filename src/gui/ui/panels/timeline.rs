@@ -86,13 +86,8 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
 
 fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {
     let play = if playing { "Pause" } else { "Play" };
-    if ui
-        .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
-        .hint(keys::about(&Command::TogglePlay))
-        .clicked()
-    {
-        cx.push(Command::TogglePlay);
-    }
+    let button = ui.add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play));
+    cx.on_click(&button.hint(keys::about(&Command::TogglePlay)), Command::TogglePlay);
     for (arrow, by) in [("◀", -1), ("▶", 1)] {
         cx.button(ui, arrow, keys::about(&Command::StepFrames(by)), Command::StepFrames(by));
     }

@@ -33,8 +33,8 @@ const HEADS: [f32; 2] = [11.0, 7.5];
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs.is_empty() && pins.waiting.is_empty() {
-        if pins.can_restore() && ui.button("Bring the pins back").hint("Those that were removed together").clicked() {
-            cx.push(PinCommand::Restore);
+        if pins.can_restore() {
+            cx.button(ui, "Bring the pins back", "Those that were removed together", PinCommand::Restore);
         }
         introduction(ui, cx);
         return;
@@ -207,9 +207,8 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
         ui.label(RichText::new("Parameters").strong());
         let mut differing = !pins.all_parameters;
         let about = "Leaves out the parameters in which all pinned runs are alike";
-        if ui.checkbox(&mut differing, "Only those that differ").hint(about).changed() {
-            cx.push(PinCommand::AllParameters(!differing));
-        }
+        let checkbox = ui.checkbox(&mut differing, "Only those that differ").hint(about);
+        cx.on_change(&checkbox, PinCommand::AllParameters(!differing));
         let rows: Vec<&ParameterRow> =
             pins.parameters.iter().filter(|row| pins.all_parameters || row.differs()).collect();
         if rows.is_empty() {

@@ -55,9 +55,8 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
         // The plate follows a whole number, not each of its digits.
         let slider = slider.update_while_editing(false).custom_parser(|text| quantity_text::number("µm", text));
-        if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
-            cx.push(HoldCommand::To(gap * 1e-6));
-        }
+        let slider = ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓");
+        cx.on_change(&slider, HoldCommand::To(gap * 1e-6));
         let floats = hold.plate.load.is_some();
         let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
         let (text, about, vibrates) = match hold.free {
@@ -73,9 +72,8 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
         let label = glossary::term(ui, "Leak time takes", "Leak time");
         let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);
-        if ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is").changed() {
-            cx.push(HoldCommand::Seconds(seconds));
-        }
+        let slider = ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is");
+        cx.on_change(&slider, HoldCommand::Seconds(seconds));
         glossary::term(ui, format!("slowed {}×", thousands(hold.slowed())), "Slow motion");
     });
 }

@@ -62,7 +62,7 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
         }
         if state.found.is_some() {
             let export = Command::Ask(Purpose::Export(Export::Sensitivity));
-            cx.button(ui, "Export…", Export::Sensitivity.about(), export);
+            cx.button(ui, "Export…", Export::Sensitivity.described().about, export);
         }
     });
 }
@@ -149,18 +149,13 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
         let words = glossary::term(ui, "Random scenes", "Random scenes");
         let mut draws = state.draws();
         let field = egui::DragValue::new(&mut draws).range(DRAWS).speed(10.0);
-        if ui.add(field).labelled_by(words.id).hint("How many are solved").changed() {
-            cx.push(SensitivityCommand::Draws(draws));
-        }
+        let field = ui.add(field).labelled_by(words.id).hint("How many are solved");
+        cx.on_change(&field, SensitivityCommand::Draws(draws));
         let can = !uncertainties.is_empty() && state.running().is_none();
         let button = ui.add_enabled(can, egui::Button::new("Draw and solve"));
         let button = button.on_disabled_hover_text("Give a parameter an uncertainty in the table below first");
-        if button
-            .hint("Draws every uncertain parameter at random and solves the scene, again and again (Monte Carlo)")
-            .clicked()
-        {
-            cx.push(SensitivityCommand::Draw);
-        }
+        let about = "Draws every uncertain parameter at random and solves the scene, again and again (Monte Carlo)";
+        cx.on_click(&button.hint(about), SensitivityCommand::Draw);
     });
     let Some(carlo) = state.carlo.as_ref() else { return };
     let failed = carlo.failures.len();
@@ -239,7 +234,6 @@ fn field(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx: &DrawContex
     let usual = format!("A standard deviation in {unit} or in per cent, as 20%; with ± in front limits, as ±10%");
     let about = refused.map_or(usual, str::to_owned);
     let name = format!("Uncertainty of {}", label(parameter));
-    if ui.add(editor).accessible_name(name).hint(about).changed() {
-        cx.push(SensitivityCommand::Uncertainty(parameter.key, text));
-    }
+    let field = ui.add(editor).accessible_name(name).hint(about);
+    cx.on_change(&field, SensitivityCommand::Uncertainty(parameter.key, text));
 }

@@ -60,9 +60,8 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
         let mut follow = startup.follows_newest;
         let hover = "Shows each cycle as soon as it is computed";
-        if ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover).changed() {
-            cx.push(StartupCommand::Follow(follow));
-        }
+        let checkbox = ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover);
+        cx.on_change(&checkbox, StartupCommand::Follow(follow));
         let hover = "Plays the cycles that are kept one after the other, from the first";
         cx.button(ui, "Play from rest", hover, StartupCommand::Replay);
     });

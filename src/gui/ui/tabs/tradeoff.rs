@@ -76,7 +76,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
-                cx.button(ui, text, export.about(), Command::Ask(Purpose::Export(export)));
+                cx.button(ui, text, export.described().about, Command::Ask(Purpose::Export(export)));
             }
         }
     });
@@ -155,12 +155,12 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
             .range(range)
             .speed(speed)
             .custom_formatter(|value, _| short(value, 3));
-        if ui.add(drag).labelled_by(label.id).hint(about).changed() {
-            cx.push(Command::Target(match target {
-                Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
-                Target::Budget(_) => Target::Budget(1e-3 * value),
-            }));
-        }
+        let field = ui.add(drag).labelled_by(label.id).hint(about);
+        let changed = match target {
+            Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
+            Target::Budget(_) => Target::Budget(1e-3 * value),
+        };
+        cx.on_change(&field, Command::Target(changed));
         let Some(point) = tradeoff.choose(target).and_then(|i| tradeoff.points.get(i)) else {
             ui.add(egui::Label::new(RichText::new("no setting serves").color(cx.colours.alarm)));
             return;
