@@ -156,10 +156,19 @@ fn without_a_file_dialog_the_path_is_typed() {
 #[test]
 fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
+    let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
+    let reason = |window: &Window, key: &str| window.known().rejected.of(key).map(str::to_owned);
+    window.state_mut().carry_out(Command::SetText { key: viscosity, text: "0".to_owned() });
     window.type_into("Contact radius in mm", "5");
     window.get_by_label_contains("of the tooth pitch");
+    // A little narrower: other numbers in the reason. Much narrower: no reason left.
+    let before = reason(&window, radius);
+    window.type_into("Tooth width in mm", "1");
+    assert!(before.is_some() && reason(&window, radius).is_some_and(|reason| Some(reason) != before));
     window.type_into("Tooth width in mm", "0.3");
     assert!(window.query_by_label_contains("of the tooth pitch").is_none());
+    assert_eq!(reason(&window, radius), None);
+    assert!(reason(&window, viscosity).is_some(), "that one is out of range whatever else holds");
     assert_eq!(window.known().document.scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
 }
 

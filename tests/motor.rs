@@ -12,6 +12,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::{self, Periodic};
 use squeezefilm::plan::{Choice, Plan};
 use squeezefilm::problem::{Motor, Problem, RotorCompliance, Scenario};
+use squeezefilm::recording::sample::Lines;
 use squeezefilm::rotor::Wave;
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Settings, solve as solve_problem};
@@ -420,4 +421,55 @@ fn rounds_of_another_state_are_not_told() {
             "{fidelity}: {told:?}"
         );
     }
+}
+
+#[test]
+fn between_the_teeth_the_rotor_has_the_shape_that_it_has_on_them() {
+    let motor = motor_with(&[]);
+    let recording = &solve(&motor, Fidelity::Draft).recording;
+    let wave = std::f64::consts::TAU / recording.length;
+    let (mut bent, mut straight) = (0.0_f64, 0.0_f64);
+    for place in [0.0, 0.37 * recording.frames as f64] {
+        let touching = recording.touching;
+        let lines = Lines::at(recording, place);
+        let grooves = lines.grooves(recording, 3);
+        // The whole underside begins and ends half-way over a groove, and runs through all of them.
+        let underside = lines.underside(recording);
+        let (first, end) = (underside[0], underside[underside.len() - 1]);
+        assert!(
+            (end[0] - first[0] - recording.length).abs() < 1e-12 && (first[0] + 0.5 * recording.pitch).abs() < 1e-12
+        );
+        assert!((end[1] - first[1]).abs() < 1e-12 && underside.windows(2).all(|pair| pair[0][0] < pair[1][0] + 1e-12));
+        let of_groove = |[x, height]: [f64; 2]| {
+            underside.iter().any(|at| (at[0] - x).abs() < 1e-12 && (at[1] - height).abs() < 1e-12)
+        };
+        assert!(grooves.iter().all(|groove| of_groove(groove[1])));
+        let last = recording.x.len() - 1;
+        let height = |k: usize| lines.stator[k] + lines.film_thickness[k] - motor.spacing();
+        for (tooth, groove) in grooves.iter().enumerate() {
+            let ends = [lines.of(tooth).start + last, lines.of((tooth + 1) % recording.teeth).start].map(height);
+            // Harmonics of the wave through what is known on the teeth, but for what is pressed in locally: what is between them
+            // follows.
+            let mut known = Vec::new();
+            for other in 0..recording.teeth {
+                for (i, k) in lines.of(other).enumerate() {
+                    let pressed_in = touching.compliance * (lines.contact[k] + lines.film[k]);
+                    known.push((other as f64 * recording.pitch + recording.x[i], height(k) - pressed_in));
+                }
+            }
+            let row = |x: f64| {
+                let pairs = (1..=6).flat_map(|n| <[f64; 2]>::from((f64::from(n) * wave * x).sin_cos()));
+                std::iter::once(1.0).chain(pairs).collect::<Vec<f64>>()
+            };
+            let matrix = nalgebra::DMatrix::from_fn(known.len(), 13, |i, j| row(known[i].0)[j]);
+            let values = nalgebra::DVector::from_fn(known.len(), |i, _| known[i].1);
+            let fitted = matrix.svd(true, true).solve(&values, 1e-12).unwrap();
+            let [x, middle] = groove[1];
+            let expected: f64 = row(x).iter().zip(fitted.iter()).map(|(a, b)| a * b).sum();
+            bent = bent.max((middle - expected).abs());
+            straight = straight.max((0.5 * (ends[0] + ends[1]) - expected).abs());
+        }
+    }
+    // Of a deflection of a micrometre.
+    assert!(bent < 0.2 * straight && straight > 1e-8, "{bent} {straight}");
 }

@@ -71,30 +71,3 @@ impl RejectedEdits {
         });
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_refusal_goes_when_its_cause_is_gone() {
-        let mut scene = Scene::motor();
-        let mut rejected = RejectedEdits::default();
-        let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
-        for (key, value) in [(radius, 5.0), (viscosity, 0.0)] {
-            let change = Change::Value(Value::Number(value));
-            let error = change.applied(&scene, key).unwrap_err();
-            rejected.reject(key, change, error);
-        }
-        assert!(rejected.of(radius).unwrap().contains("of the tooth pitch"));
-        // A little narrower: other numbers in the reason. Much narrower: no reason left.
-        let before = rejected.of(radius).unwrap().to_owned();
-        scene.set("stator.tooth_width_mm", "1").unwrap();
-        rejected.review(&scene);
-        assert_ne!(rejected.of(radius).unwrap(), before);
-        scene.set("stator.tooth_width_mm", "0.3").unwrap();
-        rejected.review(&scene);
-        assert_eq!(rejected.of(radius), None);
-        assert!(rejected.of(viscosity).is_some(), "that one is out of range whatever else holds");
-    }
-}

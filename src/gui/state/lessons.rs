@@ -387,21 +387,3 @@ pub fn window_names<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let (motor, plate) = (labels(false), labels(true));
     read(WindowNames { tabs: [&motor, &plate], places: PLACES })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lessons::Prediction;
-
-    #[test]
-    fn progress_is_read_as_it_was_written() {
-        let mut lessons_state = LessonState::new(None);
-        let work = StepWork { prediction: Some(Prediction::Number(0.1)), committed: true, ..StepWork::default() };
-        let open = Progress { step: 3, done: false, work: vec![work, StepWork::default()] };
-        lessons_state.progress.insert("a lesson with spaces".to_owned(), open);
-        lessons_state.progress.insert("b".to_owned(), Progress { step: 0, done: true, work: Vec::new() });
-        let read = LessonState::new(Some(lessons_state.progress_text()));
-        assert_eq!(read.progress, lessons_state.progress);
-        assert!(LessonState::new(Some("nonsense".to_owned())).progress.is_empty());
-    }
-}
