@@ -608,7 +608,7 @@ fn slow_clock() -> Instant {
 #[test]
 fn the_keyboard_alone_walks_the_first_lesson() {
     let mut window = window::preset("fundamental", 1700.0, Platform { now: slow_clock, ..platform() });
-    window.state_mut().follow(Link::Lesson { lesson: 1, step: 1 });
+    window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 1 });
     solved(&mut window);
     let press = |window: &mut Window, key: Key| {
         window.press(key);
@@ -679,7 +679,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
 #[test]
 fn the_answer_button_is_in_sight_in_lecture_size() {
     let mut window = window::preset("fundamental", 768.0, platform());
-    window.state_mut().follow(Link::Lesson { lesson: 1, step: 3 });
+    window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 3 });
     window.state_mut().carry_out(Command::ToggleLecture);
     window.run_steps(10);
     let button = window.get_by_label("This is my prediction").rect();
@@ -689,7 +689,7 @@ fn the_answer_button_is_in_sight_in_lecture_size() {
 #[test]
 fn an_explanation_on_hover_does_not_cover_what_a_step_looks_at() {
     let mut window = window("fundamental");
-    window.state_mut().follow(Link::Lesson { lesson: 1, step: 2 });
+    window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 2 });
     solved(&mut window);
     window.run_steps(4);
     let ring = squeezefilm::gui::ui::highlight::place(&window.ctx, "gap").unwrap();
@@ -707,9 +707,9 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     let two = format!("{GOOD}\n## Second step\n\nAs it was.\n");
     write(folder.path(), "mine", &two);
     let mut window = window("fundamental");
-    window.state_mut().load_lessons(folder.path());
+    window.state_mut().updater.load_lessons(folder.path());
     let place = window.known().lessons.lessons.len() - 1;
-    window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 2 });
+    window.state_mut().updater.follow(Link::Lesson { lesson: place + 1, step: 2 });
     window.run_steps(4);
     assert!(window.shows("As it was."));
     write(folder.path(), "mine", &two.replace("As it was.", "As it is."));
@@ -730,7 +730,7 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     window.get_by_label_contains("picture b.png: there is no such file beside lesson.md");
     window.click_on("Close");
     // A place that is not there is named.
-    window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 8 });
+    window.state_mut().updater.follow(Link::Lesson { lesson: place + 1, step: 8 });
     window.run_steps(3);
     window.get_by_label_contains("step 8: lesson");
 }
@@ -867,7 +867,7 @@ fn the_example_of_the_documentation_is_a_lesson_that_works() {
 fn open_own(window: &mut Window, text: &str, title: &str) {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "my-lesson", text);
-    window.state_mut().load_lessons(folder.path());
+    window.state_mut().updater.load_lessons(folder.path());
     window.run_steps(2);
     open(window, title);
 }
@@ -1175,16 +1175,16 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
         assert!(window.shows("Lesson ·"));
     }
     // So does a folder without lessons; and one with lessons adds them.
-    window.state_mut().load_lessons(&folder.path().join("absent"));
+    window.state_mut().updater.load_lessons(&folder.path().join("absent"));
     window.run_steps(3);
     window.click_on("Close");
     write(folder.path(), "mine", GOOD);
-    window.state_mut().load_lessons(folder.path());
+    window.state_mut().updater.load_lessons(folder.path());
     window.run_steps(3);
     assert_eq!((step(&window).0, window.known().document.scene()), (1, &lent));
     // Another text of the lesson that is followed ends it.
     write(folder.path(), "3-squeeze-number", GOOD);
-    window.state_mut().load_lessons(folder.path());
+    window.state_mut().updater.load_lessons(folder.path());
     window.run_steps(3);
     assert!(window.known().lessons.running.is_none());
     // A good file ends a lesson; what is unsaved is asked about.

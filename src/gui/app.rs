@@ -4,7 +4,6 @@ use super::command::Command;
 use super::state::dialogs::Purpose;
 use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
-use super::state::link::Link;
 use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
@@ -26,7 +25,8 @@ const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The application.
 pub struct App {
-    updater: Updater,
+    /// What carries commands out.
+    pub updater: Updater,
     /// Text is being typed, other than what is looked for in the glossary.
     typing: bool,
     /// What was asked for while text was being typed: it is carried out once the text is taken.
@@ -58,20 +58,10 @@ impl App {
         &self.updater.state
     }
 
-    /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
-    pub fn load_lessons(&mut self, folder: &Path) {
-        self.updater.load_lessons(folder);
-    }
-
     /// Does what a panel or a key would ask for.
     pub fn carry_out(&mut self, command: Command) {
         self.unwritten |= !matches!(command, Command::Hover(_));
         self.updater.carry_out(command);
-    }
-
-    /// Shows what a link leads to.
-    pub fn follow(&mut self, link: Link) {
-        self.updater.follow(link);
     }
 
     /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.

@@ -34,16 +34,16 @@ pub fn open(
 ) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
     let file = window::storage_folder().and_then(|folder| StorageFile::claim(&folder).ok());
-    let storage = file.as_ref().map(|file| file.path().to_owned());
+    let storage = file.as_ref().map(|file| file.path.clone());
     let kept = storage.clone();
     let start = move |context: &eframe::CreationContext<'_>| {
         let platform = Platform { storage, ..Platform::default() };
         let mut app = app::App::on_platform(context, opened, platform)?;
         if let Some(folder) = lessons {
-            app.load_lessons(&folder);
+            app.updater.load_lessons(&folder);
         }
         if let Some(link) = link {
-            app.follow(link);
+            app.updater.follow(link);
         }
         if let Some(target) = fidelity {
             app.carry_out(Command::Use { target, numerics: app.state().document.scene().numerics() });

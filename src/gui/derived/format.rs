@@ -26,11 +26,6 @@ pub fn ends(range: [f64; 2]) -> [String; 2] {
     range.map(|value| signed(format!("{value:.decimals$}")))
 }
 
-/// `value` as it is, without trailing zeros.
-pub fn plain(value: f64) -> String {
-    trimmed(&number(value)).to_owned()
-}
-
 /// "×9000", to two digits.
 pub fn times(factor: f64) -> String {
     if !(factor.is_finite() && factor > 0.0) {

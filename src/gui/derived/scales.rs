@@ -175,11 +175,6 @@ pub fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
-/// One scale for all: least and greatest of the ranges.
-pub fn common(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    span(ranges.flatten())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -141,12 +141,12 @@ impl LessonState {
 
     /// Progress and answers of all lessons, as text.
     pub fn progress_text(&self) -> String {
-        let mut all = self.progress.clone();
-        if let Some((id, progress)) = self.present() {
-            all.insert(id, progress);
-        }
         // Names and plain data: this cannot fail.
-        serde_json::to_string(&all).unwrap_or_default()
+        serde_json::to_string(&self.all_progress()).unwrap_or_default()
+    }
+
+    fn all_progress(&self) -> BTreeMap<String, Progress> {
+        self.progress.clone().into_iter().chain(self.present()).collect()
     }
 
     /// Progress in the lesson that is followed.
@@ -162,12 +162,9 @@ impl LessonState {
 
     /// What was answered and done, in all lessons.
     pub fn records(&self) -> Vec<Record> {
-        let present = self.present();
-        let of = |lesson: &Lesson| match &present {
-            Some((id, progress)) if *id == lesson.id => record::of(lesson, &progress.work),
-            _ => self.progress.get(&lesson.id).map(|progress| record::of(lesson, &progress.work)).unwrap_or_default(),
-        };
-        self.lessons.iter().flat_map(of).collect()
+        let all = self.all_progress();
+        let begun = self.lessons.iter().filter_map(|lesson| Some((lesson, all.get(&lesson.id)?)));
+        begun.flat_map(|(lesson, progress)| record::of(lesson, &progress.work)).collect()
     }
 
     /// Notes that what is done in the lesson that is followed, and was not a moment ago, was done at `now` \[s since 1970, UTC\].

@@ -2,7 +2,8 @@
 
 use super::glossary::{self, Explained};
 use super::theme::{self, Palette};
-use crate::gui::derived::format::{ends, plain};
+use crate::digits::short;
+use crate::gui::derived::format::ends;
 use crate::recording::Recording;
 use crate::ticks::{Steps, round_down};
 use eframe::egui::epaint::{Mesh, Shape};
@@ -197,7 +198,7 @@ impl PlotStyle {
             self.painter.hline(x - 3.0..=x + 3.0, y, stroke);
         }
         let at = pos2(x - 5.0, middle);
-        self.write(at - vec2(0.0, 0.5 * self.row), Align2::RIGHT_CENTER, &plain(length), self.text);
+        self.write(at - vec2(0.0, 0.5 * self.row), Align2::RIGHT_CENTER, &short(length, 3), self.text);
         self.write(at + vec2(0.0, 0.5 * self.row), Align2::RIGHT_CENTER, "µm", self.text);
     }
 }

@@ -11,7 +11,8 @@ const MOST: usize = 64;
 /// The file of this window: no other has it until this is dropped.
 #[derive(Debug)]
 pub struct StorageFile {
-    path: PathBuf,
+    /// Where it is.
+    pub path: PathBuf,
     /// Locked. The system unlocks it at the end of the process, however that comes.
     _lock: File,
 }
@@ -40,11 +41,6 @@ impl StorageFile {
         }
         Err(io::Error::other(format!("{MOST} windows are open")))
     }
-
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
 }
 
 /// Copies the file at `path` beside it, under a name that is free, and returns that; nothing if there is no such file.
@@ -72,11 +68,11 @@ mod tests {
         fs::write(folder.path().join("app.ron"), "first").unwrap();
         let one = StorageFile::claim(folder.path()).unwrap();
         let other = StorageFile::claim(folder.path()).unwrap();
-        assert_eq!(one.path(), folder.path().join("app.ron"));
-        assert_ne!(one.path(), other.path());
-        assert_eq!(fs::read_to_string(other.path()).unwrap(), "first");
+        assert_eq!(one.path, folder.path().join("app.ron"));
+        assert_ne!(one.path, other.path);
+        assert_eq!(fs::read_to_string(other.path).unwrap(), "first");
         drop(one);
-        assert_eq!(StorageFile::claim(folder.path()).unwrap().path(), folder.path().join("app.ron"));
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.ron"));
     }
 
     #[test]

@@ -146,7 +146,7 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
     });
 }
 
-/// Choices below each other; the one that was clicked.
+/// Choices below each other, each with its mark; the one that was clicked.
 fn choices(
     ui: &mut Ui,
     all: &[Choice],
@@ -155,33 +155,29 @@ fn choices(
     look: Look,
     cx: &DrawContext<'_>,
 ) -> Option<usize> {
+    let side = 1.25 * look.size;
+    let sense = if open { egui::Sense::click() } else { egui::Sense::hover() };
+    let row = |ui: &mut Ui, choice: &[Inline], chosen: bool| {
+        let (area, radio) = ui.allocate_exact_size(vec2(side, side), sense);
+        let text = text::plain(choice);
+        radio.widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, open, chosen, text.as_str()));
+        let words = ui.vertical(|ui| rich::paragraph(ui, choice, look)).inner.interact(sense);
+        let pointed = open && (radio.hovered() || words.hovered() || radio.has_focus());
+        let colour = if chosen || pointed { cx.colours.film } else { cx.colours.quiet };
+        let middle = area.center() + vec2(0.0, -0.06 * look.size);
+        ui.painter().circle_stroke(middle, 0.38 * look.size, egui::Stroke::new(1.4, colour));
+        if chosen {
+            ui.painter().circle_filled(middle, 0.22 * look.size, cx.colours.film);
+        }
+        open && (radio.clicked() || words.clicked())
+    };
     let mut clicked = None;
     for (i, choice) in all.iter().enumerate() {
-        let row = ui.horizontal_top(|ui| choice_row(ui, &choice.text, chosen == Some(i), open, look, cx));
-        if row.inner && open {
+        if ui.horizontal_top(|ui| row(ui, &choice.text, chosen == Some(i))).inner {
             clicked = Some(i);
         }
     }
     clicked
-}
-
-/// A choice with its mark; whether it was clicked.
-fn choice_row(ui: &mut Ui, choice: &[Inline], chosen: bool, open: bool, look: Look, cx: &DrawContext<'_>) -> bool {
-    let side = 1.25 * look.size;
-    let sense = if open { egui::Sense::click() } else { egui::Sense::hover() };
-    let (area, radio) = ui.allocate_exact_size(vec2(side, side), sense);
-    let text = text::plain(choice);
-    radio.widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, open, chosen, text.as_str()));
-    let words = ui.vertical(|ui| rich::paragraph(ui, choice, look)).inner;
-    let words = words.interact(sense);
-    let pointed = open && (radio.hovered() || words.hovered() || radio.has_focus());
-    let colour = if chosen || pointed { cx.colours.film } else { cx.colours.quiet };
-    let middle = area.center() + vec2(0.0, -0.06 * look.size);
-    ui.painter().circle_stroke(middle, 0.38 * look.size, egui::Stroke::new(1.4, colour));
-    if chosen {
-        ui.painter().circle_filled(middle, 0.22 * look.size, cx.colours.film);
-    }
-    radio.clicked() || words.clicked()
 }
 
 fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {

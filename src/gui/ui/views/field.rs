@@ -1,10 +1,12 @@
 //! The pressure map as a picture: resampled from the graded nodes to pixels, one texture for each map on screen.
 
+use super::frame::Frame;
+use crate::digits::short;
 use crate::fidelity::Fidelity;
 use crate::gui::ui::paint::{Axes, PlotStyle, pressure_colour};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Plane, between};
-use eframe::egui::{Color32, ColorImage, Id, Rect, TextureHandle, TextureOptions, Ui, pos2};
+use eframe::egui::{Align2, Color32, ColorImage, Id, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
 /// Texels across the width: the field is smooth, the graphics card interpolates.
 const MOST_ROWS: usize = 96;
@@ -64,6 +66,40 @@ pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     style.painter.image(texture.id(), rect, whole, Color32::WHITE);
     axes
+}
+
+/// Draws the map of all teeth, or of a plate, of this name, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
+pub(super) fn of_run<T>(
+    ui: &Ui,
+    style: &PlotStyle,
+    rect: Rect,
+    shown: &Frame<'_, T>,
+    (name, titles): (&str, &[&str]),
+) -> Axes {
+    let range = shown.ranges.pressure;
+    let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: shown.x_range(), range };
+    let axes = draw(ui, style, rect, shown.recording, name, stamp);
+    style.title_with_bar(rect, "Pressure map", titles, range);
+    y_labels(style, &axes);
+    axes.cursor(style, shown.view.cursor_x);
+    axes
+}
+
+/// The ends of y, and its name between them if there is room.
+pub(super) fn y_labels(style: &PlotStyle, axes: &Axes) {
+    let x = axes.rect.left() - 4.0;
+    let (top, bottom) = (axes.rect.top(), axes.rect.bottom());
+    let write = |y: f32, anchor: Align2, text: &str| {
+        style.write(pos2(x, y), anchor, text, style.palette.quiet);
+    };
+    if bottom - top > 2.0 * style.row {
+        let text = |value: f64| short(value * 1e3, 3);
+        write(top - 0.15 * style.row, Align2::RIGHT_TOP, &text(axes.y[1]));
+        write(bottom + 0.1 * style.row, Align2::RIGHT_BOTTOM, &text(axes.y[0]));
+    }
+    if bottom - top > 3.2 * style.row || bottom - top <= 2.0 * style.row {
+        write(axes.rect.center().y, Align2::RIGHT_CENTER, "y, mm");
+    }
 }
 
 /// Pixels of the map, row by row from y = +w/2 down; the ground beside the teeth.

@@ -1,8 +1,7 @@
 //! The held plate: the plate above its stator, to be dragged; the force on it; the pressure below it; both against time, and
 //! pressure against gap with Boyle's hyperbola.
 
-use super::field::{self, Stamp};
-use super::map::y_labels;
+use super::field::{self, Stamp, y_labels};
 use super::plate::wall_and_plate;
 use super::pointer::named;
 use crate::fidelity::Fidelity;

@@ -9,7 +9,6 @@ mod frame;
 pub mod history;
 pub mod hold;
 mod loads;
-mod map;
 mod motor;
 pub mod overlay;
 mod plate;

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::pointer::{named, read_out, readout_height};
 use super::velocity::Place;
-use super::{loads, map, ring, tooth, wave};
+use super::{field, loads, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
 use crate::gui::ui::context::DrawContext;
@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     let axes = wave::draw(&inside, layout.wave, shown, &underside);
     let charted = loads::draw(ui, &style, layout.loads, shown);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute", "Film"];
-    let mapped = map::draw(ui, &inside, layout.map, shown, ("all teeth", &titles));
+    let mapped = field::of_run(ui, &inside, layout.map, shown, ("all teeth", &titles));
     mapped.x_labels(&inside, 1e-3, "x, mm");
     let [left, right] = shown.followed().map(|x| mapped.px(x));
     let followed = Rect::from_x_y_ranges(left..=right, layout.map.y_range());

@@ -8,7 +8,7 @@ use super::pointer::named;
 use super::series::{Series, Trace};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::scales::{Curve, RunCurves, common};
+use crate::gui::derived::scales::{Curve, RunCurves, span};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::chart::{Inset, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -167,7 +167,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         let (half, metre) = (0.5 * run.recording.pitch, along.metre(run.recording.length));
         [-half * metre, (run.recording.length - half) * metre]
     });
-    let x = common(ends);
+    let x = span(ends.flatten());
     let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
 
     let axes = draw_surfaces(&inside, wave, runs, x, &along, cursor);
@@ -175,7 +175,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     let charts = [0, 1]
         .map(|field| draw_pressure(ui, &style, [contact, film][field], runs, (x, &along, cursor), names[field], field));
 
-    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
+    let range = span(runs.iter().flat_map(|run| run.pin.curves.scales.ranges.pressure));
     let titles = [
         "Pressure maps of the film, kPa absolute, one scale of colours",
         "Pressure maps, absolute, one scale",
@@ -260,7 +260,7 @@ fn over_cycle(
         .iter()
         .map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, behind: false })
         .collect();
-    let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
+    let range = span(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]).flatten());
     let word = title.split(',').next().unwrap_or(title);
     let short = title.replace(" on one wave", "");
     let series =
@@ -280,7 +280,7 @@ fn draw_surfaces(
         let scales = &run.pin.curves.scales.ranges;
         [scales.stator[0], (scales.rotor[1] - run.of.spacing()).max(scales.stator[1])]
     });
-    let [low, high] = common(heights);
+    let [low, high] = span(heights.flatten());
     let margin = 0.08 * (high - low).max(1e-9);
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
     let vertical = times(axes.exaggeration() / along.of_first());
@@ -322,7 +322,7 @@ fn draw_pressure(
 ) -> PlotResponse<()> {
     let kilo = |run: &Pinned<'_, Motor>| 1e-3 / run.of.contact_width;
     let ranges = runs.iter().map(|run| run.pin.curves.lines[field].map(|load| load * kilo(run)));
-    let [low, high] = common(ranges.chain([[0.0, 0.0]]));
+    let [low, high] = span(ranges.chain([[0.0, 0.0]]).flatten());
     let margin = 0.06 * (high - low).max(1e-3);
     let written = along.written();
     style.title(rect, word, &[name], &[]);
@@ -369,11 +369,11 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     // Pressure along the plates.
     let chart = column.next(title, 0.52 * body);
     let along = Along::of(runs.iter().map(|run| run.of.length));
-    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.of.length * along.metre(run.of.length))));
+    let x = span(runs.iter().flat_map(|run| [-0.5, 0.5].map(|x| x * run.of.length * along.metre(run.of.length))));
     let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
-    let range = common(runs.iter().map(|run| run.pin.curves.scales.ranges.pressure));
-    let ambient = common(runs.iter().map(|run| [run.of.gas.ambient_pressure; 2]));
-    let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
+    let range = span(runs.iter().flat_map(|run| run.pin.curves.scales.ranges.pressure));
+    let ambient = span(runs.iter().flat_map(|run| [run.of.gas.ambient_pressure; 2]));
+    let [low, high] = span([range, ambient].into_iter().flatten()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
     inside.title(chart, "Film pressure", &titles, &[]);
@@ -439,8 +439,9 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
 
 /// Mean gauge pressure against the gap over its mean.
 fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[Pinned<'_, Plate>], phase: f64) {
-    let loads = common(runs.iter().map(|run| run.pin.curves.film.range()).chain([[0.0, 0.0]]));
-    let gaps = common(runs.iter().map(|run| run.pin.curves.scales.ranges.thickness.map(|gap| gap / run.of.mean_gap)));
+    let loads = span(runs.iter().map(|run| run.pin.curves.film.range()).chain([[0.0, 0.0]]).flatten());
+    let gaps =
+        span(runs.iter().flat_map(|run| run.pin.curves.scales.ranges.thickness.map(|gap| gap / run.of.mean_gap)));
     let kept = runs.iter().filter_map(|run| {
         let (curves, _) = run.pin.curves.scales.tooth(0)?;
         let at = move |phase: f64| [curves.thickness.at(phase) / run.of.mean_gap, 1e-3 * run.pin.curves.film.at(phase)];

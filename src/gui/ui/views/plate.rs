@@ -1,7 +1,7 @@
 //! The plate: gap, pressure profile and map, load over the cycle, pressure–gap loop.
 
+use super::field;
 use super::frame::Frame;
-use super::map;
 use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     if with_map {
         last = next(parts[2]);
         let titles = ["Pressure map, kPa absolute", "Map, absolute", "Map"];
-        map::draw(ui, &inside, last, shown, ("plate", &titles));
+        field::of_run(ui, &inside, last, shown, ("plate", &titles));
     }
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&inside, 1e-3, "x, mm");
 

@@ -1,10 +1,9 @@
 //! The followed tooth: its map, and its gap and loads over the cycle.
 
-use super::field::{self, Stamp};
+use super::field::{self, Stamp, y_labels};
 use super::frame::Frame;
-use super::map::y_labels;
 use super::series::{Series, Trace};
-use crate::gui::derived::scales::common;
+use crate::gui::derived::scales::span;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
@@ -50,7 +49,7 @@ pub(super) fn draw(
     let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.of.spacing(), quiet, true));
     let present = trace(&curves.thickness, lag, -shown.of.spacing(), style.text, false);
     let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
-    let [low, high] = common(ranges);
+    let [low, high] = span(ranges.flatten());
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
     let series = Series {
         name: "Least gap over the cycle",
