@@ -23,10 +23,8 @@ pub struct SensitivityState {
     share: f64,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,
-    /// What was typed for each key: not empty.
-    typed: BTreeMap<&'static str, String>,
-    /// What is wrong with it.
-    refused: BTreeMap<&'static str, String>,
+    /// What was typed for each key, not empty, and what is wrong with it.
+    typed: BTreeMap<&'static str, (String, Option<String>)>,
     /// The uncertainties that make sense; none may be among them. `None` before anything was found.
     pub uncertainties: Option<Uncertainties>,
     /// Random scenes of these.
@@ -88,40 +86,35 @@ impl SensitivityState {
 
     /// Takes what is typed as the uncertainty of a key. Random scenes of others are dropped.
     pub fn type_uncertainty(&mut self, key: &'static str, text: String) {
-        if text.trim().is_empty() {
-            self.typed.remove(key)
-        } else {
-            self.typed.insert(key, text)
-        };
+        self.typed.remove(key);
+        if !text.trim().is_empty() {
+            self.typed.insert(key, (text, None));
+        }
         self.judge();
         (self.carlo, self.drawing) = (None, Background::default());
     }
 
     /// What was typed for a key.
     pub fn typed(&self, key: &str) -> &str {
-        self.typed.get(key).map_or("", String::as_str)
+        self.typed.get(key).map_or("", |(text, _)| text.as_str())
     }
 
     /// What is wrong with that.
     pub fn refused(&self, key: &str) -> Option<&str> {
-        self.refused.get(key).map(String::as_str)
+        self.typed.get(key)?.1.as_deref()
     }
 
     /// Finds out which of the typed uncertainties make sense for the scene that was solved.
     fn judge(&mut self) {
-        self.refused.clear();
         let Some(found) = &self.found else { return };
         let mut given: Vec<(&str, Uncertainty)> = Vec::new();
-        for (key, text) in &self.typed {
+        for (key, (text, refused)) in &mut self.typed {
             let alone = text.parse::<Uncertainty>().map_err(|error| error.to_string()).and_then(|amount| {
                 Uncertainties::new(found.scene(), &[(*key, amount)]).map_err(|error| error.to_string())?;
                 Ok((*key, amount))
             });
-            match alone {
-                Ok(one) => given.push(one),
-                // A key that this scene does not have is not shown either.
-                Err(why) => drop(self.refused.insert(key, why)),
-            }
+            // A key that this scene does not have is not shown either.
+            *refused = alone.map(|one| given.push(one)).err();
         }
         self.uncertainties = Uncertainties::new(found.scene(), &given).ok();
     }

@@ -41,12 +41,10 @@ impl Updater {
 
     pub(super) fn reset(&mut self, key: &'static str) {
         let Some(parameter) = Parameter::find(key) else { return };
-        if parameter.absent.is_some() {
-            self.edit(key, false, Change::Unset);
-            return;
-        }
-        if let Some(value) = parameter.default() {
-            self.edit(key, false, Change::Value(value));
+        match parameter.default() {
+            Some(value) => self.edit(key, false, Change::Value(value)),
+            None if parameter.absent.is_some() => self.edit(key, false, Change::Unset),
+            None => {}
         }
     }
 

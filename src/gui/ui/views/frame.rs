@@ -47,12 +47,6 @@ impl<'a, T> Frame<'a, T> {
         Some(Self { run: number, recording, of, scales, ranges, place, lines, view, tooth, first: None })
     }
 
-    /// The same with `first` behind it, if there is one: its axes hold both.
-    pub(super) fn compared_with(self, first: Option<Self>) -> Self {
-        let ranges = first.as_ref().map_or(self.ranges, |first| self.ranges.and(first.ranges));
-        Self { ranges, first: first.map(Box::new), ..self }
-    }
-
     /// x at the left and at the right end \[m\].
     pub(super) fn x_range(&self) -> [f64; 2] {
         let half = 0.5 * self.recording.pitch;

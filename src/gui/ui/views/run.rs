@@ -41,8 +41,9 @@ fn frame<'a, T>(
 ) -> Option<Frame<'a, T>> {
     let view = &cx.state.view;
     let first = first.and_then(|first| Frame::of(ui, "scales of the first run", first, pick, view));
-    let shown = Frame::of(ui, "scales", run, pick, view)?.compared_with(first);
-    Some(Frame { ranges: within.copied().unwrap_or(shown.ranges), ..shown })
+    let shown = Frame::of(ui, "scales", run, pick, view)?;
+    let both = first.as_ref().map_or(shown.ranges, |first| shown.ranges.and(first.ranges));
+    Some(Frame { ranges: within.copied().unwrap_or(both), first: first.map(Box::new), ..shown })
 }
 
 fn motor_of(scenario: &Scenario) -> Option<&Motor> {
