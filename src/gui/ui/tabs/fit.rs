@@ -143,9 +143,9 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
 /// What stands in the tab while there is nothing to see.
 const INTRODUCTION: &[&str] = &[
     "Which values of some parameters agree best with what was measured, and how sure are they?",
-    "The first line of the table names its columns: keys of the scene, as film.min_spacing_nm, for the conditions of each line; \
-         numbers of a solve, as film_load_n, or rotor_speed_rpm with torque_nm, for what was measured; and the same with _error behind \
-         them for standard errors, if they are known.",
+    "The first line of the table names its columns. Keys of the scene, such as film.min_spacing_nm, are the conditions of each line. \
+         Results of a solve, such as film_load_n, or rotor_speed_rpm with torque_nm, are what was measured. The same names with _error at \
+         the end are standard errors, if they are known.",
     "Nothing is solved before you ask.",
 ];
 

@@ -231,7 +231,9 @@ fn field(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx: &DrawContex
         .hint_text("none")
         .text_color_opt(refused.map(|_| cx.colours.alarm));
     let unit = if parameter.unit.is_empty() { "plain numbers" } else { parameter.unit };
-    let usual = format!("A standard deviation in {unit} or in per cent, as 20%; with ± in front limits, as ±10%");
+    let usual = format!(
+        "A standard deviation in {unit} or in per cent, such as 20%; with ± in front it means limits, such as ±10%"
+    );
     let about = refused.map_or(usual, str::to_owned);
     let name = format!("Uncertainty of {}", label(parameter));
     let field = ui.add(editor).accessible_name(name).hint(about);

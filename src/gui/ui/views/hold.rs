@@ -6,7 +6,7 @@ use super::plate::wall_and_plate;
 use super::pointer::named;
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
-use crate::gui::derived::format::{load_unit, number, times, with_known_digits};
+use crate::gui::derived::format::{load_unit, number, time, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::chart::{Inset, between, dots, level, line};
@@ -267,9 +267,8 @@ fn chart(
 
 /// How far the charts go back.
 fn time_labels(style: &PlotStyle, chart: Rect, window: f64) {
-    let (scale, unit) = if window < 1e-2 { (1e6, "µs") } else { (1e3, "ms") };
     let top = chart.bottom() + 1.0;
-    let text = format!("{} {unit} ago", number(window * scale));
+    let text = format!("{} ago", time(window));
     style.write(pos2(chart.left(), top), Align2::LEFT_TOP, &text, style.palette.quiet);
     style.write(pos2(chart.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
 }
