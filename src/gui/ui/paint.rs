@@ -27,7 +27,7 @@ pub(super) struct PlotStyle {
     /// Room for the title above it, and for the numbers below it.
     pub(super) title: f32,
     pub(super) axis: f32,
-    /// Terms that were written, and where; and what they mean, if the glossary does not say.
+    /// Terms that were written, and where.
     terms: Rc<RefCell<Vec<(Rect, String)>>>,
 }
 

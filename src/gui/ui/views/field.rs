@@ -68,7 +68,8 @@ pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording
     axes
 }
 
-/// Draws the map of all teeth, or of a plate, of this name, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
+/// Draws the map of all teeth, or of a plate, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
+/// `name`: what tells it from other maps.
 pub(super) fn of_run<T>(
     ui: &Ui,
     style: &PlotStyle,
