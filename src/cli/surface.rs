@@ -90,11 +90,12 @@ fn text(faces: &[Face], pair: &Pair) -> String {
         let values = faces.iter().map(|(_, (_, texture))| value(texture));
         columns.row(std::iter::once(name.to_owned()).chain(values).chain([note.to_owned()]));
     };
-    let lengths = |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length * 1e6, 3))) {
-        [Some(x), Some(y)] => format!("{x}, {y} µm"),
-        [Some(x), None] => format!("{x} µm"),
-        _ => "longer than half the face".to_owned(),
-    };
+    let lengths =
+        |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length * 1e6, 3))) {
+            [Some(x), Some(y)] => format!("{x}, {y} µm"),
+            [Some(x), None] => format!("{x} µm"),
+            _ => "longer than half the face".to_owned(),
+        };
     row("Sa", &|face| format!("{} nm", significant(face.mean * 1e9, 4)), "mean magnitude of the heights, level");
     row("Sq", &|face| format!("{} nm", significant(face.rms * 1e9, 4)), "their standard deviation");
     row("Sz", &|face| format!("{} nm", significant(face.peak_to_valley * 1e9, 4)), "peak to valley");
@@ -103,11 +104,7 @@ fn text(faces: &[Face], pair: &Pair) -> String {
         &|face| format!("{}, {}", signed(format!("{:.2}", face.skewness)), signed(format!("{:.2}", face.kurtosis))),
         "skewness and kurtosis; 0 and 3 if normally distributed",
     );
-    row(
-        "correlation length",
-        &|face| lengths(face.correlation),
-        "along x and y, where the autocorrelation falls to ½",
-    );
+    row("correlation length", &|face| lengths(face.correlation), "along x and y, where the autocorrelation falls to ½");
     row("", &|face| lengths(face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
     row(
         "lay  γ",

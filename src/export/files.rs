@@ -314,7 +314,7 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(
 pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    files.json("sweep.json", &sweep::Object { sweep: swept, rows })?;
+    files.json("sweep.json", &sweep::object(swept, rows))?;
     files.figure("sweep", &sweep::figure(swept, rows, shown))?;
     files.text("scene.toml", &swept.scene().to_toml())?;
     files.commit()

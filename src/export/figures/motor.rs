@@ -7,7 +7,7 @@ use super::series::{
 use super::unit::prefixed;
 use crate::digits::significant;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Mark, Panel, Range, Style, Width,
+    Axis, Band, Colour, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
 };
 use crate::problem::Motor;
 use crate::recording::Recording;
@@ -221,10 +221,8 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
 pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
     let grid = whole_plane(recording, &tooth_map(recording, recording.teeth / 2, frame), scale);
-    let colours = pressure_map(grid.clone(), &unit, range);
-    let lines = Contours { grid, ..Contours::default() };
-    let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
-    Panel::new("", axes.0, axes.1).layer(colours).layer(lines).height(38.0)
+    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, range) };
+    Panel::new("", Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm")).layer(map).height(38.0)
 }
 
 /// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.

@@ -3,7 +3,7 @@
 use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
 use super::unit::prefixed;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
+    Axis, Band, Colour, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
 };
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -169,9 +169,8 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
         let title = format!("pressure at t/T = {:.3}", phase(recording, most));
         (title, Axis::new("y", "mm"), whole_plane(recording, plane, scale))
     };
-    let colours = pressure_map(grid.clone(), &unit, Range::Auto);
-    let lines = Contours { grid, ..Contours::default() };
-    let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(colours).layer(lines).height(60.0);
+    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, Range::Auto) };
+    let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(map).height(60.0);
     let mut figure = Figure::new(title).panel(panel);
     figure.width = Width::Millimetres(110.0);
     figure.caption = if strip {
