@@ -32,7 +32,7 @@ impl Row {
 
     /// By how much the computed film load exceeds the published one \[%\].
     pub fn difference_percent(&self) -> Option<f64> {
-        Some(100.0 * (self.result()?.film_load.value / self.published.published_load_n - 1.0))
+        Some(self.published.difference_percent(self.result()?.film_load))
     }
 }
 

@@ -179,7 +179,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
     let [stiffness, _] = units(plate);
     let mass = as_given(floating.load / GRAVITY * 1e3);
     let found = &floating.found;
-    let stable = if floating.stable { "stable" } else { "not stable" };
+    let stable = if floating.found.is_stable() { "stable" } else { "not stable" };
     columns.row([
         "mean gap",
         &format!("{} µm", floating.mean_gap_um()),

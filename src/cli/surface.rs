@@ -82,13 +82,13 @@ fn face(file: &Path, degree: u8) -> Result<Face, CliError> {
 
 fn text(faces: &[Face], pair: &Pair) -> String {
     let mut columns = Columns::new();
-    let names = faces.iter().map(|(name, _)| name.clone());
-    columns.row(std::iter::once(String::new()).chain(names).chain([String::new()]));
-    let points = faces.iter().map(|(_, (map, _))| format!("{} × {}", map.nx, map.ny));
-    columns.row(std::iter::once("points".to_owned()).chain(points).chain(["along x, the wave, and y".to_owned()]));
+    let mut of_faces = |name: &str, value: &dyn Fn(&Face) -> String, note: &str| {
+        columns.row([name.to_owned()].into_iter().chain(faces.iter().map(value)).chain([note.to_owned()]));
+    };
+    of_faces("", &|(name, _)| name.clone(), "");
+    of_faces("points", &|(_, (map, _))| format!("{} × {}", map.nx, map.ny), "along x, the wave, and y");
     let mut row = |name: &str, value: &dyn Fn(&Texture) -> String, note: &str| {
-        let values = faces.iter().map(|(_, (_, texture))| value(texture));
-        columns.row(std::iter::once(name.to_owned()).chain(values).chain([note.to_owned()]));
+        of_faces(name, &|(_, (_, texture))| value(texture), note);
     };
     let lengths =
         |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length * 1e6, 3))) {

@@ -140,8 +140,6 @@ pub struct FloatingObject {
     pub load: f64,
     /// Mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass whose weight is the load.
     pub found: Floating,
-    /// Whether the film carries less at a greater gap.
-    pub stable: bool,
     /// Mean gap \[µm\] at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
     pub trapped_mean_gap_um: f64,
     /// The same for a small load, a √(1.25 p_a A/F).
@@ -153,7 +151,6 @@ impl FloatingObject {
         Self {
             load,
             found,
-            stable: found.is_stable(),
             trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
             small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
         }
@@ -166,26 +163,26 @@ impl FloatingObject {
 
     /// Natural frequency \[Hz\]; `None` if it is not stable.
     pub fn natural_frequency(&self) -> Option<Estimate> {
-        self.stable.then_some(self.found.natural_frequency)
+        self.found.is_stable().then_some(self.found.natural_frequency)
     }
 
     fn object(&self) -> Value {
         let mut object = json!({ "load_n": self.load });
         estimates::add(&mut object, "mean_gap", "_um", Some(self.mean_gap_um()));
-        object["stable"] = self.stable.into();
-        estimates::add(&mut object, "stiffness", "_n_per_m", Some(self.found.stiffness));
-        estimates::add(&mut object, "natural_frequency", "_hz", self.natural_frequency());
+        // Whether the film carries less at a greater gap.
+        object["stable"] = self.found.is_stable().into();
         let slow = self.found.slow;
-        estimates::add(&mut object, "damping", "_n_s_per_m", slow.map(|slow| slow.damping));
-        estimates::add(&mut object, "damping_ratio", "", slow.map(|slow| slow.damping_ratio));
-        estimates::add(&mut object, "creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3));
-        estimates::add(&mut object, "swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency));
-        estimates::add(
-            &mut object,
-            "swing_decay",
-            "_ms",
-            slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3),
-        );
+        for (name, unit, found) in [
+            ("stiffness", "_n_per_m", Some(self.found.stiffness)),
+            ("natural_frequency", "_hz", self.natural_frequency()),
+            ("damping", "_n_s_per_m", slow.map(|slow| slow.damping)),
+            ("damping_ratio", "", slow.map(|slow| slow.damping_ratio)),
+            ("creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3)),
+            ("swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency)),
+            ("swing_decay", "_ms", slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3)),
+        ] {
+            estimates::add(&mut object, name, unit, found);
+        }
         object["trapped_mean_gap_um"] = self.trapped_mean_gap_um.into();
         object["small_load_mean_gap_um"] = self.small_load_mean_gap_um.into();
         object

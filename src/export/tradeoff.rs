@@ -102,12 +102,8 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
         // Under the points, so that they stay to be seen.
         panel.layers.insert(1, Points::new(name, rings, colour, ring).into());
     }
-    for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
-        if let Some(at) = place(point) {
-            panel = panel.layer(Text::new(at, point.run.candidate.name.clone()));
-        }
-    }
-    panel
+    let named = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
+    panel.layers(named.filter_map(|point| Some(Text::new(place(point)?, point.run.candidate.name.clone()))))
 }
 
 /// Error against time as a figure, with rings round the settings in `chosen`.

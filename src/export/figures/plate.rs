@@ -12,14 +12,13 @@ use crate::recording::Recording;
 pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let ambient = plate.gas.ambient_pressure;
     let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), ambient)[1], "Pa");
-    let mut panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
-        .layer(rest(ambient * scale, "ambient"));
-    for quarter in 0..4 {
-        let frame = quarter * recording.frames / 4;
-        let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
-        let style = Style { marker: None, ..Style::nth(quarter) };
-        panel = panel.layer(Line::new(["t = 0", "T/4", "T/2", "3T/4"][quarter], points, style));
-    }
+    let quarters = ["t = 0", "T/4", "T/2", "3T/4"].into_iter().enumerate().map(|(quarter, name)| {
+        let points = along_the_middle(recording, quarter * recording.frames / 4, scale, |x| x * 1e3);
+        Line::new(name, points, Style { marker: None, ..Style::nth(quarter) })
+    });
+    let panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
+        .layer(rest(ambient * scale, "ambient"))
+        .layers(quarters);
     let mut figure = Figure::new("pressure along the plate").panel(panel);
     figure.caption = "Pressure along the plate at four instants; the gap is greatest at t/T = 0.".to_owned();
     figure
