@@ -194,7 +194,7 @@ impl FloatingObject {
 /// of a rectangle), `trapped_…` for σ → ∞ (Langlois 1962, Salbu 1964; with slip); loads in the object's force unit, of gas that cannot
 /// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
 fn exact_object(found: &Comparison) -> Value {
-    let [boyle, viscous] = [&found.limits.boyle, &found.limits.viscous].map(|load| extent(load.iter().copied()));
+    let [boyle, viscous] = [&found.boyle, &found.viscous].map(|load| extent(load.iter().copied()));
     let (linear, unit, absolute) = (found.linear, found.unit, found.stiffness_and_damping());
     let mut object = json!({ "effective_squeeze_number": found.effective_squeeze_number });
     for (name, of_unit, solved, exact) in [

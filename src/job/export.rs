@@ -1,6 +1,5 @@
 //! Files, made in the background: the same code and the same names as those of the command line.
 
-use super::task::TaskOf;
 use super::work::{Posed, Work};
 use super::{SolvedScene, fit};
 use crate::analysis::compare::ComparedRun;
@@ -110,9 +109,6 @@ pub struct Files {
     /// What is in them.
     pub content: Content,
 }
-
-/// An export in the background.
-pub type ExportTask = TaskOf<Files>;
 
 impl Work for Files {
     const NAME: &'static str = "files";

@@ -60,7 +60,7 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
     let load = &recording.film_load;
     let mut range = span(load.iter().copied(), 0.0);
     let most = WHOLE * (range[1] - range[0]);
-    for limit in [&found.limits.boyle, &found.limits.viscous] {
+    for limit in [&found.boyle, &found.viscous] {
         let [low, high] = span(limit.iter().copied(), 0.0);
         if high - low <= most {
             range = [range[0].min(low), range[1].max(high)];
@@ -70,8 +70,8 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
     let [low, high] = with_margin(range, 0.08);
     let y = Axis::new("film load", unit).fixed(low * scale, high * scale);
     let lines = [
-        ("trapped (Boyle)", &found.limits.boyle, Style::solid(Colour::CONTACT).dash(Dash::Dashed)),
-        ("incompressible", &found.limits.viscous, Style::solid(Colour::ROTOR).dash(Dash::DashDot)),
+        ("trapped (Boyle)", &found.boyle, Style::solid(Colour::CONTACT).dash(Dash::Dashed)),
+        ("incompressible", &found.viscous, Style::solid(Colour::ROTOR).dash(Dash::DashDot)),
         ("computed", load, Style::solid(Colour::FILM)),
     ];
     Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)

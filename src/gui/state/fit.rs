@@ -6,8 +6,8 @@ use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 use crate::job::fit::FitWork;
-pub use crate::job::fit::{FitTask, Found};
-use crate::job::task::News;
+pub use crate::job::fit::Found;
+use crate::job::task::{News, TaskOf};
 use crate::job::work::Work;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
@@ -178,7 +178,7 @@ impl FitState {
     }
 
     /// `task` searches for `scene`.
-    pub fn begin(&mut self, scene: Scene, task: FitTask) {
+    pub fn begin(&mut self, scene: Scene, task: TaskOf<FitWork>) {
         (self.work, self.asked, self.failure, self.told) = (task.into(), Some(scene), None, None);
     }
 

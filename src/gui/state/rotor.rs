@@ -2,7 +2,8 @@
 
 use super::followed::Followed;
 use crate::analysis::rotor::RotorCurves;
-use crate::job::rotor::RotorTask;
+use crate::job::rotor::RotorWork;
+use crate::job::task::TaskOf;
 use crate::problem::{Motor, RotorCompliance};
 use crate::rotor::Wave;
 use std::sync::Arc;
@@ -17,7 +18,7 @@ impl RotorState {
     }
 
     /// `task` computes that of `motor`.
-    pub fn begin(&mut self, motor: &Motor, task: Option<RotorTask>) {
+    pub fn begin(&mut self, motor: &Motor, task: Option<TaskOf<RotorWork>>) {
         self.follow((motor.rotor.clone(), motor.wave()), task);
     }
 

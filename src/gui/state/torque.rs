@@ -4,7 +4,8 @@ use super::followed::Followed;
 use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::job::torque::TorqueTask;
+use crate::job::task::TaskOf;
+use crate::job::torque::TorqueWork;
 use crate::problem::Scenario;
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ impl TorqueState {
     }
 
     /// `task` computes those of `run`.
-    pub fn begin(&mut self, run: &Arc<SolvedScene>, task: Option<TorqueTask>) {
+    pub fn begin(&mut self, run: &Arc<SolvedScene>, task: Option<TaskOf<TorqueWork>>) {
         self.follow(Arc::clone(run), task);
     }
 
