@@ -163,8 +163,7 @@ const BALANCE: f64 = 2e-3;
 /// What cannot be of a motor's solution.
 pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
-    let mut violations = Vec::new();
-    for (name, value) in [
+    let numbers = [
         ("α", result.alpha.value),
         ("the error of α", result.alpha.error),
         ("the film load", result.film_load.value),
@@ -172,11 +171,9 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
         ("the torque", result.max_torque.value),
         ("the least film thickness", result.min_film_thickness.value),
         ("the highest pressure", result.max_pressure.value),
-    ] {
-        if !value.is_finite() {
-            violations.push(Violation::NotFinite(name));
-        }
-    }
+    ];
+    let wrong = numbers.into_iter().filter(|(_, value)| !value.is_finite());
+    let mut violations: Vec<_> = wrong.map(|(name, _)| Violation::NotFinite(name)).collect();
     let Estimate { value: alpha, error } = result.alpha;
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
         violations.push(Violation::Share { alpha, error });
@@ -217,11 +214,9 @@ pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<
         Ok(solution) => {
             let violations = violations(motor, solution);
             let verdict = match solution.status {
-                Status::Converged if violations.is_empty() => Verdict::Solved,
-                Status::Converged => Verdict::NonPhysical,
                 // `NotResolved`: the error is as large as the result, but the numbers are physical.
-                Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
-                Status::NotResolved { .. } => Verdict::NonPhysical,
+                Status::Converged | Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
+                Status::Converged | Status::NotResolved { .. } => Verdict::NonPhysical,
                 Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
             };
             (verdict, violations)
