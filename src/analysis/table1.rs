@@ -52,7 +52,7 @@ pub fn rows(
         if settings.method == Method::Auto {
             scene.set_numerics(&Numerics::default())?;
         }
-        scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        scene.set_all(changes)?;
         Ok((Problem::try_from(&scene)?, scene))
     };
     let (problems, scenes): (Vec<_>, Vec<_>) =

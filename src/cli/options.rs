@@ -48,7 +48,7 @@ impl SceneOptions {
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
         let mut scene = original.clone();
-        scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        scene.set_all(&self.changes)?;
         let changed = |key| scene.get(key) != original.get(key);
         if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
             warn_of_given_path(&scene);

@@ -80,7 +80,7 @@ impl Reader<'_> {
             }
         }
         if let Some(mut scene) = self.scene.clone() {
-            if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+            if let Err(error) = scene.set_all(&changes) {
                 self.key_fault(table.line_of("set"), SETUP, "set", format!(": {error}"));
             }
             self.scene = Some(scene);
@@ -227,7 +227,7 @@ impl Reader<'_> {
             }
         }
         let mut changed = scene.clone();
-        if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+        if let Err(error) = changed.set_all(&doing.changes) {
             self.key_fault(table.line_of(key), TASK, key, format!(": {error}"));
         }
         doing
