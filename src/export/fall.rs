@@ -1,8 +1,9 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use super::startup::periodic;
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
-use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
+use crate::export::figure::{Axis, Band, Colour, Figure, Line, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -61,14 +62,10 @@ pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<f64>) -> Figur
     let at = |cycle: &Cycle| (cycle.time * 1e3, cycle.height * 1e6);
     let band = cycles.iter().map(at).map(|(t, Estimate { value, error })| [t, value - error, value + error]);
     let line = cycles.iter().map(at).map(|(t, height)| [t, height.value]);
-    let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
+    let panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
         .layer(Band::new("error", band, Colour::FILM))
-        .layer(Line::new("height", line, Style::solid(Colour::FILM)));
-    if let Some(gap) = floats {
-        let mut mark = Mark::horizontal(gap, "periodic solve");
-        mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
-        panel = panel.layer(mark);
-    }
+        .layer(Line::new("height", line, Style::solid(Colour::FILM)))
+        .layers(floats.map(periodic));
     let mut figure = Figure::new("dropped on the vibration").panel(panel);
     figure.caption = "Height of the plate, the gap without the vibration, from where it is dropped.".to_owned();
     figure.provenance = Provenance::named(&problem.name);

@@ -222,26 +222,22 @@ pub fn distribution(
         [left, left + width].map(|x| [x, 0.0, *count as f64])
     });
     let unit = of.unit(&sensitivity.problem);
-    let mut panel = Panel::new("", Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
-        .height(32.0)
-        .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) });
     let linear = sensitivity.propagated(output, uncertainties).deviation.value;
     let numerical = sensitivity.values[output];
-    if linear > 0.0 && *width > 0.0 {
-        let area = spread.count as f64 * width;
-        let density = |i: u32| {
-            let away = f64::from(i) / 20.0 - 3.5;
-            let height = area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp();
-            [numerical.value + away * linear, height]
-        };
-        let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
-        panel = panel.layer(Line::new("linear", (0..=140).map(density), style));
-    }
-    panel = panel.layer(Mark::vertical(numerical.value, ""));
-    panel.title = format!(
-        "± {} by the parameters, ± {} numerical",
-        significant(spread.deviation, 2),
-        significant(numerical.error, 2)
-    );
+    let area = spread.count as f64 * width;
+    let density = |i: u32| {
+        let away = f64::from(i) / 20.0 - 3.5;
+        let height = area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp();
+        [numerical.value + away * linear, height]
+    };
+    let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+    let normal = (linear > 0.0 && *width > 0.0).then(|| Line::new("linear", (0..=140).map(density), style));
+    let [spread, error] = [spread.deviation, numerical.error].map(|size| significant(size, 2));
+    let title = format!("± {spread} by the parameters, ± {error} numerical");
+    let panel = Panel::new(title, Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
+        .height(32.0)
+        .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) })
+        .layers(normal)
+        .layer(Mark::vertical(numerical.value, ""));
     Some(panel)
 }

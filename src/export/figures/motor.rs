@@ -69,16 +69,15 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
     let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
-    let mut panel = Panel::new("(a) surfaces", x_axis(recording), y)
+    // Wherever in the cycle: the legend is the same at every instant.
+    let touched = recording.contact.iter().any(|load| touches(*load));
+    Panel::new("(a) surfaces", x_axis(recording), y)
         .layer(above)
         .layer(body)
         .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
-        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }));
-    // Wherever in the cycle: the legend is the same at every instant.
-    if recording.contact.iter().any(|load| touches(*load)) {
-        panel = panel.layer(Line::new("in contact", touching, thick));
-    }
-    panel.legend(Legend::Above)
+        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }))
+        .layers(touched.then(|| Line::new("in contact", touching, thick)))
+        .legend(Legend::Above)
 }
 
 /// A line load of all teeth as a pressure.
