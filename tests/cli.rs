@@ -720,10 +720,11 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
     let piped = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout);
     let piped: Value = serde_json::from_slice(&piped.stdout).unwrap();
     assert_eq!(piped["preset"], "Mine");
+    // The answers end behind a question: what is missing stands on lines of its own.
     refused(
         &["new", "--diameter-mm", "60"],
         2,
-        &["frequency-khz is missing", "load-n is missing", "from 0.01 to 10000 N"],
+        &["[My motor]: \nerror: frequency-khz is missing", "\nerror: load-n is missing", "from 0.01 to 10000 N"],
     );
     refused(
         &["new", "--load-n", "heavy"],

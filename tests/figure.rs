@@ -5,8 +5,8 @@ use roxmltree::{Document, Node};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::animation::{self, Movie};
 use squeezefilm::export::figure::{
-    self, Axis, Band, Categories, Colour, Contours, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel,
-    Points, Provenance, Range, Shading, Shape, Style, Text, Width,
+    self, Axis, Band, Categories, Colour, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel, Points,
+    Provenance, Range, Shading, Shape, Style, Text, Width,
 };
 use squeezefilm::export::figures;
 use squeezefilm::export::files::ExportError;
@@ -175,9 +175,8 @@ fn a_map() -> Figure {
     let nodes = [0.0, 0.125, 0.5, 1.0];
     let values: Vec<f64> = nodes.iter().flat_map(|x| nodes.map(|y| 100.0 * (x + y))).collect();
     let grid = Grid { x: nodes.to_vec(), y: nodes.to_vec(), values };
-    let map = Map { label: "pressure".into(), unit: "kPa".into(), grid: grid.clone(), ..Map::default() };
-    let lines = Contours { grid, ..Contours::default() };
-    let panel = Panel::new("", Axis::new("x", "mm"), Axis::new("y", "mm")).layer(map).layer(lines);
+    let map = Map { label: "pressure".into(), unit: "kPa".into(), grid, contours: Some(0.0), ..Map::default() };
+    let panel = Panel::new("", Axis::new("x", "mm"), Axis::new("y", "mm")).layer(map);
     let mut figure = Figure::new("A map of p").panel(panel);
     figure.provenance = Provenance { preset: "plate".into(), error: "± 1 %".into(), ..Provenance::default() };
     figure
@@ -266,7 +265,7 @@ fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
     let mut panel = Panel::new("p_{a}", ax.clone(), ay.clone())
         .layer(Map { grid: grid.clone(), ..Map::default() })
         .layer(Map { grid: grid.clone(), shading: Shading::Cells, range: Range::Fixed(2.0, 2.0), ..Map::default() })
-        .layer(Contours { grid, ..Contours::default() })
+        .layer(Map { grid, contours: Some(0.0), ..Map::default() })
         .layer(Categories { x: x.to_vec(), y: y.to_vec(), values: kinds, kinds: vec![("k".into(), Colour::BLACK)] })
         .layer(Line::new("line", points(), Style::nth(0)))
         .layer(other)

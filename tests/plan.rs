@@ -357,19 +357,21 @@ fn bounds_are_those_of_their_formulas() {
 
 #[test]
 fn a_plate_has_the_nodes_that_are_asked_for() {
-    let grids = |changes: &[(&str, &str)], turned: bool| -> Vec<[usize; 2]> {
-        let numerics = Numerics { film_nodes_along: Some(56), film_nodes_across: Some(14), ..Numerics::default() };
+    let grids = |along: usize, changes: &[(&str, &str)], turned: bool| -> Vec<[usize; 2]> {
+        let numerics = Numerics { film_nodes_along: Some(along), film_nodes_across: Some(14), ..Numerics::default() };
         let plan = Plan::plate(&scenes::plate("plate-crossover", changes), Fidelity::Standard, &numerics);
         assert_eq!(plan.turned, turned, "{changes:?}");
         plan.grids.iter().map(|grid| [grid.along, grid.across]).collect()
     };
     // Half of them, since half the plate is solved. Across a plate whose edges reach far inwards there is a polynomial, the same on all grids.
-    assert_eq!(grids(&[("plate.width_mm", "1")], false), [[7, 7], [14, 7], [28, 7]]);
+    assert_eq!(grids(56, &[("plate.width_mm", "1")], false), [[7, 7], [14, 7], [28, 7]]);
     // Of a plate that is wide in comparison, the polynomial goes along it.
-    assert_eq!(grids(&[("plate.width_mm", "30")], true), [[2, 28], [4, 28], [8, 28]]);
+    assert_eq!(grids(28, &[("plate.width_mm", "30")], true), [[2, 14], [4, 14], [8, 14]]);
+    // Many nodes are those of finite volumes.
+    assert_eq!(grids(56, &[("plate.width_mm", "30")], true), [[2, 7], [4, 14], [8, 28]]);
     // Of a large plate neither side has one.
     let large = [("plate.length_mm", "100"), ("plate.width_mm", "100")];
-    assert_eq!(grids(&large, false), [[7, 2], [14, 4], [28, 8]]);
+    assert_eq!(grids(56, &large, false), [[7, 2], [14, 4], [28, 8]]);
     // A grid that nobody chose is that of the accuracy.
     let spec = Fidelity::Standard.spec();
     let square = Plan::plate(

@@ -5,7 +5,7 @@
 
 use crate::budget::Purpose;
 pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
-use crate::numerics::rows::MANY_COLUMNS;
+use crate::numerics::system::MANY_COLUMNS;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
 

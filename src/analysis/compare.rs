@@ -239,7 +239,7 @@ mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
-    use crate::solve::{SolveError, solve};
+    use crate::solve::solve;
 
     fn draft() -> Settings {
         Settings { fidelity: Fidelity::Draft, ..Settings::default() }
@@ -295,13 +295,5 @@ mod tests {
         let found = difference(unknown(2.0), with(3.0, 0.1)).unwrap();
         assert!(found.value == 50.0 && found.error.is_nan());
         assert_eq!(difference(with(2.0, 0.1), with(2.0, 0.1)), Some(with(0.0, 10.0)));
-    }
-
-    #[test]
-    fn a_plate_and_the_papers_method_do_not_go_together() {
-        let scenes = ["fundamental", "plate-viscous"].map(|name| presets::find(name).unwrap());
-        let settings = Settings { method: crate::solve::Method::Paper, ..draft() };
-        let refused = runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap_err();
-        assert_eq!(refused, AnalysisError::Solve(SolveError::PaperPlate));
     }
 }

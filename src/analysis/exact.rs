@@ -51,15 +51,6 @@ pub fn units(plate: &Plate) -> [&'static str; 2] {
     if plate.is_strip() { ["N/m²", "N·s/m²"] } else { ["N/m", "N·s/m"] }
 }
 
-/// Loads of the limits over the cycle \[N, of a strip N/m\], at the frames of a recording.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Limits {
-    /// σ → ∞: gas that cannot leave within a cycle, Boyle's law.
-    pub boyle: Vec<f64>,
-    /// σ → 0: gas that is not compressed.
-    pub viscous: Vec<f64>,
-}
-
 /// A solved plate beside what is known exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
@@ -77,8 +68,10 @@ pub struct Comparison {
     pub trapped_mean_pressure: f64,
     /// Greatest deviation of ⟨hΦ⟩ from its exact value at any point of the film, relative; `None` without a pressure map.
     pub invariant_deviation: Option<f64>,
-    /// The limits over the cycle.
-    pub limits: Limits,
+    /// Load over the cycle \[N, of a strip N/m\], at the frames of the recording, for σ → ∞: gas that cannot leave within a cycle, Boyle's law.
+    pub boyle: Vec<f64>,
+    /// The same for σ → 0: gas that is not compressed.
+    pub viscous: Vec<f64>,
 }
 
 impl Comparison {
@@ -98,6 +91,13 @@ impl Comparison {
         let trapped = trapped_height_of(plate);
         let mean_inverse =
             (0..SAMPLES).map(|i| 1.0 / plate.gap(i as f64 / SAMPLES as f64)).sum::<f64>() / SAMPLES as f64;
+        let frames = recording.frames;
+        let limits = |frame: usize| {
+            let phase = frame as f64 / frames as f64;
+            let (gap, rate) = (plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin());
+            (force * (trapped / gap - 1.0), viscous_force(plate, gap, rate))
+        };
+        let (boyle, viscous) = (0..frames).map(limits).unzip();
         Self {
             effective_squeeze_number: effective,
             solved: solved(plate, result, recording),
@@ -106,7 +106,8 @@ impl Comparison {
             mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
             trapped_mean_pressure: trapped * mean_inverse,
             invariant_deviation: invariant_deviation(plate, recording),
-            limits: limits(plate, trapped, recording.frames),
+            boyle,
+            viscous,
         }
     }
 }
@@ -163,17 +164,6 @@ pub fn effective_squeeze_number(plate: &Plate) -> f64 {
 fn trapped_height_of(plate: &Plate) -> f64 {
     let law = SlipLaw::of(&plate.gas);
     edge_height(law, || (0..SAMPLES).map(|i| plate.gap(i as f64 / SAMPLES as f64)))
-}
-
-fn limits(plate: &Plate, trapped: f64, frames: usize) -> Limits {
-    let gas = &plate.gas;
-    let at = |frame: usize| {
-        let phase = frame as f64 / frames.max(1) as f64;
-        let (gap, rate) = (plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin());
-        (gas.ambient_pressure * plate.area() * (trapped / gap - 1.0), viscous_force(plate, gap, rate))
-    };
-    let (boyle, viscous) = (0..frames).map(at).unzip();
-    Limits { boyle, viscous }
 }
 
 /// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is
@@ -255,10 +245,10 @@ mod tests {
                 set
             };
             let (_, recording, found) = compared("plate-viscous", &with(&[("plate.frequency_khz", "0.001")]));
-            let off = far(&recording.film_load, &found.limits.viscous);
+            let off = far(&recording.film_load, &found.viscous);
             assert!(off < 0.02, "incompressible, width {width}: {off} at {}", found.effective_squeeze_number);
             let (_, recording, found) = compared("plate-trapped", &with(&[("plate.frequency_khz", "500")]));
-            let off = far(&recording.film_load, &found.limits.boyle);
+            let off = far(&recording.film_load, &found.boyle);
             // The layer at the edges leaks a share of its thickness, σ to the power −1/2.
             let layer = 6.0 / found.effective_squeeze_number.sqrt();
             assert!(off < layer && layer < 0.2, "trapped, width {width}: {off} {layer}");

@@ -268,15 +268,19 @@ impl Numbers {
         numbers
     }
 
-    fn set_estimate(&mut self, number: Quantity, found: Estimate) {
-        self.set(number, found.value);
-        if let Some(error) = number.error() {
-            self.set(error, found.error);
+    /// Sets those that are known, with their errors.
+    fn set_all<T: Into<Option<Estimate>>>(&mut self, numbers: impl IntoIterator<Item = (Quantity, T)>) {
+        for (number, found) in numbers {
+            let Some(Estimate { value, error }) = found.into() else { continue };
+            self.set(number, value);
+            if let Some(number) = number.error() {
+                self.set(number, error);
+            }
         }
     }
 
     fn motor(&mut self, result: &MotorResult) {
-        for (quantity, found) in [
+        self.set_all([
             (Alpha, result.alpha),
             (FilmLoad, result.film_load),
             (FilmLoadMin, result.film_load_min),
@@ -286,28 +290,22 @@ impl Numbers {
             (TeethInContact, result.teeth_in_contact),
             (MinGap, result.min_film_thickness * 1e9),
             (MaxPressure, result.max_pressure * 1e-3),
-        ] {
-            self.set_estimate(quantity, found);
-        }
+        ]);
     }
 
     /// Speeds in `rpm` for 1 m/s.
     fn performance(&mut self, found: &Performance, rpm: f64) {
-        for (quantity, found) in [
+        self.set_all([
             (StallTorque, Some(found.stall_torque)),
             (NoLoadSpeed, found.no_load_speed.map(|speed| speed * rpm)),
             (MaxPower, Some(found.max_power)),
             (MaxEfficiency, found.max_efficiency),
-        ] {
-            if let Some(found) = found {
-                self.set_estimate(quantity, found);
-            }
-        }
+        ]);
     }
 
     fn plate(&mut self, result: &PlateResult, plate: &Plate) {
         let ratio = PlateResult::ratio(1.0, plate);
-        for (quantity, found) in [
+        self.set_all([
             (FilmLoad, result.film_load),
             (FilmLoadMin, result.film_load_min),
             (FilmLoadMax, result.film_load_max),
@@ -316,26 +314,18 @@ impl Numbers {
             (LoadRatioMax, result.film_load_max * ratio),
             (MinGap, result.min_film_thickness * 1e9),
             (MaxPressure, result.max_pressure * 1e-3),
-        ] {
-            self.set_estimate(quantity, found);
-        }
+        ]);
         if let Some(floating) = result.floating {
-            self.set_estimate(MeanGap, floating.mean_gap * 1e6);
-            if floating.is_stable() {
-                self.set_estimate(NaturalFrequency, floating.natural_frequency);
-            }
-            self.set_estimate(FloatingStiffness, floating.stiffness);
             let slow = floating.slow;
-            for (quantity, found) in [
+            self.set_all([
+                (MeanGap, Some(floating.mean_gap * 1e6)),
+                (NaturalFrequency, floating.is_stable().then_some(floating.natural_frequency)),
+                (FloatingStiffness, Some(floating.stiffness)),
                 (SlowDamping, slow.map(|slow| slow.damping)),
                 (CreepTime, slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3)),
                 (SwingFrequency, slow.and_then(|slow| slow.swing_frequency)),
                 (SwingDecay, slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3)),
-            ] {
-                if let Some(found) = found {
-                    self.set_estimate(quantity, found);
-                }
-            }
+            ]);
         }
     }
 }

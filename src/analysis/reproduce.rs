@@ -13,6 +13,7 @@ use crate::scene::{Scene, SceneError, presets};
 use crate::solution::{MotorResult, Outcome, Solution, Status};
 use crate::solve::{Method, Record, Settings};
 use rayon::prelude::*;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// A figure of surfaces and pressures: its number, its preset, and what the paper calls it.
@@ -63,13 +64,6 @@ pub struct Row {
     pub both: Both,
 }
 
-impl Row {
-    /// By how much the film load of a result exceeds the published one \[%\].
-    pub fn difference_percent(&self, result: &MotorResult) -> f64 {
-        100.0 * (result.film_load.value / self.published.published_load_n - 1.0)
-    }
-}
-
 /// α at a frequency, converged.
 #[derive(Clone, Debug)]
 pub struct Point {
@@ -109,12 +103,6 @@ impl Reproduction {
     }
 }
 
-/// What is solved: by the paper's method or ours, and what of it is kept.
-struct Work {
-    problem: Problem,
-    settings: Settings,
-}
-
 /// How many solves there are.
 pub fn number_of_solves() -> usize {
     2 * (published().len() + 2) + FREQUENCIES.2
@@ -142,13 +130,14 @@ pub fn reproduce(
         softer.set(key, &format!("{}", SOFTER * stiff))?;
     }
     scenes.extend([no_sliding.clone(), softer.clone()]);
-    let mut work = Vec::new();
+    // What is solved: by the paper's method or ours, and what of it is kept.
+    let mut work: Vec<(Problem, Settings)> = Vec::new();
     for scene in &mut scenes {
         let shown = FIELDS.iter().any(|(_, preset, _)| presets::find(preset).as_ref() == Ok(&*scene));
         let record = if shown { Record::Everything } else { Record::Numbers };
-        work.push(Work { problem: Problem::try_from(&*scene)?, settings: Settings { record, ..paper } });
+        work.push((Problem::try_from(&*scene)?, Settings { record, ..paper }));
         scene.set_numerics(&Numerics::default())?;
-        work.push(Work { problem: Problem::try_from(&*scene)?, settings: Settings { record, ..ours } });
+        work.push((Problem::try_from(&*scene)?, Settings { record, ..ours }));
     }
     let mut frequencies = Vec::new();
     let (from, to, count) = FREQUENCIES;
@@ -157,16 +146,16 @@ pub fn reproduce(
         let mut scene = fundamental.clone();
         scene.set("stator.frequency_khz", &format!("{frequency}"))?;
         frequencies.push(frequency);
-        work.push(Work { problem: Problem::try_from(&scene)?, settings: Settings { record: Record::Numbers, ..ours } });
+        work.push((Problem::try_from(&scene)?, Settings { record: Record::Numbers, ..ours }));
     }
 
     // The longest first, one by one to whoever is free: the pool is busy to the end.
-    let nodes = |work: &Work| work.problem.numerics.film_nodes_along.unwrap_or(0);
-    let mut order: Vec<usize> = (0..work.len()).collect();
-    order.sort_by_key(|i| (work[*i].settings.method == Method::Auto, std::cmp::Reverse(nodes(&work[*i]))));
-    let solve = |i: usize| {
-        let result = attempt(&work[i].problem, &work[i].settings, &mut (), cancel);
-        finished(&work[i].problem.name);
+    let mut order: Vec<_> = work.iter().enumerate().collect();
+    let nodes = |problem: &Problem| problem.numerics.film_nodes_along.unwrap_or(0);
+    order.sort_by_key(|(_, (problem, settings))| (settings.method == Method::Auto, Reverse(nodes(problem))));
+    let solve = |(i, (problem, settings)): (usize, &(Problem, Settings))| {
+        let result = attempt(problem, settings, &mut (), cancel);
+        finished(&problem.name);
         (i, result)
     };
     let solved: BTreeMap<usize, _> = order.into_iter().par_bridge().map(solve).collect();
@@ -174,27 +163,20 @@ pub fn reproduce(
     let mut next = || solved.next().unwrap_or_else(|| Err("not solved".to_owned()));
 
     // In the order in which they were put there.
-    let mut scenes = scenes.into_iter();
     let mut pair = |scene: Scene| -> Result<Both, SceneError> {
         let (paper, ours) = (next(), next());
         Ok(Both { problem: Problem::try_from(&scene)?, scene, paper, ours })
     };
-    let rows = published()
-        .into_iter()
-        .zip(scenes.by_ref())
-        .map(|(published, scene)| Ok(Row { published, both: pair(scene)? }))
-        .collect::<Result<Vec<_>, SceneError>>()?;
-    let no_sliding = pair(no_sliding)?;
-    let softer = pair(softer)?;
-    let frequencies = frequencies
-        .into_iter()
-        .map(|frequency_khz| {
-            let solved = next().and_then(|solution| match (solution.status, solution.outcome) {
-                (Status::Converged, Outcome::Motor(result)) => Ok(result),
-                _ => Err("not converged".to_owned()),
-            });
-            Point { frequency_khz, solved }
-        })
-        .collect();
+    let row = |(published, scene)| Ok(Row { published, both: pair(scene)? });
+    let rows = published().into_iter().zip(scenes).map(row).collect::<Result<Vec<_>, SceneError>>()?;
+    let (no_sliding, softer) = (pair(no_sliding)?, pair(softer)?);
+    let point = |frequency_khz| {
+        let solved = next().and_then(|solution| match (solution.status, solution.outcome) {
+            (Status::Converged, Outcome::Motor(result)) => Ok(result),
+            _ => Err("not converged".to_owned()),
+        });
+        Point { frequency_khz, solved }
+    };
+    let frequencies = frequencies.into_iter().map(point).collect();
     Ok(Reproduction { rows, no_sliding, softer, frequencies, settings: ours })
 }

@@ -120,12 +120,16 @@ fn values(problem: &Problem, solution: &Solution) -> Vec<f64> {
 #[derive(Debug)]
 pub struct Sensitivity {
     variation: Variation,
-    settings: Settings,
-    problem: Problem,
+    /// How it was solved.
+    pub settings: Settings,
+    /// The problem.
+    pub problem: Problem,
     /// What random scenes are solved from: not carried in bytes, but solved again.
     centre: OnceLock<Centre>,
-    status: Status,
-    warnings: Vec<String>,
+    /// How the solve in the middle ended.
+    pub status: Status,
+    /// What the user should know of that solve.
+    pub warnings: Vec<String>,
     /// The results, the headline first.
     pub outputs: &'static [Output],
     /// Their values, with their numerical errors; not finite where the scene has none.
@@ -181,26 +185,6 @@ impl Sensitivity {
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.variation.scene
-    }
-
-    /// The problem.
-    pub fn problem(&self) -> &Problem {
-        &self.problem
-    }
-
-    /// How it was solved.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// How the solve in the middle ended.
-    pub fn status(&self) -> Status {
-        self.status
-    }
-
-    /// What the user should know of that solve.
-    pub fn warnings(&self) -> &[String] {
-        &self.warnings
     }
 
     /// Keys that act in the scene and are whole numbers, which have no derivative.
@@ -353,29 +337,6 @@ const MOST_REDRAWN: usize = 1000;
 
 // ---- uncertainties
 
-/// How the values of a key are distributed about that of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Shape {
-    /// Normally.
-    #[default]
-    Normal,
-    /// Evenly within limits.
-    Uniform,
-}
-
-impl Shape {
-    /// A random number of mean 0 and standard deviation 1.
-    fn draw(self, random: &mut ChaCha8Rng) -> f64 {
-        match self {
-            Self::Normal => StandardNormal.sample(random),
-            Self::Uniform => {
-                let share: f64 = StandardUniform.sample(random);
-                (2.0 * share - 1.0) * 3f64.sqrt()
-            }
-        }
-    }
-}
-
 /// The uncertainty of a key, as in `20%`, `10` or `±10`: a standard deviation, or limits if it begins with `±`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncertainty {
@@ -383,15 +344,26 @@ pub struct Uncertainty {
     pub amount: f64,
     /// Whether it is a share.
     pub relative: bool,
-    /// Standard deviation of a normal distribution, or limits of an even one.
-    pub shape: Shape,
+    /// Whether it is limits, between which all values are equally likely; otherwise the standard deviation of a normal distribution.
+    pub limits: bool,
 }
 
 impl Uncertainty {
     /// The standard deviation of a key whose value is `at`, in its unit.
     pub fn deviation(&self, at: f64) -> f64 {
         let amount = if self.relative { self.amount * at.abs() } else { self.amount };
-        if self.shape == Shape::Uniform { amount / 3f64.sqrt() } else { amount }
+        if self.limits { amount / 3f64.sqrt() } else { amount }
+    }
+
+    /// A random value of a key whose value is `at`.
+    fn draw(&self, at: f64, random: &mut ChaCha8Rng) -> f64 {
+        let away: f64 = if self.limits {
+            let share: f64 = StandardUniform.sample(random);
+            (2.0 * share - 1.0) * 3f64.sqrt()
+        } else {
+            StandardNormal.sample(random)
+        };
+        at + self.deviation(at) * away
     }
 }
 
@@ -406,7 +378,7 @@ impl FromStr for Uncertainty {
         match number.trim().replace(',', ".").parse::<f64>() {
             Ok(amount) if amount > 0.0 && amount.is_finite() => {
                 let amount = if relative { amount / 100.0 } else { amount };
-                Ok(Self { amount, relative, shape: if limits.is_some() { Shape::Uniform } else { Shape::Normal } })
+                Ok(Self { amount, relative, limits: limits.is_some() })
             }
             _ => Err(format!(
                 "uncertainty {text}: expected a standard deviation above 0 in the unit of the key or in per cent, as 10 or 20%, or limits, \
@@ -418,7 +390,7 @@ impl FromStr for Uncertainty {
 
 impl fmt::Display for Uncertainty {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign = if self.shape == Shape::Uniform { "±" } else { "" };
+        let sign = if self.limits { "±" } else { "" };
         if self.relative {
             write!(f, "{sign}{}%", as_given(100.0 * self.amount))
         } else {
@@ -475,8 +447,7 @@ impl Uncertainties {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
         for redrawn in 0..MOST_REDRAWN {
-            let values: Vec<f64> =
-                self.iter().map(|(_, at, given)| at + given.deviation(at) * given.shape.draw(&mut random)).collect();
+            let values: Vec<f64> = self.iter().map(|(_, at, given)| given.draw(at, &mut random)).collect();
             if let Ok(problem) = self.variation.problem(&values) {
                 return Ok((values, problem, redrawn));
             }

@@ -19,35 +19,32 @@ use rayon::prelude::*;
 pub struct Map {
     /// Its name on the command line and in files.
     pub name: &'static str,
-    /// Key along x, and key along y.
-    pub axes: [Edge; 2],
-}
-
-/// A key from one edge of its range to the other, by equal ratios.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Edge {
-    /// Dotted key.
-    pub key: &'static str,
-    /// Mapped up to here only, where a finer grid is no other problem but takes longer.
-    pub up_to: Option<f64>,
-}
-
-const fn edge(key: &'static str) -> Edge {
-    Edge { key, up_to: None }
+    /// Key along x, and key along y: each from one edge of its range to the other, by equal ratios.
+    pub axes: [&'static str; 2],
 }
 
 const SPACING: &str = "film.min_spacing_nm";
 const NODES: &str = "numerics.film_nodes_along";
+const STEPS: &str = "numerics.steps_per_cycle";
+/// Up to where a key is mapped, if not to the end of its range: a finer grid is no other problem but takes longer.
+fn up_to(key: &str) -> Option<f64> {
+    match key {
+        STEPS => Some(720.0),
+        NODES => Some(201.0),
+        _ => None,
+    }
+}
+
 /// From zero by equal ratios: zero itself, and then this many decades below the other end.
 const DECADES_FROM_ZERO: i32 = 3;
 
 /// The maps.
 pub const MAPS: [Map; 5] = [
-    Map { name: "spacing-frequency", axes: [edge(SPACING), edge("stator.frequency_khz")] },
-    Map { name: "load-amplitude", axes: [edge("motor.load_per_wave_n"), edge("stator.normal_amplitude_um")] },
-    Map { name: "pressure-width", axes: [edge("film.ambient_pressure_kpa"), edge("rotor.contact_width_mm")] },
-    Map { name: "steps-spacing", axes: [Edge { key: "numerics.steps_per_cycle", up_to: Some(720.0) }, edge(SPACING)] },
-    Map { name: "grid-tooth", axes: [Edge { key: NODES, up_to: Some(201.0) }, edge("stator.tooth_width_mm")] },
+    Map { name: "spacing-frequency", axes: [SPACING, "stator.frequency_khz"] },
+    Map { name: "load-amplitude", axes: ["motor.load_per_wave_n", "stator.normal_amplitude_um"] },
+    Map { name: "pressure-width", axes: ["film.ambient_pressure_kpa", "rotor.contact_width_mm"] },
+    Map { name: "steps-spacing", axes: [STEPS, SPACING] },
+    Map { name: "grid-tooth", axes: [NODES, "stator.tooth_width_mm"] },
 ];
 
 impl Map {
@@ -59,9 +56,9 @@ impl Map {
     /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` leaves the key. Fewer of a key
     /// of whole numbers that has no more.
     pub fn values(&self, axis: usize, scene: &Scene, count: usize) -> Vec<f64> {
-        let Edge { key, up_to } = self.axes[axis];
+        let key = self.axes[axis];
         let Some(Range { min, max }) = scene.range(key) else { return Vec::new() };
-        let max = up_to.unwrap_or(max).min(max);
+        let max = up_to(key).unwrap_or(max).min(max);
         let spaced = |min: f64, count: usize| spaced(min, max, count, Scale::Log);
         let mut values = if min <= 0.0 {
             [vec![min], spaced(max * 10f64.powi(-DECADES_FROM_ZERO), count.saturating_sub(1))].concat()
@@ -77,8 +74,8 @@ impl Map {
 
     /// What makes the scene of a cell: keys and values. Other meshes go with the nodes along a tooth.
     fn changes(&self, values: [f64; 2]) -> Vec<(&'static str, f64)> {
-        let mut changes = vec![(self.axes[0].key, values[0]), (self.axes[1].key, values[1])];
-        if self.axes[0].key == NODES {
+        let mut changes = vec![(self.axes[0], values[0]), (self.axes[1], values[1])];
+        if self.axes[0] == NODES {
             let intervals = values[0] - 1.0;
             changes.push(("numerics.film_nodes_across", (2.0 * (0.1 * intervals).round()).max(2.0) + 1.0));
             changes.push(("numerics.contact_nodes", (3.6 * intervals).round().max(18.0) + 1.0));
@@ -166,8 +163,7 @@ const BALANCE: f64 = 2e-3;
 /// What cannot be of a motor's solution.
 pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
-    let mut violations = Vec::new();
-    for (name, value) in [
+    let numbers = [
         ("α", result.alpha.value),
         ("the error of α", result.alpha.error),
         ("the film load", result.film_load.value),
@@ -175,11 +171,9 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
         ("the torque", result.max_torque.value),
         ("the least film thickness", result.min_film_thickness.value),
         ("the highest pressure", result.max_pressure.value),
-    ] {
-        if !value.is_finite() {
-            violations.push(Violation::NotFinite(name));
-        }
-    }
+    ];
+    let wrong = numbers.into_iter().filter(|(_, value)| !value.is_finite());
+    let mut violations: Vec<_> = wrong.map(|(name, _)| Violation::NotFinite(name)).collect();
     let Estimate { value: alpha, error } = result.alpha;
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
         violations.push(Violation::Share { alpha, error });
@@ -220,11 +214,9 @@ pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<
         Ok(solution) => {
             let violations = violations(motor, solution);
             let verdict = match solution.status {
-                Status::Converged if violations.is_empty() => Verdict::Solved,
-                Status::Converged => Verdict::NonPhysical,
                 // `NotResolved`: the error is as large as the result, but the numbers are physical.
-                Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
-                Status::NotResolved { .. } => Verdict::NonPhysical,
+                Status::Converged | Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
+                Status::Converged | Status::NotResolved { .. } => Verdict::NonPhysical,
                 Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
             };
             (verdict, violations)
@@ -448,8 +440,8 @@ mod tests {
         let scene = Scene::motor();
         for map in &MAPS {
             for axis in 0..2 {
-                let (values, range) = (map.values(axis, &scene, 5), scene.range(map.axes[axis].key).unwrap());
-                let last = map.axes[axis].up_to.unwrap_or(range.max);
+                let (values, range) = (map.values(axis, &scene, 5), scene.range(map.axes[axis]).unwrap());
+                let last = up_to(map.axes[axis]).unwrap_or(range.max);
                 assert_eq!((values.first(), values.last()), (Some(&range.min), Some(&last)), "{}", map.name);
                 assert!(values.windows(2).all(|pair| pair[0] < pair[1]) && values.len() == 5);
             }

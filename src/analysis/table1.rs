@@ -32,7 +32,7 @@ impl Row {
 
     /// By how much the computed film load exceeds the published one \[%\].
     pub fn difference_percent(&self) -> Option<f64> {
-        Some(100.0 * (self.result()?.film_load.value / self.published.published_load_n - 1.0))
+        Some(self.published.difference_percent(self.result()?.film_load))
     }
 }
 
@@ -52,7 +52,7 @@ pub fn rows(
         if settings.method == Method::Auto {
             scene.set_numerics(&Numerics::default())?;
         }
-        scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        scene.set_all(changes)?;
         Ok((Problem::try_from(&scene)?, scene))
     };
     let (problems, scenes): (Vec<_>, Vec<_>) =

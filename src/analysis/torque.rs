@@ -11,7 +11,7 @@ use crate::fidelity::Fidelity;
 use crate::motor::{MotorError, without_film};
 use crate::plan::{Plan, wedge_bound};
 use crate::problem::{Motor, Numerics, Problem, Scenario, Wedge, rpm};
-use crate::recording::{LineLoads, Recording};
+use crate::recording::Recording;
 use crate::solution::{MotorResult, Outcome, Performance, Solution, Status};
 use crate::solve::{Record, Settings, solve};
 use serde::{Deserialize, Serialize};
@@ -61,26 +61,20 @@ impl TorqueCurves {
         };
         let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
-        let speed_effect = speed_effect(motor, &problem.numerics, result.alpha.value, cancel);
-        Ok(Some(Self { speed_effect, ..Self::from_contacts(motor, result, &solution.recording, &dry) }))
-    }
-
-    /// From the contact with the film, in `recording`, and without it, coarse to fine; all but what the speed changes.
-    fn from_contacts(motor: &Motor, result: &MotorResult, recording: &Recording, dry: &[LineLoads]) -> Self {
-        let with_film = Scaled::with_film(motor, result, recording);
-        let without_film = Scaled::without_film(motor, dry);
+        let with_film = Scaled::with_film(motor, result, &solution.recording);
+        let without_film = Scaled::without_film(motor, &dry);
         let share = (1.0 - result.alpha.value).max(0.0);
         let speeds = speeds(motor, &[with_film.no_load_speed(), without_film.no_load_speed()]);
-        Self {
+        Ok(Some(Self {
             with_film: with_film.performance(&speeds),
             without_film: without_film.performance(&speeds),
             radius: motor.contact_radius,
             stator_speed: motor.stator_speed(),
             dry_equivalent: Estimate { value: share, ..result.alpha } * motor.dry_friction,
-            film_power: film_power(motor, recording),
-            viscous_drag: viscous_drag(motor, recording),
-            speed_effect: 0.0,
-        }
+            film_power: film_power(motor, &solution.recording),
+            viscous_drag: viscous_drag(motor, &solution.recording),
+            speed_effect: speed_effect(motor, &problem.numerics, result.alpha.value, cancel),
+        }))
     }
 
     /// Converts a surface speed \[m/s\] to revolutions per minute.

@@ -1,7 +1,7 @@
 //! `squeezefilm animate`: one cycle as moving pictures.
 
 use super::exit::{CliError, Exit};
-use super::options::{SceneOptions, SolveOptions, whole};
+use super::options::{SceneOptions, SolveOptions, whole, within};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     width: u32,
 
     /// How long the cycle takes on screen
-    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = within(0.2..=120.0, "a number of seconds"))]
     seconds: f64,
 
     /// At most this many frames, so that they divide the solve's time steps evenly; an MP4 has at least 24 a second, between
@@ -50,14 +50,6 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     solve: SolveOptions,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let allowed = 0.2..=120.0;
-    match text.parse::<f64>() {
-        Ok(seconds) if allowed.contains(&seconds) => Ok(seconds),
-        _ => Err(format!("expected {} to {} seconds", allowed.start(), allowed.end())),
-    }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {

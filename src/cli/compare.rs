@@ -5,11 +5,11 @@ use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
 use super::terminal;
-use crate::analysis::compare::{ComparedRun, results, runs};
+use crate::analysis::compare::{ComparedRun, runs};
 use crate::analysis::decision::effort;
 use crate::digits::duration;
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, difference_text, frames, mark, object, parameter_rows, value_text};
+use crate::export::compare::{frames, mark, object, parameter_rows, result_texts};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::scene::Value;
@@ -125,22 +125,10 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     let mut columns = Columns::new();
     let pair = |i: usize| if i == 0 { vec![letter(i)] } else { vec![letter(i), format!("{} − A", letter(i))] };
     columns.row(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
-    for row in results(runs) {
-        let mut cells = vec![row.label()];
-        for (i, cell) in row.cells.iter().enumerate() {
-            cells.push(value_text(&row, cell));
-            if i > 0 {
-                cells.push(difference_text(&row, cell));
-            }
-        }
-        columns.row(cells);
-    }
-    if runs.iter().any(|run| !run.outside().is_empty()) {
-        let names = |(i, run): (usize, &ComparedRun)| {
-            let names = run.outside().join(", ");
-            if i == 0 { vec![names] } else { vec![names, String::new()] }
-        };
-        columns.row(std::iter::once(LIMITS.to_owned()).chain(runs.iter().enumerate().flat_map(names)));
+    for (_, name, texts) in result_texts(runs) {
+        // The first has no difference.
+        let texts = texts.into_iter().enumerate().flat_map(|(i, texts)| texts.into_iter().take(1 + usize::from(i > 0)));
+        columns.row(std::iter::once(name).chain(texts));
     }
     text.push('\n');
     text.push_str(&columns.text(&right));

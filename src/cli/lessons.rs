@@ -118,8 +118,7 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
             staged.add(format!("{name}.{extension}"), |file| file.write_all(&bytes))?;
         }
     }
-    let written = staged.commit()?;
-    written.iter().for_each(|path| terminal::note(&path.display().to_string()));
+    terminal::wrote(out, &staged.commit()?);
     Ok(if faults.is_empty() { Exit::Solved } else { Exit::BadInput })
 }
 
@@ -127,6 +126,6 @@ fn summary(records: &[PathBuf], out: &Path) -> Result<Exit, CliError> {
     let class: Result<Vec<_>, String> = records.iter().map(|path| record::read(path)).collect();
     let page = record::summary(&class.map_err(CliError::Input)?);
     write_file(out, |file| file.write_all(page.as_bytes()))?;
-    terminal::note(&out.display().to_string());
+    terminal::note(&format!("wrote {}", out.display()));
     Ok(Exit::Solved)
 }

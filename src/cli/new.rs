@@ -115,7 +115,11 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                 Some(assumed) => format!("{} [{assumed}]: ", question.title()),
                 None => format!("{}: ", question.title()),
             });
-            let Some(line) = lines.next() else { return Ok(()) };
+            let Some(line) = lines.next() else {
+                // What follows does not stand behind the question.
+                terminal::say("");
+                return Ok(());
+            };
             let answer = line.map_err(|error| from_input(ReadError::System(error.to_string())))?.trim().to_owned();
             match question.check(&answer) {
                 _ if answer.is_empty() && question.otherwise.is_some() => {}

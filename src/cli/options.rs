@@ -12,13 +12,14 @@ use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input::{self, ReadError};
 use crate::memory;
 use crate::platform::{on_interrupt, timed};
-use crate::scene::{Scene, presets};
+use crate::scene::{Scene, Value, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::time::Duration;
 
 /// Changes to a scene.
@@ -47,7 +48,7 @@ impl SceneOptions {
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
         let mut scene = original.clone();
-        scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        scene.set_all(&self.changes)?;
         let changed = |key| scene.get(key) != original.get(key);
         if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
             warn_of_given_path(&scene);
@@ -302,17 +303,23 @@ fn figure_names() -> PossibleValuesParser {
     PossibleValuesParser::new(Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]))
 }
 
-/// Reads a whole number within limits.
-pub(super) fn whole<T: TryFrom<u32>>(
-    allowed: RangeInclusive<u32>,
-) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+/// Reads a number within limits; `kind`: what it is, in words.
+pub(super) fn within<T: Copy + PartialOrd + FromStr + Into<f64>>(
+    allowed: RangeInclusive<T>,
+    kind: &'static str,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| {
-        let number = text.parse().ok().filter(|number| allowed.contains(number)).map(T::try_from);
-        match number {
-            Some(Ok(number)) => Ok(number),
-            _ => Err(format!("expected a whole number from {} to {}", allowed.start(), allowed.end())),
-        }
+        let [from, to] = [allowed.start(), allowed.end()].map(|end| Value::Number((*end).into()));
+        let number = text.parse().ok().filter(|number| allowed.contains(number));
+        number.ok_or_else(|| format!("expected {kind} from {from} to {to}"))
     }
+}
+
+/// Reads a whole number within limits.
+pub(super) fn whole<T: Copy + PartialOrd + FromStr + Into<f64>>(
+    allowed: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
+    within(allowed, "a whole number")
 }
 
 /// `key=value`, as text.

@@ -32,7 +32,7 @@ Files of --out:
 /// Table I and Figs. 3, 4 and 6–12 of Maeno and Bogy (1992): published numbers beside those of the paper's algorithm on its
 /// own meshes and beside converged ones; and what the text says, checked. Under a minute on two cores.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES, mut_arg("out", |out| out.default_value("reproduction")))]
+#[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES, mut_arg("out", |out| out.default_value("reproduction")), mut_arg("method", |method| method.hide(true)))]
 pub(super) struct Arguments {
     #[command(flatten)]
     solve: SolveOptions,

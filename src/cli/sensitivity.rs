@@ -114,7 +114,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     };
     let carlo = carlo.flatten();
 
-    sensitivity.warnings().iter().for_each(|warning| terminal::warning(warning));
+    sensitivity.warnings.iter().for_each(|warning| terminal::warning(warning));
     if let Some(warning) = carlo.as_ref().and_then(warning) {
         terminal::warning(&warning);
     }
@@ -124,7 +124,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = &folder {
         terminal::wrote(folder.path, &files::sensitivity(folder, &found)?);
     }
-    Ok(Exit::of(&sensitivity.status()))
+    Ok(Exit::of(&sensitivity.status))
 }
 
 /// What is missing in the random draws.
@@ -156,7 +156,7 @@ const NOTHING: f64 = 1e-9;
 /// For people: elasticities by key, and what uncertain keys make of the results.
 fn text(found: &Found<'_>) -> String {
     let sensitivity = found.sensitivity;
-    let (problem, outputs) = (sensitivity.problem(), sensitivity.outputs);
+    let (problem, outputs) = (&sensitivity.problem, sensitivity.outputs);
     let name = show_text(&sensitivity.scene().name);
     let mut text =
         heading(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"));
@@ -220,7 +220,7 @@ fn text(found: &Found<'_>) -> String {
 
 fn uncertain(found: &Found<'_>) -> String {
     let sensitivity = found.sensitivity;
-    let problem = sensitivity.problem();
+    let problem = &sensitivity.problem;
     let given = found.uncertainties.iter().map(|(parameter, at, given)| {
         let deviation = significant(given.deviation(at), 3);
         format!("{} = {} ({})", parameter.key, parameter.with_unit(at), parameter.with_unit(deviation))

@@ -155,7 +155,7 @@ fn one(
         ));
     }
     if !arguments.common.output.json {
-        terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
+        terminal::text(&summary::text(scene, &result));
     } else if arguments.presets.len() == 1 {
         terminal::data(&json::text(&result));
     }

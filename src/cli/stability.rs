@@ -27,8 +27,8 @@ Examples:
 /// Maps, over the full ranges of the parameters, where each method (ours and the paper's) finds a solution
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
-/// a pressure or contact force below 0, loads that do not add up), failed or refused. About three minutes on two cores, nearly all
-/// of them the paper's method: --method auto leaves that out.
+/// a pressure or contact force below 0, loads that do not add up), failed or refused. About a minute and a half on two cores, nearly all
+/// of it the paper's method: --method auto leaves that out.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {

@@ -3,7 +3,7 @@
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::fall;
-use super::options::{CommonOptions, whole};
+use super::options::{CommonOptions, whole, within};
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
@@ -59,19 +59,11 @@ pub(super) struct Arguments {
 
     /// The cycle counts as repeating when ln(p h), and α or the mean load as a share of itself, will change by less than this; a dropped
     /// plate as floating when its height will change by less than this share of itself
-    #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = tolerance)]
+    #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = within(1e-8..=0.1, "a number"))]
     tolerance: f64,
 
     #[command(flatten)]
     common: CommonOptions,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let allowed = 1e-8..=0.1;
-    match text.parse::<f64>() {
-        Ok(change) if allowed.contains(&change) => Ok(change),
-        _ => Err(format!("expected {:e} to {}", allowed.start(), allowed.end())),
-    }
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {

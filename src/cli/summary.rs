@@ -3,24 +3,25 @@
 use super::columns::{Columns, paragraph};
 use crate::analysis::decision::{exactness, sentences};
 use crate::analysis::exact::{Comparison, units};
-use crate::analysis::quantity::Quantity;
+use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{as_given, duration, percent, short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::json::{FloatingObject, Summary, beside_limit, status_name};
+use crate::export::json::{Summary, beside_limit, small_load_gap, status_name};
 use crate::gas::species::IdealGas;
 use crate::problem::{GRAVITY, Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
-use crate::solution::{Accuracy, Outcome, Performance, Status, StoppedBy};
+use crate::solution::{Accuracy, Floating, MotorResult, Outcome, Performance, PlateResult, Status, StoppedBy};
 use std::fmt::Write as _;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
 
-pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary: &Summary) -> String {
+pub(super) fn text(scene: &Scene, summary: &Summary) -> String {
+    let (problem, outcome) = (&summary.problem, &summary.outcome);
     let outside = beside_headline(&summary.validity).map_or_else(String::new, |words| format!("; {words}"));
     let mut text = paragraph(&format!("{}: {}{outside}", name(scene), status(summary)), "", "");
     if !scene.about.is_empty() {
@@ -28,9 +29,11 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     }
     text.push('\n');
     let mut columns = Columns::new();
-    match &problem.scenario {
-        Scenario::Motor(motor) => motor_rows(&mut columns, motor, summary),
-        Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
+    match (&problem.scenario, outcome) {
+        (Scenario::Motor(motor), Outcome::Motor(result)) => motor_rows(&mut columns, motor, result, summary),
+        (Scenario::Plate(plate), Outcome::Plate(result)) => plate_rows(&mut columns, plate, result, summary),
+        // A solver answers in kind.
+        _ => {}
     }
     text.push_str(&columns.text(&[]));
     if let (Some(torque), Scenario::Motor(motor)) = (&summary.torque, &problem.scenario) {
@@ -74,9 +77,9 @@ fn status(summary: &Summary) -> String {
     }
 }
 
-fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
+fn motor_rows(columns: &mut Columns, motor: &Motor, result: &MotorResult, summary: &Summary) {
     let alpha = found(summary, Quantity::Alpha);
-    let dry = or_nan(summary.dry_torque_nm);
+    let dry = motor.friction_torque(motor.load);
     let negative = regime::sucks(alpha);
     let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
         format!("; {} without film", in_unit(Some(torque.without_film.stall_torque), 1.0, "N·m"))
@@ -111,10 +114,9 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         &format!("{} of {}", found(summary, Quantity::TeethInContact), motor.teeth),
         "mean over the cycle",
     ]);
-    columns.row(match summary.levitated {
-        Some(true) => ["levitated", "yes", "no tooth touches at any instant: the rotor floats on air"],
-        Some(false) => ["levitated", "no", "teeth touch the rotor"],
-        None => ["levitated", "unknown", ""],
+    columns.row(match result.levitated {
+        true => ["levitated", "yes", "no tooth touches at any instant: the rotor floats on air"],
+        false => ["levitated", "no", "teeth touch the rotor"],
     });
     let spacing = match motor.surface.asperities {
         Some(asperities) => format!("mean gap over asperities of {} nm rms", as_given(asperities.summits().rms * 1e9)),
@@ -152,14 +154,14 @@ fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
     ]);
 }
 
-fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
+fn plate_rows(columns: &mut Columns, plate: &Plate, result: &PlateResult, summary: &Summary) {
     let area = if plate.is_strip() {
         "of p_a × length, mean over the cycle; an infinitely wide strip"
     } else {
         "of p_a × area, mean over the cycle"
     };
-    if let Some(floating) = &summary.floating {
-        floating_rows(columns, plate, floating, summary.force_unit);
+    if let Some((load, floating)) = plate.load.zip(result.floating) {
+        floating_rows(columns, plate, load, &floating, force_unit(&summary.problem));
     }
     film_load(columns, summary);
     columns.row(["load ratio", &found(summary, Quantity::LoadRatio).to_string(), area]);
@@ -175,22 +177,21 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
 }
 
 /// How a plate floats, beside trapped gas.
-fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject, unit: &str) {
+fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floating, unit: &str) {
     let [stiffness, _] = units(plate);
-    let mass = as_given(floating.load / GRAVITY * 1e3);
-    let found = &floating.found;
-    let stable = if floating.stable { "stable" } else { "not stable" };
+    let mass = as_given(load / GRAVITY * 1e3);
+    let stable = if found.is_stable() { "stable" } else { "not stable" };
     columns.row([
         "mean gap",
-        &format!("{} µm", floating.mean_gap_um()),
-        &format!("at which the film carries the load of {} {unit}; {stable}", shown(floating.load)),
+        &format!("{} µm", found.mean_gap * 1e6),
+        &format!("at which the film carries the load of {} {unit}; {stable}", shown(load)),
     ]);
     columns.row([
         "",
-        &format!("{} µm", shown(floating.trapped_mean_gap_um)),
+        &format!("{} µm", shown(plate.trapped_gap(load) * 1e6)),
         &format!(
             "if gas were trapped and did not slip; a √(1.25 p_a A/F) = {} µm for a small load",
-            shown(floating.small_load_mean_gap_um)
+            shown(small_load_gap(plate, load) * 1e6)
         ),
     ]);
     columns.row([
@@ -198,9 +199,9 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
         &format!("{} {stiffness}", found.stiffness),
         "fall of the mean load per unit of mean gap",
     ]);
-    if let Some(frequency) = floating.natural_frequency() {
+    if found.is_stable() {
         let of = format!("of the mass whose weight is the load, {} g, on that stiffness alone", shown(mass));
-        columns.row(["natural frequency", &format!("{frequency} Hz"), &of]);
+        columns.row(["natural frequency", &format!("{} Hz", found.natural_frequency), &of]);
     }
     let Some(slow) = found.slow else { return };
     columns.row([
@@ -257,7 +258,7 @@ fn in_unit(found: Option<Estimate>, factor: f64, unit: &str) -> String {
 }
 
 fn film_load(columns: &mut Columns, summary: &Summary) {
-    let unit = summary.force_unit;
+    let unit = force_unit(&summary.problem);
     columns.row(["film load", &format!("{} {unit}", found(summary, Quantity::FilmLoad)), "mean over the cycle"]);
     let range = Estimate::range([Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| found(summary, end)));
     columns.row(["", &format!("{range} {unit}"), "least and greatest in the cycle"]);
@@ -348,11 +349,6 @@ fn found(summary: &Summary, quantity: Quantity) -> Estimate {
     summary.numbers.estimate(quantity).unwrap_or(Estimate::exact(f64::NAN))
 }
 
-/// What is null in the object is unknown here.
-fn or_nan(value: Option<f64>) -> f64 {
-    value.unwrap_or(f64::NAN)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -371,7 +367,7 @@ mod tests {
         assert_eq!((&object["converged"], &object["status"]), (&false.into(), &"not converged".into()));
         let change = [Quantity::Residual, Quantity::Tolerance].map(|quantity| summary.numbers.get(quantity));
         assert_eq!(change, [Some(2e-3), Some(1e-6)]);
-        let shown = text(&scene, &problem, &solution.outcome, &summary);
+        let shown = text(&scene, &summary);
         assert!(
             shown.starts_with("Plate, viscous: NOT CONVERGED: the last round still changed the result by 0.20 %"),
             "{shown}"

@@ -8,7 +8,7 @@ use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::surface::{Face, FlowFactors, Object};
+use crate::export::surface::{RATIOS, object, preset};
 use crate::input::read_text;
 use crate::scene::heights::LARGEST;
 use crate::surface::height_map::HeightMap;
@@ -53,80 +53,82 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let folder = arguments.output.folder(command)?;
     let faces = arguments.files.iter().map(|file| face(file, arguments.degree)).collect::<Result<Vec<_>, _>>()?;
-    let (Some((_, rotor)), Some((_, stator))) = (faces.first(), faces.last()) else { return Ok(Exit::BadInput) };
+    let (Some((_, (_, rotor))), Some((_, (_, stator)))) = (faces.first(), faces.last()) else {
+        return Ok(Exit::BadInput);
+    };
     let pair = Pair::of(rotor, stator);
-    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let told =
-        arguments.files.iter().zip(&faces).map(|(file, (map, texture))| Face::of(&name(file), map, texture)).collect();
-    let object = Object::new(told, &pair);
-    terminal::result(arguments.output.json, || json::document(&object, command), || text(&object));
+    let object = object(faces.iter().map(|(name, (map, texture))| (name.as_str(), map, texture)), &pair);
+    terminal::result(arguments.output.json, || json::document(&object, command), || text(&faces, &pair));
     if let Some(folder) = &folder {
         let mut files = Files::new(folder)?;
         files.json("surface.json", &object)?;
-        files.text("surface.toml", &object.preset)?;
-        for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
-            files.figure(&format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
+        files.text("surface.toml", &preset(&pair))?;
+        for (number, (name, (map, texture))) in (1..).zip(&faces) {
+            files.figure(&format!("face-{number}"), &figure(name, map, texture))?;
         }
         terminal::wrote(folder.path, &files.commit()?);
     }
     Ok(Exit::Solved)
 }
 
-fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
+/// A levelled face, with the name of its file.
+type Face = (String, (HeightMap, Texture));
+
+fn face(file: &Path, degree: u8) -> Result<Face, CliError> {
     let text = read_text(file, LARGEST).map_err(|fault| CliError::file(file, fault))?;
-    measured(&text, usize::from(degree)).map_err(|fault| CliError::file(file, fault))
+    let face = measured(&text, usize::from(degree)).map_err(|fault| CliError::file(file, fault))?;
+    Ok((file.file_name().unwrap_or_default().to_string_lossy().into_owned(), face))
 }
 
-fn text(object: &Object) -> String {
+fn text(faces: &[Face], pair: &Pair) -> String {
     let mut columns = Columns::new();
-    let names = object.faces.iter().map(|face| face.file.clone());
-    columns.row(std::iter::once(String::new()).chain(names).chain([String::new()]));
-    let mut row = |name: &str, value: &dyn Fn(&Face) -> String, note: &str| {
-        columns.row(std::iter::once(name.to_owned()).chain(object.faces.iter().map(value)).chain([note.to_owned()]));
+    let mut of_faces = |name: &str, value: &dyn Fn(&Face) -> String, note: &str| {
+        columns.row([name.to_owned()].into_iter().chain(faces.iter().map(value)).chain([note.to_owned()]));
     };
-    let lengths = |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length, 3))) {
-        [Some(x), Some(y)] => format!("{x}, {y} µm"),
-        [Some(x), None] => format!("{x} µm"),
-        _ => "longer than half the face".to_owned(),
+    of_faces("", &|(name, _)| name.clone(), "");
+    of_faces("points", &|(_, (map, _))| format!("{} × {}", map.nx, map.ny), "along x, the wave, and y");
+    let mut row = |name: &str, value: &dyn Fn(&Texture) -> String, note: &str| {
+        of_faces(name, &|(_, (_, texture))| value(texture), note);
     };
-    row("points", &|face| format!("{} × {}", face.points[0], face.points[1]), "along x, the wave, and y");
-    row("Sa", &|face| format!("{} nm", significant(face.sa_nm, 4)), "mean magnitude of the heights, level");
-    row("Sq", &|face| format!("{} nm", significant(face.sq_nm, 4)), "their standard deviation");
-    row("Sz", &|face| format!("{} nm", significant(face.sz_nm, 4)), "peak to valley");
+    let lengths =
+        |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length * 1e6, 3))) {
+            [Some(x), Some(y)] => format!("{x}, {y} µm"),
+            [Some(x), None] => format!("{x} µm"),
+            _ => "longer than half the face".to_owned(),
+        };
+    row("Sa", &|face| format!("{} nm", significant(face.mean * 1e9, 4)), "mean magnitude of the heights, level");
+    row("Sq", &|face| format!("{} nm", significant(face.rms * 1e9, 4)), "their standard deviation");
+    row("Sz", &|face| format!("{} nm", significant(face.peak_to_valley * 1e9, 4)), "peak to valley");
     row(
         "Ssk, Sku",
-        &|face| format!("{}, {}", signed(format!("{:.2}", face.ssk)), signed(format!("{:.2}", face.sku))),
+        &|face| format!("{}, {}", signed(format!("{:.2}", face.skewness)), signed(format!("{:.2}", face.kurtosis))),
         "skewness and kurtosis; 0 and 3 if normally distributed",
     );
-    row(
-        "correlation length",
-        &|face| lengths(face.correlation_length_um),
-        "along x and y, where the autocorrelation falls to ½",
-    );
-    row("", &|face| lengths(face.correlation_length_fifth_um), "where it falls to 0.2 (ISO 25178-2)");
+    row("correlation length", &|face| lengths(face.correlation), "along x and y, where the autocorrelation falls to ½");
+    row("", &|face| lengths(face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
     row(
         "lay  γ",
-        &|face| face.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
+        &|face| face.lay().map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
         "along x over across",
     );
     let mut text = columns.text(&[]);
-    let (number, same) = (object.faces.len(), "Both faces are taken to be like it. ");
+    let (number, same) = (faces.len(), "Both faces are taken to be like it. ");
     text.push_str(&paragraph(
         &format!(
             "{}Summits follow from slopes and curvatures between neighbouring points: they are those of this resolution. Bandwidth m₀m₄/m₂² = {}.",
             if number == 1 { same } else { "" },
-            significant(object.bandwidth, 3)
+            significant(pair.bandwidth, 3)
         ),
         "\n",
         "",
     ));
     let mut factors = Columns::new();
-    let mut row = |name: &str, digits: usize, value: fn(&FlowFactors) -> f64| {
-        let values = object.flow_factors.iter().map(|at| significant(value(at), digits));
+    let mut row = |name: &str, digits: usize, value: &dyn Fn(f64) -> f64| {
+        let values = RATIOS.map(|ratio| significant(value(ratio), digits));
         factors.row([name.to_owned()].into_iter().chain(values));
     };
-    row("h/σ", 2, |at| at.gap_over_rms);
-    row("φ along x", 3, |at| at.along);
-    row("φ along y", 3, |at| at.across);
-    text + &factors.text(&[1, 2, 3, 4]) + "\n" + &object.preset
+    row("h/σ", 2, &|ratio| ratio);
+    row("φ along x", 3, &|ratio| pair.flow_factors(ratio)[0]);
+    row("φ along y", 3, &|ratio| pair.flow_factors(ratio)[1]);
+    text + &factors.text(&[1, 2, 3, 4]) + "\n" + &preset(pair)
 }

@@ -15,7 +15,7 @@ use crate::export::compare::{LIMITS, TIME_UP};
 use crate::export::files::{self, Folder};
 use crate::export::json;
 use crate::export::saved;
-use crate::export::sweep::{Object, primary};
+use crate::export::sweep::{object, primary};
 use crate::scene::show_text;
 use crate::solution::StoppedBy;
 use clap::Args;
@@ -178,7 +178,7 @@ pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: 
             terminal::error(&told);
         }
     }
-    terminal::result(json, || json::document(&Object { sweep, rows }, command), || text(sweep, rows, budget));
+    terminal::result(json, || json::document(&object(sweep, rows), command), || text(sweep, rows, budget));
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 

@@ -56,7 +56,7 @@ fn lines(text: &str) -> String {
 }
 
 /// Writes text to standard error. If nobody can read it, nobody is told.
-fn say(text: &str) {
+pub(super) fn say(text: &str) {
     let text = lines(text);
     let _ = io::stderr().lock().write_all(format!("{}\n", text.trim_end_matches('\n')).as_bytes());
 }

@@ -263,6 +263,19 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     }
 }
 
+/// The rows of a table of results: a quantity, what it is, and of every run its value and the difference from the first. The last one, if there
+/// are any, are the limits of the model that the runs exceed.
+pub fn result_texts(runs: &[ComparedRun]) -> Vec<(Option<Quantity>, String, Vec<[String; 2]>)> {
+    let texts = |row: ResultRow| {
+        let cells = row.cells.iter().map(|cell| [value_text(&row, cell), difference_text(&row, cell)]);
+        (Some(row.quantity), row.label(), cells.collect())
+    };
+    let limits: Vec<_> = runs.iter().map(|run| [run.outside().join(", "), String::new()]).collect();
+    let exceeded = limits.iter().any(|[names, _]| !names.is_empty());
+    let limits = exceeded.then(|| (None, LIMITS.to_owned(), limits));
+    results(runs).into_iter().map(texts).chain(limits).collect()
+}
+
 /// The comparison as one HTML file that needs nothing else. `all`: parameters are listed that do not differ, too; `movies`: animations as
 /// GIF, each with its name; `command`: what makes it again.
 pub fn report(
@@ -406,26 +419,18 @@ fn result_table(runs: &[ComparedRun]) -> Table {
         }
     }
     let mut table = Table::default().heads(heads);
-    for row in results(runs) {
-        let mut cells = vec![(Kind::Words, row.label())];
-        let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
-        let kind = if main { Kind::Strong } else { Kind::Number };
-        for (i, cell) in row.cells.iter().enumerate() {
-            let (value, difference) = (raised(&value_text(&row, cell)), raised(&difference_text(&row, cell)));
+    for (quantity, name, texts) in result_texts(runs) {
+        let kind = match quantity {
+            Some(Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio) => Kind::Strong,
+            Some(_) => Kind::Number,
+            None => Kind::Words,
+        };
+        let mut cells = vec![(Kind::Words, name)];
+        for (i, [value, difference]) in texts.into_iter().enumerate() {
+            let (value, difference) = (raised(&value), raised(&difference));
             match (beside, i) {
-                (_, 0) => cells.push((kind, value)),
-                (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),
-                (false, _) => cells.push((kind, format!("{value}\n{difference}"))),
-            }
-        }
-        table.row(cells);
-    }
-    if runs.iter().any(|run| !run.outside().is_empty()) {
-        let mut cells = vec![(Kind::Words, LIMITS.to_owned())];
-        for (i, run) in runs.iter().enumerate() {
-            cells.push((Kind::Words, run.outside().join(", ")));
-            if beside && i > 0 {
-                cells.push((Kind::Words, String::new()));
+                (true, 1..) => cells.extend([(kind, value), (Kind::Number, difference)]),
+                _ => cells.push((kind, format!("{value}\n{difference}").trim_end().to_owned())),
             }
         }
         table.row(cells);

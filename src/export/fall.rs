@@ -1,8 +1,9 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use super::startup::periodic;
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
-use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
+use crate::export::figure::{Axis, Band, Colour, Figure, Line, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -61,18 +62,15 @@ pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
     let at = |cycle: &Cycle| (cycle.time * 1e3, cycle.height * 1e6);
     let around = |(t, Estimate { value, error }): (f64, Estimate)| [t, value - error, value + error];
     let line = cycles.iter().map(at).map(|(t, height)| [t, height.value]);
-    let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]));
-    if let Some(gap) = floats {
+    let end = floats.into_iter().map(|gap| {
         let ends = [cycles.first(), cycles.last()].into_iter().flatten().map(|cycle| (at(cycle).0, gap));
-        let style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
-        panel = panel.layer(Band::new("", ends.map(around), Colour::ROTOR));
-        panel = panel.layer(Mark { style, ..Mark::horizontal(gap.value, "periodic solve") });
-    }
-    panel.layer(Band::new("error", cycles.iter().map(at).map(around), Colour::FILM)).layer(Line::new(
-        "height",
-        line,
-        Style::solid(Colour::FILM),
-    ))
+        Band::new("", ends.map(around), Colour::ROTOR)
+    });
+    Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
+        .layers(end)
+        .layers(floats.map(|gap| periodic(gap.value)))
+        .layer(Band::new("error", cycles.iter().map(at).map(around), Colour::FILM))
+        .layer(Line::new("height", line, Style::solid(Colour::FILM)))
 }
 
 /// The same as a figure.

@@ -203,10 +203,18 @@ fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>
     Ok(())
 }
 
+/// A file by itself, as `write` writes it. Returns its path.
+pub fn alone(
+    path: &Path,
+    write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    write_file(path, write)?;
+    Ok(vec![path.to_owned()])
+}
+
 /// The fields of a solve as a NumPy archive.
 pub fn fields(path: &Path, solved: &Solved<'_>) -> Result<Vec<PathBuf>, ExportError> {
-    write_file(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))?;
-    Ok(vec![path.to_owned()])
+    alone(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))
 }
 
 /// The cycle of a solve as moving pictures, in the format of its path.
@@ -298,15 +306,14 @@ pub fn html(
     let movies = moving(runs, path, control)?;
     let page = report(runs, settings, runs.len() < 2, &movies, &[]);
     control.check()?;
-    write_file(path, |out| out.write_all(page.as_bytes()))?;
-    Ok(vec![path.to_owned()])
+    alone(path, |out| out.write_all(page.as_bytes()))
 }
 
 /// A picture of the window of this size \[pixels\]: red, green and blue, row by row from the top.
-pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(), ExportError> {
+pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<Vec<PathBuf>, ExportError> {
     let pixels = Pixels { width, height, rgb };
     let bytes = png_bytes(&pixels, None, &[]).map_err(|error| FigureError::Draw(error.to_string()))?;
-    Ok(write_file(path, |out| out.write_all(&bytes))?)
+    alone(path, |out| out.write_all(&bytes))
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.
@@ -314,7 +321,7 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(
 pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    files.json("sweep.json", &sweep::Object { sweep: swept, rows })?;
+    files.json("sweep.json", &sweep::object(swept, rows))?;
     files.figure("sweep", &sweep::figure(swept, rows, shown))?;
     files.text("scene.toml", &swept.scene().to_toml())?;
     files.commit()

@@ -104,9 +104,7 @@ pub fn figures(problem: &Problem, fitted: &Fitted, measured: &Measured) -> Vec<(
     names.sort_unstable();
     names.dedup();
     let mut beside = dressed("measured and computed");
-    for name in names {
-        beside = beside.panel(panel(problem, fitted, measured, name));
-    }
+    beside.panels = names.into_iter().map(|name| panel(problem, fitted, measured, name)).collect();
     let mut found = vec![("fit", beside), ("residuals", dressed("residuals").panel(residuals(fitted, measured)))];
     if fitted.unknowns.len() > 1 {
         found.push(("correlation", dressed("correlation").panel(correlation(fitted))));
@@ -173,9 +171,7 @@ fn residuals(fitted: &Fitted, measured: &Measured) -> Panel {
     let x = Axis::new("computed − measured, in standard errors", "").fixed(-widest, widest);
     Panel::new("", x, y.fixed(0.0, count as f64 + 1.0))
         .height((5.0 * count.min(MOST_NAMED) as f64).clamp(25.0, 150.0))
-        .layer(Mark::vertical(-1.0, ""))
-        .layer(Mark::vertical(0.0, ""))
-        .layer(Mark::vertical(1.0, ""))
+        .layers([-1.0, 0.0, 1.0].map(|x| Mark::vertical(x, "")))
         .layer(Points::new("", points, Colour::FILM, Marker::solid(Shape::Circle)))
 }
 

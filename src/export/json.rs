@@ -9,7 +9,6 @@ use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
-use crate::estimate::Estimate;
 use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
@@ -25,25 +24,17 @@ const NO_TORQUE_ERROR: &str = "the errors of torque, power, speed and efficiency
 /// The object. Numbers that a scene does not have, and numbers that are not finite, are null.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// The scene's name.
-    pub preset: String,
-    /// `motor` or `plate`.
-    pub scene: &'static str,
+    /// The problem; a plate that floats is at the gap that was found. The object has the scene's name and kind.
+    pub problem: Problem,
+    /// What came of it.
+    pub outcome: Outcome,
     /// How it ended; in the object as [`status_name`] says it.
     pub status: Status,
     /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for and that is stated, relative to it, and
     /// to a hundredth of the load where α is less than that. What was asked for is null on grids that the scene prescribes.
     pub accuracy: Accuracy,
-    /// What forces are in: `N`, or `N/m` for a strip, where they are per metre of width.
-    pub force_unit: &'static str,
     /// The numbers. The object has those that say what came of the solve, and of the others `residual` and `tolerance`.
     pub numbers: Numbers,
-    /// The bound of the torque of the whole ring without the air film.
-    pub dry_torque_nm: Option<f64>,
-    /// No tooth touches at any instant.
-    pub levitated: Option<bool>,
-    /// How a plate floats; null if its mean gap is given.
-    pub floating: Option<FloatingObject>,
     /// Torque, power and efficiency (motor), if they were asked for.
     pub torque: Option<TorqueCurves>,
     /// What is known exactly beside what was computed (plate).
@@ -95,10 +86,26 @@ const RESULTS: [Quantity; 27] = [
 
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // The bound of the torque of the whole ring without the air film; whether no tooth touches at any instant; how a plate floats, null if its
+        // mean gap is given.
+        let (dry, levitated, floating) = match (&self.problem.scenario, &self.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
+                (finite(motor.friction_torque(motor.load)), Some(result.levitated), None)
+            }
+            (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                let floats = plate.load.zip(result.floating);
+                (None, None, floats.map(|(load, found)| floating_object(plate, load, &found)))
+            }
+            // A solver answers in kind.
+            _ => (None, None, None),
+        };
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("schema", &SCHEMA)?;
-        map.serialize_entry("preset", &self.preset)?;
-        map.serialize_entry("scene", self.scene)?;
+        map.serialize_entry("preset", &self.problem.name)?;
+        map.serialize_entry(
+            "scene",
+            if matches!(self.problem.scenario, Scenario::Motor(_)) { "motor" } else { "plate" },
+        )?;
         map.serialize_entry("converged", &(self.status == Status::Converged))?;
         map.serialize_entry("status", status_name(&self.status))?;
         map.serialize_entry("residual", &self.numbers.get(Quantity::Residual))?;
@@ -110,12 +117,10 @@ impl Serialize for Summary {
         for quantity in RESULTS {
             // Between the numbers, what is none, or is not one of every solve.
             match quantity {
-                Quantity::FilmLoad => map.serialize_entry("force_unit", self.force_unit)?,
-                Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &self.dry_torque_nm)?,
-                Quantity::MinGap => map.serialize_entry("levitated", &self.levitated)?,
-                Quantity::LoadRatio => {
-                    map.serialize_entry("floating", &self.floating.as_ref().map(FloatingObject::object))?
-                }
+                Quantity::FilmLoad => map.serialize_entry("force_unit", force_unit(&self.problem))?,
+                Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &dry)?,
+                Quantity::MinGap => map.serialize_entry("levitated", &levitated)?,
+                Quantity::LoadRatio => map.serialize_entry("floating", &floating)?,
                 _ => {}
             }
             map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
@@ -132,64 +137,35 @@ impl Serialize for Summary {
     }
 }
 
-/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width. In the object natural frequency and
-/// slow motion are null if it is not stable, and so is a time or frequency of a motion that it does not make.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FloatingObject {
-    /// The load.
-    pub load: f64,
-    /// Mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass whose weight is the load.
-    pub found: Floating,
-    /// Whether the film carries less at a greater gap.
-    pub stable: bool,
-    /// Mean gap \[µm\] at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
-    pub trapped_mean_gap_um: f64,
-    /// The same for a small load, a √(1.25 p_a A/F).
-    pub small_load_mean_gap_um: f64,
+/// Mean gap \[m\] at which trapped gas that does not slip would carry a small load: a √(1.25 p_a A/F).
+pub fn small_load_gap(plate: &Plate, load: f64) -> f64 {
+    plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt()
 }
 
-impl FloatingObject {
-    fn new(plate: &Plate, load: f64, found: Floating) -> Self {
-        Self {
-            load,
-            found,
-            stable: found.is_stable(),
-            trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
-            small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
-        }
+/// How a plate floats under its load: mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass
+/// whose weight is the load; and at which mean gap trapped gas that does not slip would carry it, and a small load. Of a strip, forces and mass
+/// are those of a metre of its width. Natural frequency and slow motion are null if it is not stable, and so is a time or frequency of a
+/// motion that it does not make.
+fn floating_object(plate: &Plate, load: f64, found: &Floating) -> Value {
+    let mut object = json!({ "load_n": load });
+    estimates::add(&mut object, "mean_gap", "_um", Some(found.mean_gap * 1e6));
+    // Whether the film carries less at a greater gap.
+    object["stable"] = found.is_stable().into();
+    let slow = found.slow;
+    for (name, unit, found) in [
+        ("stiffness", "_n_per_m", Some(found.stiffness)),
+        ("natural_frequency", "_hz", found.is_stable().then_some(found.natural_frequency)),
+        ("damping", "_n_s_per_m", slow.map(|slow| slow.damping)),
+        ("damping_ratio", "", slow.map(|slow| slow.damping_ratio)),
+        ("creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3)),
+        ("swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency)),
+        ("swing_decay", "_ms", slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3)),
+    ] {
+        estimates::add(&mut object, name, unit, found);
     }
-
-    /// Mean gap \[µm\].
-    pub fn mean_gap_um(&self) -> Estimate {
-        self.found.mean_gap * 1e6
-    }
-
-    /// Natural frequency \[Hz\]; `None` if it is not stable.
-    pub fn natural_frequency(&self) -> Option<Estimate> {
-        self.stable.then_some(self.found.natural_frequency)
-    }
-
-    fn object(&self) -> Value {
-        let mut object = json!({ "load_n": self.load });
-        estimates::add(&mut object, "mean_gap", "_um", Some(self.mean_gap_um()));
-        object["stable"] = self.stable.into();
-        estimates::add(&mut object, "stiffness", "_n_per_m", Some(self.found.stiffness));
-        estimates::add(&mut object, "natural_frequency", "_hz", self.natural_frequency());
-        let slow = self.found.slow;
-        estimates::add(&mut object, "damping", "_n_s_per_m", slow.map(|slow| slow.damping));
-        estimates::add(&mut object, "damping_ratio", "", slow.map(|slow| slow.damping_ratio));
-        estimates::add(&mut object, "creep_time", "_ms", slow.and_then(|slow| slow.creep_time).map(|time| time * 1e3));
-        estimates::add(&mut object, "swing_frequency", "_hz", slow.and_then(|slow| slow.swing_frequency));
-        estimates::add(
-            &mut object,
-            "swing_decay",
-            "_ms",
-            slow.and_then(|slow| slow.swing_decay).map(|time| time * 1e3),
-        );
-        object["trapped_mean_gap_um"] = self.trapped_mean_gap_um.into();
-        object["small_load_mean_gap_um"] = self.small_load_mean_gap_um.into();
-        object
-    }
+    object["trapped_mean_gap_um"] = (plate.trapped_gap(load) * 1e6).into();
+    object["small_load_mean_gap_um"] = (small_load_gap(plate, load) * 1e6).into();
+    object
 }
 
 /// A plate beside what is known exactly: σ/Q, Q the factor by which slip raises the flow at the mean gap; spring and damping over p_a · area · ε, and the same as
@@ -197,7 +173,7 @@ impl FloatingObject {
 /// of a rectangle), `trapped_…` for σ → ∞ (Langlois 1962, Salbu 1964; with slip); loads in the object's force unit, of gas that cannot
 /// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
 fn exact_object(found: &Comparison) -> Value {
-    let [boyle, viscous] = [&found.limits.boyle, &found.limits.viscous].map(|load| extent(load.iter().copied()));
+    let [boyle, viscous] = [&found.boyle, &found.viscous].map(|load| extent(load.iter().copied()));
     let (linear, unit, absolute) = (found.linear, found.unit, found.stiffness_and_damping());
     let mut object = json!({ "effective_squeeze_number": found.effective_squeeze_number });
     for (name, of_unit, solved, exact) in [
@@ -252,50 +228,36 @@ impl Summary {
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
         let problem = &*settled(problem, &solution.outcome);
         let mut summary = Self {
-            preset: problem.name.clone(),
-            scene: "",
+            outcome: solution.outcome,
             status: solution.status,
             accuracy: solution.accuracy,
-            force_unit: force_unit(problem),
             numbers: Numbers::of(problem, solution),
-            dry_torque_nm: None,
-            levitated: None,
-            floating: None,
             torque: None,
-            exact: None,
+            exact: match (&problem.scenario, &solution.outcome) {
+                (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                    Some(Comparison::of(plate, result, &solution.recording))
+                }
+                _ => None,
+            },
             wall_s,
             stats: solution.stats,
             model: solution.model.clone(),
             validity: validity::outside(problem, Some(solution)),
             warnings: solution.warnings.clone(),
             command: command.to_vec(),
+            problem: problem.clone(),
         };
-        match (&problem.scenario, &solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                summary.scene = "motor";
-                summary.dry_torque_nm = finite(motor.friction_torque(motor.load));
-                summary.levitated = Some(result.levitated);
-            }
-            (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                summary.scene = "plate";
-                summary.exact = Some(Comparison::of(plate, result, &solution.recording));
-                summary.floating =
-                    plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
-            }
-            // A solver answers in kind.
-            _ => {}
-        }
-        summary.tell_unknown(problem, solution);
+        summary.tell_unknown(solution);
         summary
     }
 
     /// Warns of numbers that the scene has and that are not known.
-    fn tell_unknown(&mut self, problem: &Problem, solution: &Solution) {
+    fn tell_unknown(&mut self, solution: &Solution) {
         let known = |quantity: Quantity| self.numbers.get(quantity).is_some();
         if known(Quantity::StallTorque) && !known(Quantity::StallTorqueError) {
             self.warnings.push(NO_TORQUE_ERROR.to_owned());
         }
-        let own: Vec<Quantity> = Quantity::of(problem).collect();
+        let own: Vec<Quantity> = Quantity::of(&self.problem).collect();
         let expected = |quantity: &Quantity| match quantity {
             Quantity::Residual | Quantity::Tolerance => matches!(solution.status, Status::NotConverged { .. }),
             Quantity::StallTorque => solution.performance.is_some(),

@@ -25,11 +25,11 @@ pub fn row_object(row: &Row) -> Value {
         "paper_load_n": paper.map(|result| result.film_load.value),
         "paper_alpha": paper.map(|result| result.alpha.value),
         "paper_alpha_error": paper.map(|result| result.alpha.error),
-        "paper_difference_percent": paper.map(|result| row.difference_percent(result)),
+        "paper_difference_percent": paper.map(|result| published.difference_percent(result.film_load)),
         "film_load_n": ours.map(|result| result.film_load.value),
         "alpha": ours.map(|result| result.alpha.value),
         "alpha_error": ours.map(|result| result.alpha.error),
-        "difference_percent": ours.map(|result| row.difference_percent(result)),
+        "difference_percent": ours.map(|result| published.difference_percent(result.film_load)),
     })
 }
 

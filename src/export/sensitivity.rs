@@ -46,12 +46,12 @@ impl Found<'_> {
         json!({
             "preset": sensitivity.scene().name,
             "scene": sensitivity.scene().scene(),
-            "fidelity": sensitivity.settings().fidelity.to_string(),
-            "converged": sensitivity.status() == Status::Converged,
+            "fidelity": sensitivity.settings.fidelity.to_string(),
+            "converged": sensitivity.status == Status::Converged,
             "outputs": (0..sensitivity.outputs.len()).map(|output| self.output(output)).collect::<Vec<_>>(),
             "whole_numbers": sensitivity.whole(),
             "monte_carlo": self.carlo.map(draws),
-            "warnings": sensitivity.warnings(),
+            "warnings": sensitivity.warnings,
         })
     }
 
@@ -62,7 +62,7 @@ impl Found<'_> {
         let propagated = self.propagated(output);
         json!({
             "name": of.name(),
-            "unit": of.unit(self.sensitivity.problem()),
+            "unit": of.unit(&self.sensitivity.problem),
             "value": self.sensitivity.values[output].value,
             "error": self.sensitivity.values[output].error,
             "uncertainty": propagated.as_ref().map(|found| found.deviation.value),
@@ -142,7 +142,7 @@ impl Found<'_> {
 
     fn figure_of(&self, caption: String) -> Figure {
         let mut provenance = Provenance::named(&self.sensitivity.scene().name);
-        provenance.fidelity = self.sensitivity.settings().fidelity.to_string();
+        provenance.fidelity = self.sensitivity.settings.fidelity.to_string();
         Figure { caption, provenance, ..Figure::default() }
     }
 
@@ -182,7 +182,7 @@ pub fn bars(sensitivity: &Sensitivity, output: usize, uncertain: Option<&Uncerta
     let (shown, smaller) = sensitivity.tornado(output, uncertain);
     let axis = match uncertain {
         None => Axis::new(format!("{}, % for 1 % more", of.words()), ""),
-        Some(_) => Axis::new(format!("{}, for 1 s.d. more", of.words()), of.unit(sensitivity.problem())),
+        Some(_) => Axis::new(format!("{}, for 1 s.d. more", of.words()), of.unit(&sensitivity.problem)),
     };
     let mut names: Vec<(f64, String)> = Vec::new();
     let mut panel = Panel::default();
@@ -196,7 +196,7 @@ pub fn bars(sensitivity: &Sensitivity, output: usize, uncertain: Option<&Uncerta
         panel = panel.layer(Line::new("", error, Style { width: 0.8, ..Style::default() }));
     }
     if smaller > 0 {
-        panel.title = format!("{smaller} more below {} % of the longest", significant(100.0 * LEAST, 1));
+        panel.title = format!("not shown: {smaller} below {} % of the largest", significant(100.0 * LEAST, 1));
     }
     let ends = shown.iter().flat_map(|(_, bar)| [-1.0, 1.0].map(|sign| bar.value + sign * bar.error));
     let room = 1.03;
@@ -221,27 +221,23 @@ pub fn distribution(
         let left = from + bin as f64 * width;
         [left, left + width].map(|x| [x, 0.0, *count as f64])
     });
-    let unit = of.unit(sensitivity.problem());
-    let mut panel = Panel::new("", Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
-        .height(32.0)
-        .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) });
+    let unit = of.unit(&sensitivity.problem);
     let linear = sensitivity.propagated(output, uncertainties).deviation.value;
     let numerical = sensitivity.values[output];
-    if linear > 0.0 && *width > 0.0 {
-        let area = spread.count as f64 * width;
-        let density = |i: u32| {
-            let away = f64::from(i) / 20.0 - 3.5;
-            let height = area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp();
-            [numerical.value + away * linear, height]
-        };
-        let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
-        panel = panel.layer(Line::new("linear", (0..=140).map(density), style));
-    }
-    panel = panel.layer(Mark::vertical(numerical.value, ""));
-    panel.title = format!(
-        "± {} by the parameters, ± {} numerical",
-        significant(spread.deviation, 2),
-        significant(numerical.error, 2)
-    );
+    let area = spread.count as f64 * width;
+    let density = |i: u32| {
+        let away = f64::from(i) / 20.0 - 3.5;
+        let height = area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp();
+        [numerical.value + away * linear, height]
+    };
+    let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+    let normal = (linear > 0.0 && *width > 0.0).then(|| Line::new("linear", (0..=140).map(density), style));
+    let [spread, error] = [spread.deviation, numerical.error].map(|size| significant(size, 2));
+    let title = format!("± {spread} by the parameters, ± {error} numerical");
+    let panel = Panel::new(title, Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
+        .height(32.0)
+        .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) })
+        .layers(normal)
+        .layer(Mark::vertical(numerical.value, ""));
     Some(panel)
 }

@@ -1,7 +1,7 @@
 //! Maps of where a method solves, as JSON and as CSV, with the same names, and as a figure.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::stability::{Cell, Edge, VERDICTS, Verdict};
+use crate::analysis::stability::{Cell, VERDICTS, Verdict};
 use crate::digits::as_given;
 use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
 use crate::fidelity::Fidelity;
@@ -94,14 +94,14 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
 }
 
 /// A logarithmic axis, and where its values are drawn. Zero has a place of its own, below the others.
-fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
+fn places(key: &str, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
     let mut found: Vec<(usize, f64)> = values.collect();
     found.sort_by_key(|(place, _)| *place);
     found.dedup();
     let mut values: Vec<f64> = found.into_iter().map(|(_, value)| value).collect();
-    let mut axis = match Parameter::find(edge.key) {
+    let mut axis = match Parameter::find(key) {
         Some(parameter) => Axis::new(parameter.words(), parameter.unit),
-        None => Axis::new(edge.key, ""),
+        None => Axis::new(key, ""),
     }
     .log();
     if let [zero, first, second, ..] = values[..]

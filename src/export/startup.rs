@@ -184,6 +184,11 @@ pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Re
     out.flush()
 }
 
+/// The line at what the periodic solve gives.
+pub(super) fn periodic(value: f64) -> Mark {
+    Mark { style: Style::solid(Colour::ROTOR).dash(Dash::Dashed), ..Mark::horizontal(value, "periodic solve") }
+}
+
 /// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
 pub fn figure(problem: &Problem, rows: &[Row], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
@@ -191,14 +196,10 @@ pub fn figure(problem: &Problem, rows: &[Row], steady: Option<Estimate>, loads: 
     let at = |row: &Row| (row.cycle as f64, row.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
-    let mut means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
+    let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
         .layer(Band::new("error of the grids", band, Colour::FILM))
-        .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)));
-    if let Some(found) = steady {
-        let mut mark = Mark::horizontal(found.value, "periodic solve");
-        mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
-        means = means.layer(mark);
-    }
+        .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)))
+        .layers(steady.map(|found| periodic(found.value)));
     let instants = loads.iter().enumerate().flat_map(|(cycle, loads)| {
         let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;
         loads.iter().enumerate().map(move |(step, load)| [at(step), *load])

@@ -5,114 +5,51 @@ use crate::scene::Parameter;
 use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
-use serde::Serialize;
-
-/// The object of `squeezefilm surface --json`.
-#[derive(Clone, Debug, Serialize)]
-pub struct Object {
-    /// The faces, the rotor's first; one alone is both.
-    pub faces: Vec<Face>,
-    /// H_m by the paper: mean of both peak-to-valley heights.
-    pub min_spacing_nm: f64,
-    /// Combined rms roughness √(σ₁² + σ₂²) \[nm\].
-    pub rms_nm: f64,
-    /// Summit radius R (McCool 1987) \[µm\].
-    pub summit_radius_um: f64,
-    /// Summits per area η (McCool 1987) \[1/mm²\].
-    pub summit_density_per_mm2: f64,
-    /// m₀m₄/m₂².
-    pub bandwidth: f64,
-    /// γ along x.
-    pub lay: f64,
-    /// The stator's share of the variance, 0 to 1.
-    pub stator_share: f64,
-    /// φ along x and across at h/σ = 1, 2, 3, 5.
-    pub flow_factors: Vec<FlowFactors>,
-    /// Lines to be pasted into a preset.
-    pub preset: String,
-}
-
-/// Statistics of a face.
-#[derive(Clone, Debug, Serialize)]
-pub struct Face {
-    /// Its file.
-    pub file: String,
-    /// Points along x and y.
-    pub points: [usize; 2],
-    /// Spacing along x and y.
-    pub spacing_um: [f64; 2],
-    /// Mean magnitude.
-    pub sa_nm: f64,
-    /// Standard deviation.
-    pub sq_nm: f64,
-    /// Peak to valley.
-    pub sz_nm: f64,
-    /// Skewness.
-    pub ssk: f64,
-    /// Kurtosis.
-    pub sku: f64,
-    /// Where the autocorrelation along x and y falls to ½; null where it does not.
-    pub correlation_length_um: [Option<f64>; 2],
-    /// The same for 0.2.
-    pub correlation_length_fifth_um: [Option<f64>; 2],
-    /// γ along x.
-    pub lay: Option<f64>,
-}
-
-/// φ at one h/σ.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct FlowFactors {
-    /// h/σ.
-    pub gap_over_rms: f64,
-    /// φ along x.
-    pub along: f64,
-    /// φ along y.
-    pub across: f64,
-}
+use serde_json::{Value, json};
 
 /// h/σ at which flow factors are told.
-const RATIOS: [f64; 4] = [1.0, 2.0, 3.0, 5.0];
+pub const RATIOS: [f64; 4] = [1.0, 2.0, 3.0, 5.0];
 
-impl Face {
-    /// Of a levelled face.
-    pub fn of(file: &str, map: &HeightMap, texture: &Texture) -> Self {
-        let micrometres = |lengths: [Option<f64>; 2]| lengths.map(|length| length.map(|length| length * 1e6));
-        Self {
-            file: file.to_owned(),
-            points: [map.nx, map.ny],
-            spacing_um: map.spacing.map(|step| step * 1e6),
-            sa_nm: texture.mean * 1e9,
-            sq_nm: texture.rms * 1e9,
-            sz_nm: texture.peak_to_valley * 1e9,
-            ssk: texture.skewness,
-            sku: texture.kurtosis,
-            correlation_length_um: micrometres(texture.correlation),
-            correlation_length_fifth_um: micrometres(texture.correlation_fifth),
-            lay: texture.lay(),
-        }
-    }
-}
-
-impl Object {
-    /// Of faces and what they come to together.
-    pub fn new(faces: Vec<Face>, pair: &Pair) -> Self {
-        let factors = |ratio: f64| {
-            let [along, across] = pair.flow_factors(ratio);
-            FlowFactors { gap_over_rms: ratio, along, across }
-        };
-        Self {
-            faces,
-            min_spacing_nm: pair.min_spacing * 1e9,
-            rms_nm: pair.rms * 1e9,
-            summit_radius_um: pair.summit_radius * 1e6,
-            summit_density_per_mm2: pair.summit_density * 1e-6,
-            bandwidth: pair.bandwidth,
-            lay: pair.lay,
-            stator_share: pair.stator_share,
-            flow_factors: RATIOS.map(factors).to_vec(),
-            preset: preset(pair),
-        }
-    }
+/// The object of `squeezefilm surface --json`: the faces, each with the name of its file, and what follows from them together. One alone is both.
+/// Of a face, what is along x comes before what is along y; a correlation length is where the autocorrelation falls to ½ or to 0.2, null where
+/// it does not. H_m is the mean of both peak-to-valley heights, as in the paper; summits are those of McCool (1987); `preset` has the lines to
+/// be pasted into one.
+pub fn object<'a>(faces: impl Iterator<Item = (&'a str, &'a HeightMap, &'a Texture)>, pair: &Pair) -> Value {
+    let micrometres = |lengths: [Option<f64>; 2]| lengths.map(|length| length.map(|length| length * 1e6));
+    let face = |(file, map, texture): (&str, &HeightMap, &Texture)| {
+        json!({
+            "file": file,
+            "points": [map.nx, map.ny],
+            "spacing_um": map.spacing.map(|step| step * 1e6),
+            "sa_nm": texture.mean * 1e9,
+            "sq_nm": texture.rms * 1e9,
+            "sz_nm": texture.peak_to_valley * 1e9,
+            "ssk": texture.skewness,
+            "sku": texture.kurtosis,
+            "correlation_length_um": micrometres(texture.correlation),
+            "correlation_length_fifth_um": micrometres(texture.correlation_fifth),
+            "lay": texture.lay(),
+        })
+    };
+    let factors = |ratio: f64| {
+        let [along, across] = pair.flow_factors(ratio);
+        json!({ "gap_over_rms": ratio, "along": along, "across": across })
+    };
+    json!({
+        "faces": faces.map(face).collect::<Vec<_>>(),
+        "min_spacing_nm": pair.min_spacing * 1e9,
+        "rms_nm": pair.rms * 1e9,
+        "summit_radius_um": pair.summit_radius * 1e6,
+        "summit_density_per_mm2": pair.summit_density * 1e-6,
+        // m₀m₄/m₂².
+        "bandwidth": pair.bandwidth,
+        // γ along x.
+        "lay": pair.lay,
+        // Of the variance, 0 to 1.
+        "stator_share": pair.stator_share,
+        "flow_factors": RATIOS.map(factors),
+        "preset": preset(pair),
+    })
 }
 
 /// The lines of a preset that follow, to four digits: the paper's way first, as comments the other. A value that its key does not allow
@@ -154,10 +91,19 @@ mod tests {
             lay,
             stator_share,
         };
-        let told = Object::new(Vec::new(), &pair);
-        let found = [told.min_spacing_nm, told.rms_nm, told.summit_radius_um, told.summit_density_per_mm2];
-        assert!(found.iter().zip([200.0, 30.0, 5.0, 2e4]).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{found:?}");
-        assert_eq!((told.bandwidth, told.lay, told.stator_share), (bandwidth, lay, stator_share));
-        assert!(told.flow_factors.iter().zip(RATIOS).all(|(factors, ratio)| factors.gap_over_rms == ratio));
+        let told = object(std::iter::empty(), &pair);
+        for (name, expected) in [
+            ("min_spacing_nm", 200.0),
+            ("rms_nm", 30.0),
+            ("summit_radius_um", 5.0),
+            ("summit_density_per_mm2", 2e4),
+            ("bandwidth", bandwidth),
+            ("lay", lay),
+            ("stator_share", stator_share),
+        ] {
+            assert!((told[name].as_f64().unwrap() / expected - 1.0).abs() < 1e-12, "{name}: {told}");
+        }
+        let factors = told["flow_factors"].as_array().unwrap();
+        assert!(factors.iter().zip(RATIOS).all(|(factors, ratio)| factors["gap_over_rms"] == ratio), "{told}");
     }
 }

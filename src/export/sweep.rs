@@ -11,13 +11,12 @@ use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::digits::significant;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading,
-    Shape, Style, Width, extent,
+    Axis, Band, Colour, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Range, Shading, Shape,
+    Style, Width, extent,
 };
 use crate::scene::{ParameterKind, Scale, show_text};
 use crate::solution::StoppedBy;
 use crate::solve::Method;
-use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -64,36 +63,23 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
     writer.flush()
 }
 
-/// The object of `--json`: a sweep, its points so far, and the published values of Table I in its plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
-    /// The sweep.
-    pub sweep: &'a Sweep,
-    /// One for each point; the last axis varies fastest.
-    pub rows: &'a [Row],
-}
-
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { sweep, rows } = *self;
-        let (scene, settings) = (sweep.scene(), sweep.settings());
-        let rows_of = rows.iter().map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row });
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("preset", &scene.name)?;
-        map.serialize_entry("scene", scene.scene())?;
-        map.serialize_entry("force_unit", force_unit(sweep.problem()))?;
-        map.serialize_entry("method", settings.method.name())?;
+/// The object of `--json`: a sweep, its points so far, of which the last axis varies fastest, and the published values of Table I in its plane.
+pub fn object(sweep: &Sweep, rows: &[Row]) -> Value {
+    let (scene, settings, quantities) = (sweep.scene(), sweep.settings(), sweep.quantities());
+    json!({
+        "preset": scene.name,
+        "scene": scene.scene(),
+        "force_unit": force_unit(sweep.problem()),
+        "method": settings.method.name(),
         // The paper's method has no fidelity.
-        let fidelity = (settings.method == Method::Auto).then(|| settings.fidelity.to_string());
-        map.serialize_entry("fidelity", &fidelity)?;
-        map.serialize_entry("complete", &(rows.len() == sweep.len()))?;
+        "fidelity": (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
+        "complete": rows.len() == sweep.len(),
         // As in the first column of the CSV.
-        map.serialize_entry("sweep", &sweep.fingerprint())?;
-        map.serialize_entry("axes", &sweep.axes().iter().map(axis_object).collect::<Vec<_>>())?;
-        map.serialize_entry("rows", &rows_of.collect::<Vec<_>>())?;
-        map.serialize_entry("published", &sweep.published())?;
-        map.end()
-    }
+        "sweep": sweep.fingerprint(),
+        "axes": sweep.axes().iter().map(axis_object).collect::<Vec<_>>(),
+        "rows": rows.iter().map(|row| row_object(sweep.axes(), &quantities, row)).collect::<Vec<_>>(),
+        "published": sweep.published(),
+    })
 }
 
 /// An axis: its key, the unit, how its values are spaced (`linear`, `log`, or of words `list`), and the values, numbers or words as in `--set`.
@@ -112,24 +98,15 @@ fn json_value(axis: &SweepAxis, value: f64) -> Value {
 }
 
 /// One point: its keys, its status, the names of the limits of the model that it exceeds, and its quantities by name.
-struct RowObject<'a> {
-    axes: &'a [SweepAxis],
-    quantities: Vec<Quantity>,
-    row: &'a Row,
-}
-
-impl Serialize for RowObject<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { axes, quantities, row } = self;
-        let keys = axes.iter().zip(&row.values).map(|(axis, value)| (axis.parameter.key, json_value(axis, *value)));
-        let how = [
-            (STATUS, row.status.to_string().into()),
-            (STOPPED_BY, row.stopped_by.map(StoppedBy::name).into()),
-            (VALIDITY, json!(row.outside)),
-        ];
-        let numbers = estimates::named(quantities.iter().copied(), &row.numbers);
-        serializer.collect_map([(FIRST[1], row.point.into())].into_iter().chain(keys).chain(how).chain(numbers))
-    }
+fn row_object(axes: &[SweepAxis], quantities: &[Quantity], row: &Row) -> Value {
+    let keys = axes.iter().zip(&row.values).map(|(axis, value)| (axis.parameter.key, json_value(axis, *value)));
+    let how = [
+        (STATUS, row.status.to_string().into()),
+        (STOPPED_BY, row.stopped_by.map(StoppedBy::name).into()),
+        (VALIDITY, json!(row.outside)),
+    ];
+    let numbers = estimates::named(quantities.iter().copied(), &row.numbers);
+    [(FIRST[1], row.point.into())].into_iter().chain(keys).chain(how).chain(numbers).collect()
 }
 
 /// A quantity of the sweep as a figure. Over one key: with its error as a band, and below the [`primary`] one a second. Over two: a
@@ -298,15 +275,12 @@ pub(crate) fn map_panel(
             values[i * ys.len() + j] = value;
         }
     }
-    let grid = Grid { x: xs, y: ys, values };
-    let label = quantity.words().to_owned();
-    let map = Map { label, grid: grid.clone(), range, shading: Shading::Cells, ..Map::default() };
-    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
-    if x.words.is_empty() && y.words.is_empty() {
-        let error = typical_error(rows, quantity);
-        panel = panel.layer(Contours { grid, error });
-    }
-    panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
+    // There is nothing between words.
+    let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
+    let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
+    let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
+    let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
+    let panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
     let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
     with_points(panel, "rows of Table I", published, Colour::BLACK, Marker::hollow(Shape::Square))

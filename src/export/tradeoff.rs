@@ -82,32 +82,24 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
     let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());
     let room = [times().fold(f64::INFINITY, f64::min) / 1.5, times().fold(0.0, f64::max) * 3.0];
     let time = Axis::new("solve time", "s").log().including(room.into_iter().filter(|end| *end > 0.0));
-    let mut panel = Panel::new("", time, Axis::new(label, "%").log()).height(60.0);
     let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|point| point.best).filter_map(place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
-    for (family, shape) in
-        [(Family::Fidelity, Shape::Circle), (Family::Grid, Shape::Triangle), (Family::Paper, Shape::Square)]
-    {
+    let families = [(Family::Fidelity, Shape::Circle), (Family::Grid, Shape::Triangle), (Family::Paper, Shape::Square)];
+    let families = families.into_iter().map(|(family, shape)| {
         let (of_family, colour) = words(family);
         let members = tradeoff.points.iter().filter(|point| point.run.candidate.family == family);
-        let points: Vec<[f64; 2]> = members.filter_map(place).collect();
-        if !points.is_empty() {
-            panel = panel.layer(Points::new(of_family, points, colour, Marker::solid(shape)));
-        }
-    }
-    let rings: Vec<[f64; 2]> = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place).collect();
-    if !rings.is_empty() {
-        let ring = Marker { size: 9.0, ..Marker::hollow(Shape::Circle) };
-        // Under the points, so that they stay to be seen.
-        panel.layers.insert(1, Points::new(name, rings, colour, ring).into());
-    }
-    for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
-        if let Some(at) = place(point) {
-            panel = panel.layer(Text::new(at, point.run.candidate.name.clone()));
-        }
-    }
-    panel
+        Points::new(of_family, members.filter_map(place), colour, Marker::solid(shape))
+    });
+    let rings = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place);
+    let rings = Points::new(name, rings, colour, Marker { size: 9.0, ..Marker::hollow(Shape::Circle) });
+    let there = |points: &Points| !points.points.is_empty();
+    let named = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
+    Panel::new("", time, Axis::new(label, "%").log())
+        .height(60.0)
+        .layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)))
+        // The rings are under the points, so that these stay to be seen.
+        .layers(std::iter::once(rings).chain(families).filter(there))
+        .layers(named.filter_map(|point| Some(Text::new(place(point)?, point.run.candidate.name.clone()))))
 }
 
 /// Error against time as a figure, with rings round the settings in `chosen`.

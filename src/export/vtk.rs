@@ -36,11 +36,12 @@ struct Across {
 struct Mesh {
     points: Vec<[f64; 3]>,
     quads: Vec<[usize; 4]>,
-    heights: Vec<[f64; 3]>,
-    pressure: Vec<f64>,
-    thickness: Vec<f64>,
-    face: Vec<f64>,
+    /// Of each point its height, and what [`SCALARS`] names.
+    values: Vec<(f64, [f64; 3])>,
 }
+
+/// The numbers of a point beside its height.
+const SCALARS: [&str; 3] = ["pressure_kpa", "film_thickness_nm", "face"];
 
 impl Mesh {
     /// Adds both faces of a piece, from lines of as many points each.
@@ -51,10 +52,7 @@ impl Mesh {
                 let height = if face == 0.0 { line.bottom } else { line.top };
                 for ([x, y], pressure) in line.places.iter().zip(&line.pressure) {
                     self.points.push([1e3 * x, 1e3 * y, 0.0]);
-                    self.heights.push([0.0, 0.0, 1e3 * height]);
-                    self.pressure.push(1e-3 * pressure);
-                    self.thickness.push(1e9 * line.thickness);
-                    self.face.push(face);
+                    self.values.push((1e3 * height, [1e-3 * pressure, 1e9 * line.thickness, face]));
                 }
             }
             let across = lines.first().map_or(0, |line| line.places.len());
@@ -126,9 +124,8 @@ fn piece(
                 return None;
             }
             let (ys, pressure): (Vec<f64>, Vec<f64>) = if alone {
-                (0..=ROUND)
-                    .map(|i| (TAU * i as f64 / ROUND as f64, stored.first().copied().unwrap_or(f64::NAN)))
-                    .unzip()
+                let pressure = stored.first().copied().unwrap_or(f64::NAN);
+                (0..=ROUND).map(|i| (TAU * i as f64 / ROUND as f64, pressure)).unzip()
             } else {
                 mirrored(&recording.map_y, recording.half_width).into_iter().map(|(y, j)| (y, stored[j])).unzip()
             };
@@ -150,29 +147,27 @@ impl Vtk<'_> {
             self.0,
             "# vtk DataFile Version 3.0\n{title}\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS {points} float"
         )?;
-        self.numbers(mesh.points.iter().flatten())?;
+        self.numbers(mesh.points.iter().flatten().copied())?;
         writeln!(self.0, "CELLS {quads} {}", 5 * quads)?;
         self.whole(mesh.quads.iter().flat_map(|quad| [&4].into_iter().chain(quad)))?;
         writeln!(self.0, "CELL_TYPES {quads}")?;
         // Nine is a quadrilateral.
         self.whole(std::iter::repeat_n(&9, quads))?;
         writeln!(self.0, "POINT_DATA {points}\nVECTORS height_mm float")?;
-        self.numbers(mesh.heights.iter().flatten())?;
-        for (name, values) in
-            [("pressure_kpa", &mesh.pressure), ("film_thickness_nm", &mesh.thickness), ("face", &mesh.face)]
-        {
+        self.numbers(mesh.values.iter().flat_map(|(height, _)| [0.0, 0.0, *height]))?;
+        for (i, name) in SCALARS.into_iter().enumerate() {
             writeln!(self.0, "SCALARS {name} float 1\nLOOKUP_TABLE default")?;
-            self.numbers(values)?;
+            self.numbers(mesh.values.iter().map(|(_, scalars)| scalars[i]))?;
         }
         self.0.flush()
     }
 
-    fn numbers<'a>(&mut self, values: impl IntoIterator<Item = &'a f64>) -> io::Result<()> {
-        self.bytes(values.into_iter().map(|value| (*value as f32).to_be_bytes()))
+    fn numbers(&mut self, values: impl Iterator<Item = f64>) -> io::Result<()> {
+        self.bytes(values.map(|value| (value as f32).to_be_bytes()))
     }
 
-    fn whole<'a>(&mut self, values: impl IntoIterator<Item = &'a usize>) -> io::Result<()> {
-        self.bytes(values.into_iter().map(|value| (*value as u32).to_be_bytes()))
+    fn whole<'a>(&mut self, values: impl Iterator<Item = &'a usize>) -> io::Result<()> {
+        self.bytes(values.map(|value| (*value as u32).to_be_bytes()))
     }
 
     fn bytes(&mut self, numbers: impl Iterator<Item = [u8; 4]>) -> io::Result<()> {

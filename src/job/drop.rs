@@ -1,6 +1,5 @@
 //! A plate that is dropped on its vibration, in the background. Each cycle is sent when it has been computed.
 
-use super::task::TaskOf;
 use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::fall::{CYCLES, Cycle, Fall, fall};
@@ -16,9 +15,6 @@ pub struct DropWork {
     /// The fidelity of its grids and steps.
     pub fidelity: Fidelity,
 }
-
-/// A drop in the background.
-pub type DropTask = TaskOf<DropWork>;
 
 impl Work for DropWork {
     const NAME: &'static str = "drop";

@@ -1,6 +1,5 @@
 //! Files, made in the background: the same code and the same names as those of the command line.
 
-use super::task::TaskOf;
 use super::work::{Posed, Work};
 use super::{SolvedScene, fit};
 use crate::analysis::compare::ComparedRun;
@@ -9,10 +8,9 @@ use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::tradeoff::Tradeoff;
-use crate::atomic::write_file;
 use crate::control::Cancel;
 use crate::export::animation::Options;
-use crate::export::figure::{self, Format};
+use crate::export::figure::{self, Figure, Format};
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::Summary;
 use crate::export::sweep::{self as swept, primary, write_csv};
@@ -111,9 +109,6 @@ pub struct Files {
     pub content: Content,
 }
 
-/// An export in the background.
-pub type ExportTask = TaskOf<Files>;
-
 impl Work for Files {
     const NAME: &'static str = "files";
     /// How many pictures of an animation are drawn, of how many.
@@ -133,7 +128,7 @@ impl Work for Files {
 
 /// Writes the files of `content` into a folder, or to the file `path`. Returns the paths of what was written.
 fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
-    let one = || vec![path.to_owned()];
+    let figure = |drawn: &Figure| figure::write(drawn, path).map(|()| vec![path.to_owned()]);
     Ok(match content {
         Content::Run(what, run) => of_run(what, path, &run, control)?,
         Content::Runs(OfRuns::Report, runs) => files::html(path, &runs, &coarsest(&runs), control)?,
@@ -143,14 +138,8 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Sweep(OfSweep::Data, sweep, rows) => {
             files::swept(&folder(path, BESIDE_DATA), &sweep, &rows, primary(&sweep))?
         }
-        Content::Sweep(OfSweep::Table, sweep, rows) => {
-            write_file(path, |out| write_csv(&sweep, &rows, out))?;
-            one()
-        }
-        Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => {
-            figure::write(&swept::figure(&sweep, &rows, quantity), path)?;
-            one()
-        }
+        Content::Sweep(OfSweep::Table, sweep, rows) => files::alone(path, |out| write_csv(&sweep, &rows, out))?,
+        Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => figure(&swept::figure(&sweep, &rows, quantity))?,
         Content::Sensitivity(sensitivity, uncertainties, carlo) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
             let found = sensitivity::Found { sensitivity: &sensitivity, uncertainties, carlo };
@@ -164,25 +153,19 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
             }
         }
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
-            write_file(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
-            one()
+            files::alone(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?
         }
         Content::Tradeoff(OfTradeoff::Figure(chosen), name, tradeoff) => {
-            figure::write(&tradeoff::figure(&name, &tradeoff, &chosen), path)?;
-            one()
+            figure(&tradeoff::figure(&name, &tradeoff, &chosen))?
         }
         Content::Answers(records) => {
             let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
-            write_file(path, |out| match lines {
+            files::alone(path, |out| match lines {
                 true => out.write_all(record::statements(&record::student(path), &records).as_bytes()),
                 false => csv::rows(&records, out),
-            })?;
-            one()
+            })?
         }
-        Content::Picture(Picture { size, rgb }) => {
-            files::picture(path, size, Arc::unwrap_or_clone(rgb))?;
-            one()
-        }
+        Content::Picture(Picture { size, rgb }) => files::picture(path, size, Arc::unwrap_or_clone(rgb))?,
     })
 }
 

@@ -1,6 +1,5 @@
 //! A fit to measurements, or the search for an optimum, in the background.
 
-use super::task::TaskOf;
 use super::work::{Work, pooled};
 use crate::analysis::error::AnalysisError;
 use crate::analysis::fit::{Bounds, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
@@ -12,9 +11,6 @@ use std::sync::Arc;
 
 /// Points that the search starts from.
 const STARTS: usize = 16;
-
-/// A search in the background.
-pub type FitTask = TaskOf<FitWork>;
 
 /// What was found.
 #[derive(Debug, Serialize, Deserialize)]

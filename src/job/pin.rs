@@ -1,6 +1,5 @@
 //! A scene to be compared with others, solved in the background.
 
-use super::task::TaskOf;
 use super::work::Work;
 use crate::analysis::compare::{ComparedRun, runs};
 use crate::control::Cancel;
@@ -30,6 +29,3 @@ impl Work for PinWork {
         Ok(solved.and_then(|runs| runs.into_iter().next()))
     }
 }
-
-/// The solve of a scene to be compared.
-pub type PinTask = TaskOf<PinWork>;

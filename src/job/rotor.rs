@@ -1,14 +1,10 @@
 //! A rotor by itself, in the background.
 
-use super::task::TaskOf;
 use super::work::{Posed, Work};
 use crate::analysis::rotor::RotorCurves;
 use crate::control::Cancel;
 use crate::problem::Scenario;
 use serde::{Deserialize, Serialize};
-
-/// The computation in the background.
-pub type RotorTask = TaskOf<RotorWork>;
 
 /// A motor, as it is sent to the thread or worker that computes its rotor.
 #[derive(Debug, Serialize, Deserialize)]

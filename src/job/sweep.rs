@@ -1,6 +1,5 @@
 //! A sweep, in the background.
 
-use super::task::TaskOf;
 use super::work::{Work, pooled};
 use crate::analysis::sweep::{Row, Sweep, Vary};
 use crate::control::Cancel;
@@ -18,13 +17,10 @@ pub enum SweepMessage {
     Solved(Box<Row>),
 }
 
-/// A sweep in the background.
-pub type SweepTask = TaskOf<SweepWork>;
-
 /// A sweep, as it is sent to the thread or worker that computes it. The points are built there, unless they are known, and solved.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum SweepWork {
-    /// SweepWork to be built, at most 100 000: the scene, the keys that are varied, and how it is solved.
+    /// A sweep to be built, of at most 100 000 points: the scene, the keys that are varied, and how it is solved.
     New(Scene, Vec<Vary>, Settings),
     /// A sweep whose points are built, and the rows that are solved already.
     Known(Arc<Sweep>, Vec<Row>),

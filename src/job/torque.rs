@@ -1,7 +1,6 @@
 //! Torque over speed, in the background.
 
 use super::SolvedScene;
-use super::task::TaskOf;
 use super::work::Work;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
@@ -11,9 +10,6 @@ use std::sync::Arc;
 /// The run whose curves are computed, as it is sent to the thread or worker that does it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct TorqueWork(pub Arc<SolvedScene>);
-
-/// The computation in the background.
-pub type TorqueTask = TaskOf<TorqueWork>;
 
 impl Work for TorqueWork {
     const NAME: &'static str = "torque";

@@ -59,14 +59,8 @@ pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
         if let (Some(question), Some(given), true) = (&step.question, work.prediction, work.committed) {
             let right = question.answer.is_right(given);
             let kind = if question.kind == Kind::Calculate { "calculation" } else { "prediction" };
-            add(
-                kind,
-                "answered",
-                question.answer.words(given),
-                Some(right),
-                work.wrong + usize::from(right),
-                times.question,
-            );
+            let response = question.answer.words(given);
+            add(kind, "answered", response, Some(right), work.wrong + usize::from(right), times.question);
         }
         if let (Some(_), true) = (&step.task, work.fulfilled) {
             let response = format!("{} hints", work.hints);

@@ -233,9 +233,7 @@ fn act(
     cancel: &Cancel,
 ) -> Result<Outcome, String> {
     let mut scene = step.scene.clone();
-    scene
-        .set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
-        .map_err(|error| error.to_string())?;
+    scene.set_all(&doing.changes).map_err(|error| error.to_string())?;
     let run = Tried::of(&scene, wanted, cancel)?;
     let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
     look.at(&run.live);

@@ -7,6 +7,7 @@ use super::parse;
 use super::value::Value;
 use super::values::Scene;
 use crate::digits::rounded;
+use std::borrow::Borrow;
 use std::path::Path;
 
 /// Digits of the numbers in a description; the scene has all of them.
@@ -79,8 +80,13 @@ impl Scene {
     ///
     /// # Errors
     /// The faults of all pairs; the scene is then unchanged.
-    pub fn set_all<'a>(&mut self, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<(), SceneError> {
-        let mut pairs: Vec<_> = pairs.into_iter().collect();
+    pub fn set_all<K: AsRef<str>, V: AsRef<str>>(
+        &mut self,
+        pairs: impl IntoIterator<Item: Borrow<(K, V)>>,
+    ) -> Result<(), SceneError> {
+        let pairs: Vec<_> = pairs.into_iter().collect();
+        let mut pairs: Vec<_> =
+            pairs.iter().map(Borrow::borrow).map(|(key, text)| (key.as_ref(), text.as_ref())).collect();
         pairs.sort_by_key(|(key, _)| Parameter::find(key).map_or(0, Parameter::rank));
         let mut changed = self.clone();
         let mut faults = SceneError::none();

@@ -344,7 +344,7 @@ impl NewMotor {
         draft.pairs.push(("about", format!("From a data sheet; assumed: {}.", keys.join(", "))));
         let mut scene = Scene::motor();
         let fault = |error: SceneError| error.to_string();
-        scene.set_all(draft.pairs.iter().map(|(key, value)| (*key, value.as_str()))).map_err(fault)?;
+        scene.set_all(&draft.pairs).map_err(fault)?;
         Ok(Self { scene, assumed: draft.assumed })
     }
 

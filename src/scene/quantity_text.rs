@@ -134,43 +134,30 @@ impl Reader<'_> {
 
     fn sum(&mut self) -> Option<Term> {
         let mut sum = self.product()?;
-        loop {
-            let sign = if self.takes("+") {
-                1.0
-            } else if self.takes("-") {
-                -1.0
-            } else {
-                return Some(sum);
-            };
-            let next = self.product()?;
-            if next.power != sum.power {
-                return None;
-            }
-            sum.number += sign * next.number;
+        while let Some(sign) = ["+", "-"].into_iter().find(|sign| self.takes(sign)) {
+            let next = self.product().filter(|next| next.power == sum.power)?;
+            sum.number += if sign == "+" { next.number } else { -next.number };
         }
+        Some(sum)
     }
 
     fn product(&mut self) -> Option<Term> {
         let mut product = self.factor()?;
         let mut unitless = product.power == 0;
-        loop {
-            if self.takes("*") {
-                let next = self.factor()?;
-                product = Term { number: product.number * next.number, power: product.power + next.power };
-                unitless &= next.power == 0;
-            } else if self.takes("/") {
-                let simple = self.rest.starts_with(|c: char| c.is_ascii_digit());
-                let next = self.factor()?;
-                product = Term { number: product.number / next.number, power: product.power - next.power };
-                if unitless && simple && next.power == 1 {
-                    // "1/4 um" is a quarter of a micrometre.
-                    product = Term { number: product.number * self.unit * self.unit, power: 1 };
+        while let Some(sign) = ["*", "/"].into_iter().find(|sign| self.takes(sign)) {
+            let simple = self.rest.starts_with(|c: char| c.is_ascii_digit());
+            let next = self.factor()?;
+            product = match sign {
+                "*" => Term { number: product.number * next.number, power: product.power + next.power },
+                // "1/4 um" is a quarter of a micrometre.
+                _ if unitless && simple && next.power == 1 => {
+                    Term { number: product.number / next.number * self.unit * self.unit, power: 1 }
                 }
-                unitless &= next.power == 0;
-            } else {
-                return Some(product);
-            }
+                _ => Term { number: product.number / next.number, power: product.power - next.power },
+            };
+            unitless &= next.power == 0;
         }
+        Some(product)
     }
 
     fn factor(&mut self) -> Option<Term> {

@@ -1,5 +1,6 @@
 //! Table I of Maeno and Bogy (1992): what the paper published, row by row.
 
+use crate::estimate::Estimate;
 use serde::Deserialize;
 
 /// The rows as a CSV file, `row,change,published_load_n,published_alpha`.
@@ -19,6 +20,13 @@ pub struct PublishedRow {
     pub published_load_n: f64,
     /// Ratio of the film's load to the axial load, α.
     pub published_alpha: f64,
+}
+
+impl PublishedRow {
+    /// By how much a film load exceeds the published one \[%\].
+    pub fn difference_percent(&self, film_load: Estimate) -> f64 {
+        100.0 * (film_load.value / self.published_load_n - 1.0)
+    }
 }
 
 /// The 14 rows, in the paper's order.

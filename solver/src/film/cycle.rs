@@ -15,7 +15,8 @@
 use super::grid::FilmGrid;
 use super::stepper::{Cost, Film, FilmError, FilmState};
 use crate::control::Cancel;
-use crate::numerics::rows::{Coupling, RowSolver};
+use crate::numerics::rows::RowSolver;
+use crate::numerics::system::Coupling;
 
 /// Why a cycle ended early.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! Nodes of the film on one tooth or plate: a tensor grid with nodes on the edges, graded towards ambient edges.
 
-use crate::numerics::rows::Across;
+use crate::numerics::system::Across;
 use crate::numerics::{grading, legendre};
 use std::f64::consts::PI;
 use std::ops::Range;

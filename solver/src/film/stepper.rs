@@ -27,7 +27,8 @@
 
 use super::grid::{Axis, FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
-use crate::numerics::rows::{Across, Coupling, RowSolver, with_columns};
+use crate::numerics::rows::{RowSolver, with_columns};
+use crate::numerics::system::{Across, Coupling};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
 use crate::surface::flow::{Factors, Roughness};

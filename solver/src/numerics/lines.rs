@@ -1,80 +1,18 @@
 //! Linear systems of nodes in rows that couple to their neighbours alone: multigrid with ever fewer columns.
 //!
-//! The system is that of [`super::rows`], with a tridiagonal A. A column, all its nodes along x, is a line, and the tridiagonal systems of
+//! The system is that of [`super::system`], with a tridiagonal A. A column, all its nodes along x, is a line, and the tridiagonal systems of
 //! all odd lines, or of all even ones, are solved at once, which suits vector registers. A cycle solves the odd lines, then the even ones as if
 //! there were no others (those are half as many columns, with the conductances of every two intervals in series and twice the width, and have a
 //! cycle of their own), and from there the odd, the even and the odd lines again. It leaves about a tenth of the error, whatever the
 //! number of nodes, their clustering, and how much flows within a step; and its work is in proportion to the nodes.
 
-use super::rows::Coupling;
+use super::system::{Coupling, Tridiagonal};
 use super::vectorised;
 
 /// Part of the largest residual that may be left: where Newton's method ends, it changes next to nothing any more.
 const LEFT: f64 = 1e-4;
 /// Cycles after which it is left as it is.
 const MOST_CYCLES: usize = 20;
-
-/// A matrix that couples neighbours.
-#[derive(Clone, Debug)]
-pub struct Tridiagonal {
-    /// By the node before each; of the first 0.
-    pub below: Vec<f64>,
-    /// By itself.
-    pub diagonal: Vec<f64>,
-    /// By the node behind it; of the last 0.
-    pub above: Vec<f64>,
-}
-
-impl Tridiagonal {
-    /// How many nodes.
-    pub fn columns(&self) -> usize {
-        self.diagonal.len()
-    }
-
-    /// The rows of even and of odd nodes.
-    pub fn apart(&self) -> [Self; 2] {
-        [0, 1].map(|first| {
-            let every_other = |band: &[f64]| band.iter().skip(first).step_by(2).copied().collect();
-            Self {
-                below: every_other(&self.below),
-                diagonal: every_other(&self.diagonal),
-                above: every_other(&self.above),
-            }
-        })
-    }
-
-    /// The same diffusion between even nodes alone, and the width of each over the one it has there. Of a conductance divided by widths, the
-    /// widths follow from its being symmetric without them.
-    pub fn every_other(&self) -> (Self, Vec<f64>) {
-        let n = self.columns();
-        let mut width = vec![1.0; n];
-        for j in 1..n {
-            width[j] = width[j - 1] * self.above[j - 1] / self.below[j];
-        }
-        // Behind each node, the last one's to the edge.
-        let total = |j: usize| width[j] * (self.diagonal[j] + self.below[j] + self.above[j]);
-        let conductance: Vec<f64> =
-            (0..n).map(|j| if j + 1 < n { -width[j] * self.above[j] } else { total(j) }).collect();
-        let first = if n > 1 { total(0) } else { 0.0 };
-        let few = n.div_ceil(2);
-        let behind: Vec<f64> = (0..few)
-            .map(|m| match conductance.get(2 * m + 1) {
-                Some(next) => conductance[2 * m] * next / (conductance[2 * m] + next),
-                None => conductance[2 * m],
-            })
-            .collect();
-        let half = |j: Option<usize>| j.and_then(|j| width.get(j)).map_or(0.0, |width| 0.5 * width);
-        let wide: Vec<f64> =
-            (0..few).map(|m| width[2 * m] + half((2 * m).checked_sub(1)) + half(Some(2 * m + 1))).collect();
-        let before = |m: usize| if m > 0 { behind[m - 1] } else { first };
-        let fewer = Self {
-            below: (0..few).map(|m| if m > 0 { -before(m) / wide[m] } else { 0.0 }).collect(),
-            diagonal: (0..few).map(|m| (before(m) + behind[m]) / wide[m]).collect(),
-            above: (0..few).map(|m| if m + 1 < few { -behind[m] / wide[m] } else { 0.0 }).collect(),
-        };
-        (fewer, (0..few).map(|m| width[2 * m] / wide[m]).collect())
-    }
-}
 
 /// Solver for systems of one size and one A, with its workspace.
 #[derive(Clone, Debug)]
@@ -349,7 +287,7 @@ fn largest(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::numerics::grading;
-    use crate::numerics::rows::Across;
+    use crate::numerics::system::Across;
     use nalgebra::{DMatrix, DVector};
 
     /// A system of a film: nodes clustered by β, conductivities that vary by ten, a diffusion number, and a wind along x.

@@ -6,6 +6,7 @@ pub mod grading;
 pub mod legendre;
 mod lines;
 pub mod rows;
+pub mod system;
 
 /// Runs `work`, which has to be inlined whole, compiled for the widest vector registers of this processor. The operations
 /// and their order stay the same, and so do the results of `work`, to the last bit, whatever the registers.

@@ -1,9 +1,7 @@
-//! Linear systems of nodes in rows, dense within a row: block LU without pivoting. Of many nodes to a row that couple to their neighbours
+//! Solves the systems of [`super::system`], dense within a row: block LU without pivoting. Of many nodes to a row that couple to their neighbours
 //! alone: [`super::lines`].
 //!
-//! Unknown k = row × columns + column couples to every node of its own row, by a matrix A that is the same for all rows but
-//! for a factor of each column, and to the same column of the rows on either side (west, east: k ∓ columns). By rows the
-//! system is block tridiagonal, with dense blocks D = diag(centre) + A diag(within) on the diagonal and diagonal blocks W, E
+//! By rows the system is block tridiagonal, with dense blocks D = diag(centre) + A diag(within) on the diagonal and diagonal blocks W, E
 //! beside it:
 //!
 //! ```text
@@ -14,100 +12,9 @@
 //! on whole columns that stay where they are, which suits vector registers (docs/performance.md). For M-matrices all D̃ are
 //! M-matrices too and no pivoting is needed; nor is it where the symmetric part is definite, as with a spectral A.
 
-use super::lines::{LineSolver, Tridiagonal};
+use super::lines::LineSolver;
+use super::system::{Across, Coupling};
 use super::vectorised;
-
-/// The coefficients of a system, one value an unknown.
-#[derive(Clone, Debug, Default)]
-pub struct Coupling {
-    /// Node itself, beside A.
-    pub centre: Vec<f64>,
-    /// Node at smaller x.
-    pub west: Vec<f64>,
-    /// Node at larger x.
-    pub east: Vec<f64>,
-    /// Factor of the node's column of A.
-    pub within: Vec<f64>,
-}
-
-impl Coupling {
-    /// All zero, for `unknowns` nodes.
-    pub fn new(unknowns: usize) -> Self {
-        let zero = vec![0.0; unknowns];
-        Self { centre: zero.clone(), west: zero.clone(), east: zero.clone(), within: zero }
-    }
-
-    /// Centre, west, east and within.
-    pub fn fields(&mut self) -> [&mut Vec<f64>; 4] {
-        [&mut self.centre, &mut self.west, &mut self.east, &mut self.within]
-    }
-
-    /// Sets every entry to zero.
-    pub fn clear(&mut self) {
-        self.fields().into_iter().for_each(|values| values.fill(0.0));
-    }
-}
-
-/// The matrix A.
-#[derive(Clone, Debug)]
-pub enum Across {
-    /// Column by column.
-    Full(Vec<f64>),
-    /// Of so many nodes that it pays to know that each couples to its neighbours alone.
-    Neighbours(Tridiagonal),
-}
-
-/// Columns from which a tridiagonal A is kept as such.
-pub const MANY_COLUMNS: usize = 20;
-
-impl Across {
-    /// From `matrix[row][column]`.
-    pub fn new(columns: usize, matrix: &[f64]) -> Self {
-        let entry = |row: usize, column: usize| matrix[row * columns + column];
-        let places = || (0..columns).flat_map(|row| (0..columns).map(move |column| (row, column)));
-        if columns < MANY_COLUMNS || places().any(|(i, j)| i.abs_diff(j) > 1 && entry(i, j) != 0.0) {
-            return Self::Full(places().map(|(column, row)| entry(row, column)).collect());
-        }
-        Self::Neighbours(Tridiagonal {
-            below: (0..columns).map(|i| if i > 0 { entry(i, i - 1) } else { 0.0 }).collect(),
-            diagonal: (0..columns).map(|i| entry(i, i)).collect(),
-            above: (0..columns).map(|i| if i + 1 < columns { entry(i, i + 1) } else { 0.0 }).collect(),
-        })
-    }
-
-    /// Entry of node `j` itself, of so many columns.
-    #[inline(always)]
-    pub fn diagonal(&self, j: usize, columns: usize) -> f64 {
-        match self {
-            Self::Full(matrix) => matrix[j * columns + j],
-            Self::Neighbours(bands) => bands.diagonal[j],
-        }
-    }
-
-    /// `product` = A × `values`. `B` is the number of columns, or 0 to take it at run time.
-    #[inline(always)]
-    pub fn multiply<const B: usize>(&self, values: &[f64], product: &mut [f64]) {
-        let b = if B == 0 { values.len() } else { B };
-        let (values, product) = (&values[..b], &mut product[..b]);
-        match self {
-            Self::Full(matrix) => {
-                product.fill(0.0);
-                for (column, value) in matrix[..b * b].chunks_exact(b).zip(values) {
-                    product.iter_mut().zip(column).for_each(|(product, entry)| *product += entry * value);
-                }
-            }
-            Self::Neighbours(Tridiagonal { below, diagonal, above }) => {
-                for ((product, value), entry) in product.iter_mut().zip(values).zip(diagonal) {
-                    *product = entry * value;
-                }
-                let lower = product[1..].iter_mut().zip(values).zip(&below[1..]);
-                lower.for_each(|((product, value), entry)| *product += entry * value);
-                let upper = product.iter_mut().zip(&values[1..]).zip(above);
-                upper.for_each(|((product, value), entry)| *product += entry * value);
-            }
-        }
-    }
-}
 
 /// Calls a function with the number of columns as a constant where it is a usual one, so that its loops are unrolled and
 /// vectorised, and with the constant 0 (take it at run time) where it is not.

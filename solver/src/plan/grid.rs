@@ -2,7 +2,7 @@
 
 use crate::fidelity::GRIDS;
 use crate::numerics::grading::{clustering, map};
-use crate::numerics::rows::MANY_COLUMNS;
+use crate::numerics::system::MANY_COLUMNS;
 use serde::{Deserialize, Serialize};
 
 /// One grid of a motor or a plate.

@@ -7,7 +7,7 @@ use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::numerics::grading::middle_clustering;
-use crate::numerics::rows::MANY_COLUMNS;
+use crate::numerics::system::MANY_COLUMNS;
 use crate::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
 use std::f64::consts::TAU;

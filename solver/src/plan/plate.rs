@@ -4,7 +4,7 @@ use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::{Choice, Decision, LEAK_EFFECT, Plan, ROUND_LIMIT, SHARE, THINNEST_LAYER, custom, name};
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
-use crate::numerics::rows::MANY_COLUMNS;
+use crate::numerics::system::MANY_COLUMNS;
 use crate::problem::{Flow, Numerics, Outline, Plate};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};

@@ -92,9 +92,7 @@ impl<'a> Model<'a> {
         }
         let condition = |changes: &Vec<(String, String)>| -> Result<Condition, AnalysisError> {
             let mut scene = self.scene.clone();
-            scene
-                .set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
-                .map_err(|error| AnalysisError::Input(format!("{}: {error}", measured.name)))?;
+            scene.set_all(changes).map_err(|error| AnalysisError::Input(format!("{}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
             Ok(Condition { scene, chosen })
         };

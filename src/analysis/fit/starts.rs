@@ -1,7 +1,7 @@
 //! Where a search starts: points spread over the unit cube, and the best of them.
 
 /// Most starts of a search.
-pub const MOST_STARTS: u32 = 10_000;
+pub const MOST_STARTS: u16 = 10_000;
 /// Starts that are refined, beside that of the scene's own values.
 const REFINED: usize = 3;
 

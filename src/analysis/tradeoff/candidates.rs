@@ -94,13 +94,9 @@ pub fn candidates(problem: &Problem) -> Vec<Candidate> {
         .into_iter()
         .map(|fidelity| Candidate::new(named(fidelity), Family::Fidelity, auto(fidelity), free, scene))
         .collect();
+    let nodes = |along, across| Numerics { film_nodes_along: Some(along), film_nodes_across: Some(across), ..free };
     for (fidelity, along, across, steps) in GRIDS {
-        let numerics = Numerics {
-            film_nodes_along: Some(along),
-            film_nodes_across: Some(across),
-            steps_per_cycle: Some(steps),
-            ..free
-        };
+        let numerics = Numerics { steps_per_cycle: Some(steps), ..nodes(along, across) };
         let name = format!("{fidelity}, {along} × {across} × {steps}");
         all.push(Candidate::new(name, Family::Grid, auto(fidelity), numerics, scene));
     }
@@ -110,12 +106,7 @@ pub fn candidates(problem: &Problem) -> Vec<Candidate> {
     }
     if matches!(&problem.scenario, Scenario::Motor(motor) if motor.surface == Surface::default()) {
         for (name, along, across, contact) in PAPER_MESHES {
-            let numerics = Numerics {
-                film_nodes_along: Some(along),
-                film_nodes_across: Some(across),
-                contact_nodes: Some(contact),
-                ..free
-            };
+            let numerics = Numerics { contact_nodes: Some(contact), ..nodes(along, across) };
             let settings = Settings { method: Method::Paper, ..Settings::default() };
             all.push(Candidate::new(name.to_owned(), Family::Paper, settings, numerics, scene));
         }

@@ -107,8 +107,14 @@ impl Panel {
 
     /// With one more layer on top.
     #[must_use]
-    pub fn layer(mut self, layer: impl Into<Layer>) -> Self {
-        self.layers.push(layer.into());
+    pub fn layer(self, layer: impl Into<Layer>) -> Self {
+        self.layers([layer])
+    }
+
+    /// With more layers on top.
+    #[must_use]
+    pub fn layers(mut self, layers: impl IntoIterator<Item: Into<Layer>>) -> Self {
+        self.layers.extend(layers.into_iter().map(Into::into));
         self
     }
 

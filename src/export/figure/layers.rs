@@ -17,8 +17,6 @@ pub enum Layer {
     Mark(Mark),
     /// Values over a plane as colours.
     Map(Map),
-    /// Lines of equal value over a plane.
-    Contours(Contours),
     /// Kinds over a plane.
     Categories(Categories),
     /// Words that name a place.
@@ -98,6 +96,11 @@ impl Points {
     ) -> Self {
         Self { name: name.into(), points: points.into_iter().collect(), colour, marker, ..Self::default() }
     }
+
+    /// Half the length of the error bar of a point; 0 without one.
+    pub(super) fn error(&self, point: usize) -> f64 {
+        self.errors.get(point).copied().filter(|error| error.is_finite()).unwrap_or(0.0).abs()
+    }
 }
 
 /// A straight line across the axes, with words at its end.
@@ -150,6 +153,9 @@ pub struct Map {
     pub range: Range,
     /// Whether colours run from node to node or every node has its cell.
     pub shading: Shading,
+    /// With lines of equal value: up to ten round ones, each with its value, black or white as the colours ask. What the values are told apart by, a
+    /// typical error: where round values would be nearer to each other there are no lines.
+    pub contours: Option<f64>,
 }
 
 /// Values at the nodes of a plane; the nodes need not be uniform.
@@ -171,15 +177,6 @@ pub enum Shading {
     Smooth,
     /// A cell round every node: sweeps, where every value is a solve.
     Cells,
-}
-
-/// Lines of equal value, up to ten round ones, each with its value, black or white as the map below asks.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contours {
-    /// Where the values are.
-    pub grid: Grid,
-    /// What the values are told apart by: a typical error. Where round values would be nearer to each other there are no lines.
-    pub error: f64,
 }
 
 /// Kinds over a plane, each node's cell in the colour of its kind.
@@ -220,4 +217,4 @@ macro_rules! layer_from {
         })*
     };
 }
-layer_from!(Line, Band, Points, Mark, Map, Contours, Categories, Text);
+layer_from!(Line, Band, Points, Mark, Map, Categories, Text);

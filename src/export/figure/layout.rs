@@ -100,22 +100,17 @@ pub(crate) fn ends(panel: &Panel) -> [[f64; 2]; 2] {
 /// `shared`: the panels of a column have one x axis.
 fn ranges(panels: &[Panel], columns: usize, shared: bool) -> Vec<Ranges> {
     let x = |index: usize, panel: &Panel| {
-        let column = index % columns;
-        let mut values = Vec::new();
-        for (i, other) in panels.iter().enumerate() {
-            if i == index || (shared && i % columns == column) {
-                x_values(other, panel.x.scale, &mut values);
-            }
-        }
+        let together =
+            panels.iter().enumerate().filter(|(i, _)| *i == index || (shared && i % columns == index % columns));
+        let values = together.flat_map(|(_, other)| covered(other, panel.x.scale, 0, false));
         // Curves run from end to end; markers stand clear of the axes.
         let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
         let margin = !(fills(panel) || panel.layers.iter().any(curve));
-        Scaled::new(&panel.x.range, panel.x.scale, values.into_iter(), margin)
+        Scaled::new(&panel.x.range, panel.x.scale, values, margin)
     };
     let y = |panel: &Panel, axis: &Axis, right: bool| {
-        let mut values = Vec::new();
-        y_values(panel, axis.scale, right, &mut values);
-        Scaled::new(&axis.range, axis.scale, values.into_iter(), right || !fills(panel))
+        let values = covered(panel, axis.scale, 1, right).into_iter();
+        Scaled::new(&axis.range, axis.scale, values, right || !fills(panel))
     };
     let of = |(index, panel): (usize, &Panel)| {
         (x(index, panel), y(panel, &panel.y, false), panel.right.as_ref().map(|axis| y(panel, axis, true)))
@@ -123,39 +118,25 @@ fn ranges(panels: &[Panel], columns: usize, shared: bool) -> Vec<Ranges> {
     panels.iter().enumerate().map(of).collect()
 }
 
-fn x_values(panel: &Panel, scale: Scale, values: &mut Vec<f64>) {
+/// What the layers cover along x (0), or along the vertical axis (1) at the left or the right.
+fn covered(panel: &Panel, scale: Scale, along: usize, right: bool) -> Vec<f64> {
     let log = scale == Scale::Log;
-    for layer in &panel.layers {
-        match layer {
-            Layer::Line(line) => values.extend(line.points.iter().map(|p| p[0])),
-            Layer::Band(band) => values.extend(band.points.iter().map(|p| p[0])),
-            Layer::Points(points) => values.extend(points.points.iter().map(|p| p[0])),
-            Layer::Map(map) => values.extend(plane::ends(&map.grid.x, map.shading == Shading::Cells, log)),
-            Layer::Contours(contours) => values.extend(plane::ends(&contours.grid.x, false, log)),
-            Layer::Categories(kinds) => values.extend(plane::ends(&kinds.x, true, log)),
-            Layer::Mark(_) | Layer::Text(_) => {}
+    let of = |layer: &Layer| match layer {
+        Layer::Line(line) if along == 0 || line.right == right => line.points.iter().map(|p| p[along]).collect(),
+        _ if right => Vec::new(),
+        Layer::Band(band) => band.points.iter().flat_map(|p| [p[along], p[2 * along]]).collect(),
+        Layer::Points(points) => {
+            let bar = |(i, p): (usize, &[f64; 2])| {
+                let error = along as f64 * points.error(i);
+                [p[along], p[along] - error, p[along] + error]
+            };
+            points.points.iter().enumerate().flat_map(bar).collect()
         }
-    }
-}
-
-fn y_values(panel: &Panel, scale: Scale, right: bool, values: &mut Vec<f64>) {
-    let log = scale == Scale::Log;
-    for layer in &panel.layers {
-        match layer {
-            Layer::Line(line) if line.right == right => values.extend(line.points.iter().map(|p| p[1])),
-            Layer::Band(band) if !right => values.extend(band.points.iter().flat_map(|p| [p[1], p[2]])),
-            Layer::Points(points) if !right => {
-                for (i, [_, y]) in points.points.iter().enumerate() {
-                    let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
-                    values.extend([*y, y - error, y + error]);
-                }
-            }
-            Layer::Map(map) if !right => values.extend(plane::ends(&map.grid.y, map.shading == Shading::Cells, log)),
-            Layer::Contours(contours) if !right => values.extend(plane::ends(&contours.grid.y, false, log)),
-            Layer::Categories(kinds) if !right => values.extend(plane::ends(&kinds.y, true, log)),
-            _ => {}
-        }
-    }
+        Layer::Map(map) => plane::ends([&map.grid.x, &map.grid.y][along], map.shading == Shading::Cells, log),
+        Layer::Categories(kinds) => plane::ends([&kinds.x, &kinds.y][along], true, log),
+        Layer::Line(_) | Layer::Mark(_) | Layer::Text(_) => Vec::new(),
+    };
+    panel.layers.iter().flat_map(of).collect()
 }
 
 fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {

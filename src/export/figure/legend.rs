@@ -108,7 +108,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
             }
             Layer::Points(cloud) => {
                 for (i, [x, value]) in cloud.points.iter().enumerate() {
-                    let error = cloud.errors.get(i).copied().unwrap_or(0.0);
+                    let error = cloud.error(i);
                     single.push(at(y, [*x, *value]));
                     path(&mut [value - error, value + error].map(|end| at(y, [*x, end])).into_iter());
                 }

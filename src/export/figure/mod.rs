@@ -60,7 +60,7 @@ pub use colour::{Colour, Colours};
 pub use description::{Figure, Legend, Panel, Width};
 pub use error::FigureError;
 pub use files::{Format, to_bytes, to_pdf, to_png, to_svg, write};
-pub use layers::{Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
+pub use layers::{Band, Categories, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
 pub use plane::PRINT;
 pub use provenance::Provenance;
 pub use sheet::{Piece, sheets_to_pdf};

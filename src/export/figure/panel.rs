@@ -5,7 +5,7 @@ use super::colour::Colour;
 use super::description::Panel;
 use super::geometry::{clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
-use super::layers::{Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
+use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
 use super::legend::{covered, drawn};
 use super::placed::{
     Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range, mark_ends,
@@ -53,8 +53,8 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
             Layer::Band(band) => on.band(svg, band),
             Layer::Points(points) => on.points(svg, points),
             Layer::Mark(mark) => on.mark(svg, mark),
-            Layer::Contours(contours) => on.contours(svg, contours),
-            Layer::Map(_) | Layer::Categories(_) | Layer::Text(_) => {}
+            Layer::Map(map) => on.contours(svg, map),
+            Layer::Categories(_) | Layer::Text(_) => {}
         }
     }
     on.names(svg);
@@ -145,7 +145,7 @@ impl On<'_> {
         let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, false)));
         let mut bars = Vec::new();
         for (i, [x, y], _) in shown() {
-            let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
+            let error = points.error(i);
             if error == 0.0 {
                 continue;
             }
@@ -251,17 +251,14 @@ impl On<'_> {
         }
     }
 
-    fn contours(&self, svg: &mut Svg, contours: &Contours) {
-        let Grid { x, y, values } = &contours.grid;
-        if !plane::fits(x, y, values.len()) {
-            return;
-        }
-        let (levels, step) = levels(contours);
+    fn contours(&self, svg: &mut Svg, map: &Map) {
+        let Grid { x, y, values } = &map.grid;
+        let Some(error) = map.contours.filter(|_| plane::fits(x, y, values.len())) else { return };
+        let (levels, step) = levels(values, error);
         // Places first, so that lines are straight on paper on either kind of axis.
         let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
         let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
-        let map = first_map(self.panel);
         let mut lines = Vec::new();
         for level in levels {
             let pen = Pen::solid(contrast(map, level), 0.7);
@@ -418,10 +415,10 @@ fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
 }
 
 /// Values of contours and the step between them.
-fn levels(contours: &Contours) -> (Vec<f64>, f64) {
-    let range = Scaled::new(&Range::Auto, Scale::Linear, contours.grid.values.iter().copied(), false);
+fn levels(values: &[f64], error: f64) -> (Vec<f64>, f64) {
+    let range = Scaled::new(&Range::Auto, Scale::Linear, values.iter().copied(), false);
     let step = Steps::new([range.from, range.to], 10).step();
-    if step <= contours.error {
+    if step <= error {
         return (Vec::new(), step);
     }
     let ticks = Ticks::new(&range, 10, false).ticks;
@@ -431,8 +428,8 @@ fn levels(contours: &Contours) -> (Vec<f64>, f64) {
 }
 
 /// Black or white, whichever shows on the map's colour of a value.
-fn contrast(map: Option<&Map>, value: f64) -> Colour {
-    let under = map.and_then(|map| map_range(map).colour(map.colours, value));
+fn contrast(map: &Map, value: f64) -> Colour {
+    let under = map_range(map).colour(map.colours, value);
     if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
 }
 
@@ -452,20 +449,16 @@ mod tests {
     #[test]
     fn no_contour_follows_what_is_error_alone() {
         // α of a map whose half carries nothing, up to the solver's error.
-        let values = vec![-1.1e-6, 2e-7, -3e-7, 0.98];
-        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values };
-        let (values, _) = levels(&Contours { grid, ..Contours::default() });
+        let (values, _) = levels(&[-1.1e-6, 2e-7, -3e-7, 0.98], 0.0);
         assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
         // One that nowhere carries anything.
-        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![-6.7e-9, 2.2e-9, 1e-9, -3e-9] };
-        let noise = Contours { grid, error: 1.25e-5 };
-        assert!(levels(&noise).0.is_empty() && levels(&Contours { error: 0.0, ..noise }).0.len() >= 4);
+        let noise = [-6.7e-9, 2.2e-9, 1e-9, -3e-9];
+        assert!(levels(&noise, 1.25e-5).0.is_empty() && levels(&noise, 0.0).0.len() >= 4);
     }
 
     #[test]
     fn contours_choose_round_values() {
-        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0], values: vec![0.0, 1.03] };
-        let (values, step) = levels(&Contours { grid, ..Contours::default() });
+        let (values, step) = levels(&[0.0, 1.03], 0.0);
         assert!(values.len() >= 5 && (step - 0.2).abs() < 1e-12, "{values:?} {step}");
     }
 }

@@ -116,19 +116,18 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     let [low, high] = with_margin(span(all, 0.0), 0.08);
     let (unit, scale) = prefixed(high.max(-low), "m");
     let (x, metre) = wave_axis(runs);
-    let mut panel = Panel::new("(a) surfaces", x, Axis::new("displacement", unit).fixed(low * scale, high * scale));
-    for run in runs {
-        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
-        let tops = along(run.recording, frame, metre, |i| run.recording.stator[i] * scale);
-        panel = panel.layer(Line::new("", tops, Style { width: 0.6, ..run.style }));
-    }
-    for run in runs {
-        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
-        let rotor = Lines::at(run.recording, frame as f64).underside(run.recording);
-        let rotor = rotor.into_iter().map(|[x, height]| [x * metre, height * scale]);
-        panel = panel.layer(Line::new(run.name, rotor, Style { width: 1.3, ..run.style }));
-    }
-    panel.legend(Legend::Above)
+    let tops = runs.iter().map(|run| {
+        let frame = nearest_frame(run.recording, phase);
+        let tops = along(run.recording, frame, metre(run.recording), |i| run.recording.stator[i] * scale);
+        Line::new("", tops, Style { width: 0.6, ..run.style })
+    });
+    let rotors = runs.iter().map(|run| {
+        let rotor = Lines::at(run.recording, nearest_frame(run.recording, phase) as f64).underside(run.recording);
+        let rotor = rotor.into_iter().map(|[x, height]| [x * metre(run.recording), height * scale]);
+        Line::new(run.name, rotor, Style { width: 1.3, ..run.style })
+    });
+    let y = Axis::new("displacement", unit).fixed(low * scale, high * scale);
+    Panel::new("(a) surfaces", x, y).layers(tops).layers(rotors).legend(Legend::Above)
 }
 
 /// Pressure of the contact or of the film, averaged over the contact width, of all runs.
@@ -138,15 +137,12 @@ pub fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: fn(&Recordi
     let (unit, scale) = pressure_unit(high.max(-low));
     let (x, metre) = wave_axis(runs);
     let y = Axis::new("pressure", unit).fixed(low * scale, high * scale);
-    let mut panel = Panel::new(title, x, y).layer(rest(0.0, ""));
-    for run in runs {
-        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
-        let values = of(run.recording);
+    let lines = runs.iter().map(|run| {
+        let (frame, values) = (nearest_frame(run.recording, phase), of(run.recording));
         let pressure = |i: usize| values[i] / run.scene.contact_width * scale;
-        let points = along_where_not_zero(run.recording, frame, metre, pressure);
-        panel = panel.layer(Line::new(run.name, points, run.style));
-    }
-    panel.legend(Legend::None)
+        Line::new(run.name, along_where_not_zero(run.recording, frame, metre(run.recording), pressure), run.style)
+    });
+    Panel::new(title, x, y).layer(rest(0.0, "")).layers(lines).legend(Legend::None)
 }
 
 /// Film load and contact load over the cycle.
@@ -155,22 +151,22 @@ pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
     let (unit, scale) = prefixed(span(greatest.copied(), 0.0)[1], "N");
     let panel = |title: &str, of: fn(&Recording) -> &Vec<f64>| {
         let y = Axis::new("load", &unit).including([0.0]);
-        let mut panel = Panel::new(title, Axis::new("t/T", "").fixed(0.0, 1.0), y).height(36.0);
-        for run in runs {
-            panel = panel.layer(Line::new(run.name, over_cycle(of(run.recording), scale), run.style));
-        }
-        panel
+        let lines = runs.iter().map(|run| Line::new(run.name, over_cycle(of(run.recording), scale), run.style));
+        Panel::new(title, Axis::new("t/T", "").fixed(0.0, 1.0), y).height(36.0).layers(lines)
     };
     let film = panel("(a) load of the air film on one wavelength", |recording| &recording.film_load);
     let contact = panel("(b) contact load", |recording| &recording.contact_load);
-    let mut figure =
-        Figure::new("loads over the cycle").panel(film.legend(Legend::Above)).panel(contact.legend(Legend::None));
-    figure.share_x = true;
-    figure.width = Width::Millimetres(110.0);
     let of_every = of_every(runs);
-    figure.caption =
-        format!("Load of the air film (a) and contact load (b) on one wavelength, over one cycle{of_every}.");
-    figure
+    let caption = format!("Load of the air film (a) and contact load (b) on one wavelength, over one cycle{of_every}.");
+    stacked("loads over the cycle", [film, contact], caption)
+}
+
+/// Panels below each other, the first of which has the legend of all.
+fn stacked<const N: usize>(title: &str, panels: [Panel; N], caption: String) -> Figure {
+    let mut panels = panels.map(|panel| panel.legend(Legend::None));
+    panels[0].legend = Legend::Above;
+    let width = Width::Millimetres(110.0);
+    Figure { panels: panels.into(), share_x: true, width, caption, ..Figure::new(title) }
 }
 
 /// Torque and power over the speed of the rotor.
@@ -181,29 +177,21 @@ pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
         let values = performances.iter().flat_map(|found| &found.curve).map(value);
         let (unit, scale) = prefixed(span(values, 0.0)[1], unit);
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
-        let mut panel = Panel::new(title, x, Axis::new(name, unit).including([0.0])).height(36.0);
-        panel = panel.layer(rest(0.0, ""));
-        for (run, found) in runs.iter().zip(performances) {
+        let lines = runs.iter().zip(performances).map(|(run, found)| {
             let points = found.curve.iter().map(|point| [speed(run, point.speed), value(point) * scale]);
             // What brakes the rotor is left out.
-            let driven: Vec<_> = points.filter(|point| point[1] >= 0.0).collect();
-            panel = panel.layer(Line::new(run.name, driven, run.style));
-        }
-        panel
+            Line::new(run.name, points.filter(|point| point[1] >= 0.0), run.style)
+        });
+        Panel::new(title, x, Axis::new(name, unit).including([0.0])).height(36.0).layer(rest(0.0, "")).layers(lines)
     };
     let torque = panel("(a) torque of the ring", "torque", "N·m", |point| point.torque.value);
     let power = panel("(b) power given to the rotor", "power", "W", |point| point.output.value);
-    let mut figure = Figure::new("torque and power over speed")
-        .panel(torque.legend(Legend::Above))
-        .panel(power.legend(Legend::None));
-    figure.share_x = true;
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = format!(
+    let caption = format!(
         "Torque (a) and power given to the rotor (b) of the whole ring over the speed of the rotor{}, with the air film, for Coulomb \
          friction at every point of contact; as far as the rotor is driven.",
         of_every(runs)
     );
-    figure
+    stacked("torque and power over speed", [torque, power], caption)
 }
 
 /// Least and greatest pressure of all runs, and its unit.
@@ -216,11 +204,10 @@ fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64
 pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let mut figure = Figure::new(format!("pressure of the air film, t/T = {phase:.3}"));
-    for run in runs {
-        let frame = nearest_frame(run.recording, phase);
-        let map = all_teeth_on(run.recording, frame, &unit, scale, span).height(11.0);
-        figure.panels.push(Panel { title: run.name.to_owned(), ..map });
-    }
+    figure.panels.extend(runs.iter().map(|run| {
+        let map = all_teeth_on(run.recording, nearest_frame(run.recording, phase), &unit, scale, span);
+        Panel { title: run.name.to_owned(), height: 11.0, ..map }
+    }));
     figure.width = Width::Page;
     figure.caption = format!(
         "Absolute pressure of the air film under all teeth at t/T = {phase:.3}{}; one scale of colours covers the whole cycle.",
@@ -287,27 +274,23 @@ fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
     let margin = 0.06 * (high - low);
     let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
     let (axis, length) = plate_axis(runs);
-    let mut panel = Panel::new(title, axis, y);
-    for run in runs {
+    let lines = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);
         let points = plate::along_the_middle(run.recording, frame, scale, |x| x / length(run.scene));
-        panel = panel.layer(Line::new(run.name, points, run.style));
-    }
-    panel
+        Line::new(run.name, points, run.style)
+    });
+    Panel::new(title, axis, y).layers(lines)
 }
 
 /// Pressure along every plate, at y = 0, at the greatest and the least gap.
 pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
-    let wide = profile_panel(runs, 0.0, "(a) greatest gap, t = 0").height(34.0).legend(Legend::Above);
-    let narrow = profile_panel(runs, 0.5, "(b) least gap, t = T/2").height(34.0).legend(Legend::None);
-    let mut figure = Figure::new("pressure along the plate").panel(wide).panel(narrow);
-    figure.share_x = true;
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = format!(
+    let wide = profile_panel(runs, 0.0, "(a) greatest gap, t = 0").height(34.0);
+    let narrow = profile_panel(runs, 0.5, "(b) least gap, t = T/2").height(34.0);
+    let caption = format!(
         "Absolute pressure along the middle of {} plate, at the greatest and at the least gap.",
         if runs.len() > 1 { "every" } else { "the" }
     );
-    figure
+    stacked("pressure along the plate", [wide, narrow], caption)
 }
 
 /// A load as mean gauge pressure: that of strips and of plates can be laid over each other.
@@ -319,37 +302,30 @@ fn mean_pressure(runs: &[PlateRun<'_>]) -> (String, f64) {
 /// Mean gauge pressure over the cycle.
 pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
     let (unit, scale) = mean_pressure(runs);
-    let mut panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("mean gauge pressure", unit));
-    panel = panel.layer(rest(0.0, ""));
-    for run in runs {
+    let lines = runs.iter().map(|run| {
         let points = over_cycle(&run.recording.film_load, scale / run.scene.area());
-        panel = panel.layer(Line::new(run.name, points, run.style));
-    }
-    let mut figure = Figure::new("load over the cycle").panel(panel.legend(Legend::Above));
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = format!("Load of the film above ambient, over the area, over one cycle{}.", of_every(runs));
-    figure
+        Line::new(run.name, points, run.style)
+    });
+    let panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("mean gauge pressure", unit));
+    let caption = format!("Load of the film above ambient, over the area, over one cycle{}.", of_every(runs));
+    stacked("load over the cycle", [panel.layer(rest(0.0, "")).layers(lines)], caption)
 }
 
 /// Mean gauge pressure against the gap over its mean.
 pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
     let (unit, scale) = mean_pressure(runs);
-    let mut panel = Panel::new("", Axis::new("gap over its mean", ""), Axis::new("mean gauge pressure", unit));
-    panel = panel.layer(rest(0.0, ""));
-    for run in runs {
+    let lines = runs.iter().map(|run| {
         let recording = run.recording;
         let at = |m: usize| {
             let gap = recording.min_film_thickness.get(m)? / run.scene.mean_gap;
             Some([gap, recording.film_load.get(m)? / run.scene.area() * scale])
         };
         let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
-        panel = panel.layer(Line::new(run.name, closed.filter_map(at), run.style));
-    }
-    let mut figure = Figure::new("pressure against gap").panel(panel.legend(Legend::Above));
-    figure.width = Width::Millimetres(110.0);
-    figure.caption =
-        format!("Mean gauge pressure of the film against the gap, once round the cycle{}.", of_every(runs));
-    figure
+        Line::new(run.name, closed.filter_map(at), run.style)
+    });
+    let panel = Panel::new("", Axis::new("gap over its mean", ""), Axis::new("mean gauge pressure", unit));
+    let caption = format!("Mean gauge pressure of the film against the gap, once round the cycle{}.", of_every(runs));
+    stacked("pressure against gap", [panel.layer(rest(0.0, "")).layers(lines)], caption)
 }
 
 /// Pressure along every plate and over the cycle, with one scale of colours.
@@ -379,15 +355,14 @@ pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
     let mut round = loops(runs).panels.remove(0).legend(Legend::None);
     round.title = "(b) once round the cycle".to_owned();
     let unit = mean_pressure(runs).1;
-    for run in runs {
+    let marker = Marker { size: 5.0, ..Marker::default() };
+    let now = runs.iter().filter_map(|run| {
         let m = nearest_frame(run.recording, phase);
-        if let (Some(gap), Some(load)) = (run.recording.min_film_thickness.get(m), run.recording.film_load.get(m)) {
-            let at = [gap / run.scene.mean_gap, load / run.scene.area() * unit];
-            let marker = Marker { size: 5.0, ..Marker::default() };
-            round = round.layer(Points::new("", [at], run.style.colour, marker));
-        }
-    }
-    let mut figure = Figure::new("").panel(profile.height(46.0)).panel(round.height(46.0));
+        let (gap, load) = (run.recording.min_film_thickness.get(m)?, run.recording.film_load.get(m)?);
+        let at = [gap / run.scene.mean_gap, load / run.scene.area() * unit];
+        Some(Points::new("", [at], run.style.colour, marker))
+    });
+    let mut figure = Figure::new("").panel(profile.height(46.0)).panel(round.layers(now).height(46.0));
     figure.columns = 2;
     figure.width = Width::Millimetres(170.0);
     figure

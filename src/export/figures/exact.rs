@@ -40,29 +40,27 @@ fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
     let computed = found.solved.map(|solved| [solved.spring, solved.damping]);
     let top = computed.into_iter().flatten().map(|part| part.value).fold(1.0, f64::max);
     let x = Axis::new("squeeze number over slip factor, σ/Q", "").log().fixed(from, to);
-    let mut panel = Panel::new(
-        "(a) first harmonic of the load",
-        x,
-        Axis::new("part of load / p_{a} A ε", "").fixed(0.0, 1.12 * top),
-    )
-    .layer(Mark::vertical(present, ""))
-    .layer(Line::new("spring, ε → 0", spring, Style::solid(Colour::FILM)))
-    .layer(Line::new("damping, ε → 0", damping, Style::solid(Colour::CONTACT).dash(Dash::Dashed)));
+    let y = Axis::new("part of load / p_{a} A ε", "").fixed(0.0, 1.12 * top);
     let parts =
         [("spring, computed", Colour::FILM, Shape::Circle), ("damping, computed", Colour::CONTACT, Shape::Square)];
-    for (part, (name, colour, shape)) in computed.into_iter().flatten().zip(parts) {
+    let parts = computed.into_iter().flatten().zip(parts).map(|(part, (name, colour, shape))| {
         let marker = Marker { size: 5.0, ..Marker::solid(shape) };
         let errors = if part.error.is_finite() { vec![part.error] } else { Vec::new() };
-        panel = panel.layer(Points { errors, ..Points::new(name, [[present, part.value]], colour, marker) });
-    }
-    panel.legend(Legend::Above)
+        Points { errors, ..Points::new(name, [[present, part.value]], colour, marker) }
+    });
+    Panel::new("(a) first harmonic of the load", x, y)
+        .layer(Mark::vertical(present, ""))
+        .layer(Line::new("spring, ε → 0", spring, Style::solid(Colour::FILM)))
+        .layer(Line::new("damping, ε → 0", damping, Style::solid(Colour::CONTACT).dash(Dash::Dashed)))
+        .layers(parts)
+        .legend(Legend::Above)
 }
 
 fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
     let load = &recording.film_load;
     let mut range = span(load.iter().copied(), 0.0);
     let most = WHOLE * (range[1] - range[0]);
-    for limit in [&found.limits.boyle, &found.limits.viscous] {
+    for limit in [&found.boyle, &found.viscous] {
         let [low, high] = span(limit.iter().copied(), 0.0);
         if high - low <= most {
             range = [range[0].min(low), range[1].max(high)];
@@ -71,19 +69,14 @@ fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
     let (unit, scale) = prefixed(range[1].max(-range[0]), force(plate));
     let [low, high] = with_margin(range, 0.08);
     let y = Axis::new("film load", unit).fixed(low * scale, high * scale);
+    let lines = [
+        ("trapped (Boyle)", &found.boyle, Style::solid(Colour::CONTACT).dash(Dash::Dashed)),
+        ("incompressible", &found.viscous, Style::solid(Colour::ROTOR).dash(Dash::DashDot)),
+        ("computed", load, Style::solid(Colour::FILM)),
+    ];
     Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)
         .layer(rest(0.0, ""))
-        .layer(Line::new(
-            "trapped (Boyle)",
-            over_cycle(&found.limits.boyle, scale),
-            Style::solid(Colour::CONTACT).dash(Dash::Dashed),
-        ))
-        .layer(Line::new(
-            "incompressible",
-            over_cycle(&found.limits.viscous, scale),
-            Style::solid(Colour::ROTOR).dash(Dash::DashDot),
-        ))
-        .layer(Line::new("computed", over_cycle(load, scale), Style::solid(Colour::FILM)))
+        .layers(lines.map(|(name, loads, style)| Line::new(name, over_cycle(loads, scale), style)))
         .legend(Legend::Above)
 }
 

@@ -26,7 +26,7 @@ mod unit;
 
 pub(super) use series::mirrored;
 
-use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
+use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::analysis::exact::Comparison;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Progress;
@@ -85,8 +85,6 @@ pub fn convergence(history: &[Progress]) -> Figure {
     // A plate that floats was solved at many gaps.
     let history = Progress::last_solve(history);
     let grids = Progress::grids(history).count();
-    let y = Axis::new("relative change in a round", "").log();
-    let mut panel = Panel::new("", Axis::new("round", "").whole(), y);
     let mut tolerances: Vec<f64> = Vec::new();
     for round in history {
         if !tolerances.contains(&round.tolerance) {
@@ -94,17 +92,17 @@ pub fn convergence(history: &[Progress]) -> Figure {
         }
     }
     let all = history.iter().map(|round| round.residual).chain(tolerances.iter().copied());
-    panel.y.range = Range::Including(tolerances.clone());
-    for tolerance in &tolerances {
-        let words = if *tolerance == tolerances[0] { "allowed" } else { "" };
-        let mut mark = Mark::horizontal(*tolerance, words);
+    let allowed = tolerances.iter().map(|tolerance| {
+        let mut mark = Mark::horizontal(*tolerance, if *tolerance == tolerances[0] { "allowed" } else { "" });
         mark.style.dash = Dash::Dashed;
-        panel = panel.layer(mark);
-    }
-    for (grid, rounds) in Progress::grids(history).enumerate() {
+        mark
+    });
+    let changes = Progress::grids(history).enumerate().map(|(grid, rounds)| {
         let points = rounds.iter().enumerate().map(|(i, round)| [i as f64 + 1.0, round.residual]);
-        panel = panel.layer(Line::new(format!("grid {} of {grids}", grid + 1), points, Style::nth(grid)));
-    }
+        Line::new(format!("grid {} of {grids}", grid + 1), points, Style::nth(grid))
+    });
+    let y = Axis::new("relative change in a round", "").log().including(tolerances.clone());
+    let panel = Panel::new("", Axis::new("round", "").whole(), y).layers(allowed).layers(changes);
     let mut figure = Figure::new("convergence").panel(panel);
     let last = all.fold(f64::INFINITY, f64::min);
     figure.caption = format!(

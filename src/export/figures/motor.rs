@@ -7,7 +7,7 @@ use super::series::{
 use super::unit::prefixed;
 use crate::digits::significant;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Mark, Panel, Range, Style, Width,
+    Axis, Band, Colour, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
 };
 use crate::problem::Motor;
 use crate::recording::Recording;
@@ -69,16 +69,15 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
     let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
-    let mut panel = Panel::new("(a) surfaces", x_axis(recording), y)
+    // Wherever in the cycle: the legend is the same at every instant.
+    let touched = recording.contact.iter().any(|load| touches(*load));
+    Panel::new("(a) surfaces", x_axis(recording), y)
         .layer(above)
         .layer(body)
         .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
-        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }));
-    // Wherever in the cycle: the legend is the same at every instant.
-    if recording.contact.iter().any(|load| touches(*load)) {
-        panel = panel.layer(Line::new("in contact", touching, thick));
-    }
-    panel.legend(Legend::Above)
+        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }))
+        .layers(touched.then(|| Line::new("in contact", touching, thick)))
+        .legend(Legend::Above)
 }
 
 /// A line load of all teeth as a pressure.
@@ -221,10 +220,8 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
 pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
     let grid = whole_plane(recording, &tooth_map(recording, recording.teeth / 2, frame), scale);
-    let colours = pressure_map(grid.clone(), &unit, range);
-    let lines = Contours { grid, ..Contours::default() };
-    let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
-    Panel::new("", axes.0, axes.1).layer(colours).layer(lines).height(38.0)
+    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, range) };
+    Panel::new("", Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm")).layer(map).height(38.0)
 }
 
 /// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.

@@ -3,7 +3,7 @@
 use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
 use super::unit::prefixed;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
+    Axis, Band, Colour, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
 };
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -12,14 +12,13 @@ use crate::recording::Recording;
 pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let ambient = plate.gas.ambient_pressure;
     let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), ambient)[1], "Pa");
-    let mut panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
-        .layer(rest(ambient * scale, "ambient"));
-    for quarter in 0..4 {
-        let frame = quarter * recording.frames / 4;
-        let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
-        let style = Style { marker: None, ..Style::nth(quarter) };
-        panel = panel.layer(Line::new(["t = 0", "T/4", "T/2", "3T/4"][quarter], points, style));
-    }
+    let quarters = ["t = 0", "T/4", "T/2", "3T/4"].into_iter().enumerate().map(|(quarter, name)| {
+        let points = along_the_middle(recording, quarter * recording.frames / 4, scale, |x| x * 1e3);
+        Line::new(name, points, Style { marker: None, ..Style::nth(quarter) })
+    });
+    let panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
+        .layer(rest(ambient * scale, "ambient"))
+        .layers(quarters);
     let mut figure = Figure::new("pressure along the plate").panel(panel);
     figure.caption = "Pressure along the plate at four instants; the gap is greatest at t/T = 0.".to_owned();
     figure
@@ -169,9 +168,8 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
         let title = format!("pressure at t/T = {:.3}", phase(recording, most));
         (title, Axis::new("y", "mm"), whole_plane(recording, plane, scale))
     };
-    let colours = pressure_map(grid.clone(), &unit, Range::Auto);
-    let lines = Contours { grid, ..Contours::default() };
-    let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(colours).layer(lines).height(60.0);
+    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, Range::Auto) };
+    let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(map).height(60.0);
     let mut figure = Figure::new(title).panel(panel);
     figure.width = Width::Millimetres(110.0);
     figure.caption = if strip {

@@ -39,19 +39,13 @@ pub fn figure(name: &str, map: &HeightMap, texture: &Texture) -> Figure {
     let furthest =
         texture.autocorrelation.iter().filter_map(|curve| curve.last()).map(|(lag, _)| *lag).fold(0.0, f64::max);
     let (lag_unit, lag_scale) = prefixed(furthest, "m");
-    let mut correlation =
-        Panel::new("(b) autocorrelation", Axis::new("lag", lag_unit), Axis::new("autocorrelation", ""))
-            .layer(Mark::horizontal(0.5, "½: correlation length"));
-    for (index, (curve, name)) in texture
-        .autocorrelation
-        .iter()
-        .zip(["along x", "along y"])
-        .enumerate()
-        .filter(|(_, (curve, _))| !curve.is_empty())
-    {
-        let points = curve.iter().map(|(lag, value)| [lag * lag_scale, *value]);
-        correlation = correlation.layer(Line::new(name, points, Style::nth(index)));
-    }
+    let curves = texture.autocorrelation.iter().zip(["along x", "along y"]).enumerate();
+    let curves = curves.filter(|(_, (curve, _))| !curve.is_empty()).map(|(index, (curve, name))| {
+        Line::new(name, curve.iter().map(|(lag, value)| [lag * lag_scale, *value]), Style::nth(index))
+    });
+    let correlation = Panel::new("(b) autocorrelation", Axis::new("lag", lag_unit), Axis::new("autocorrelation", ""))
+        .layer(Mark::horizontal(0.5, "½: correlation length"))
+        .layers(curves);
     let mut figure = Figure::new(name).panel(heights).panel(correlation);
     figure.width = Width::Column;
     figure.provenance = Provenance::named(name);

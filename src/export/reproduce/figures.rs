@@ -115,15 +115,11 @@ fn frequencies(all: &Reproduction) -> Figure {
             paper.push([motor.frequency * 1e-3, result.alpha.value]);
         }
     }
+    let square = Marker { size: 6.0, ..Marker::hollow(Shape::Square) };
     let panel = Panel::new("", Axis::new("frequency of the stator", "kHz").log(), Axis::new("α", "").including([0.0]))
         .layer(Band::new("stated error", band, Colour::FILM))
         .layer(Line::new(OURS, curve, Style::solid(Colour::FILM)))
-        .layer(Points::new(
-            "published",
-            published,
-            Colour::CONTACT,
-            Marker { size: 6.0, ..Marker::hollow(Shape::Square) },
-        ))
+        .layer(Points::new("published", published, Colour::CONTACT, square))
         .layer(Points::new(PAPER, paper, Colour::BLACK, Marker { size: 2.6, ..Marker::solid(Shape::Circle) }))
         .height(52.0);
     let mut figure = Figure::new("Fig. 10: effect of the stator vibrating frequency").panel(panel);

@@ -193,7 +193,7 @@ fn table1(all: &Reproduction) -> Table {
                     let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
                     cells.push((Kind::Number, format!("{:.places$}", result.film_load.value)));
                     cells.push((if sound { kind } else { Kind::Alarm }, result.alpha.to_string()));
-                    cells.push((Kind::Number, change(row.difference_percent(result), 1)));
+                    cells.push((Kind::Number, change(row.published.difference_percent(result.film_load), 1)));
                 }
                 _ => cells.extend(["failed", "", ""].map(|words| (Kind::Alarm, words.to_owned()))),
             }

@@ -4,8 +4,8 @@ use super::background::Background;
 use super::document::solved_alike;
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
-use crate::job::drop::DropTask;
-use crate::job::task::News;
+use crate::job::drop::DropWork;
+use crate::job::task::{News, TaskOf};
 use crate::scene::Scene;
 use crate::solution::Status;
 
@@ -25,7 +25,7 @@ pub struct Dropped {
 
 impl Dropped {
     /// A drop of `scene` that has begun.
-    pub fn new(task: DropTask, scene: Scene, fidelity: Fidelity) -> Self {
+    pub fn new(task: TaskOf<DropWork>, scene: Scene, fidelity: Fidelity) -> Self {
         Self { work: task.into(), scene, fidelity, cycles: Vec::new(), ended: None }
     }
 

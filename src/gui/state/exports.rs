@@ -2,8 +2,8 @@
 
 use super::background::Background;
 use super::dialogs::Export;
-use crate::job::export::{ExportTask, Files};
-use crate::job::task::News;
+use crate::job::export::Files;
+use crate::job::task::{News, TaskOf};
 use crate::job::work::Work;
 use crate::platform::Instant;
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ const TOLD: Duration = Duration::from_secs(10);
 
 impl ExportState {
     /// One has begun.
-    pub fn begin(&mut self, export: Export, task: ExportTask, started: Instant) {
+    pub fn begin(&mut self, export: Export, task: TaskOf<Files>, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
     }

@@ -1,7 +1,6 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
 use super::background::Background;
-use crate::export::surface::{self, Object};
 use crate::job::task::Task;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
@@ -16,8 +15,8 @@ pub struct Face {
     pub map: HeightMap,
     /// Two faces like it.
     pub pair: Pair,
-    /// Its statistics, in the units in which they are told.
-    pub told: Object,
+    /// Its statistics.
+    pub texture: Texture,
 }
 
 /// Reads a face: its heights and what they come to.
@@ -45,8 +44,7 @@ impl FaceState {
         let found = self.work.news().end?.map(|found| {
             let (map, texture) = found?;
             let (name, pair) = (self.name.clone(), Pair::of(&texture, &texture));
-            let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
-            Some(Arc::new(Face { name, map, pair, told }))
+            Some(Arc::new(Face { name, map, pair, texture }))
         });
         found.map(|face| self.found = face.or(self.found.take())).err()
     }

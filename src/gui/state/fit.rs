@@ -6,7 +6,8 @@ use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 use crate::job::fit::FitWork;
-pub use crate::job::fit::{FitTask, Found};
+pub use crate::job::fit::Found;
+use crate::job::task::TaskOf;
 use crate::job::work::Work;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
@@ -175,7 +176,7 @@ impl FitState {
     }
 
     /// `task` searches for `scene`.
-    pub fn begin(&mut self, scene: Scene, task: FitTask) {
+    pub fn begin(&mut self, scene: Scene, task: TaskOf<FitWork>) {
         (self.work, self.asked, self.told) = (task.into(), Some(scene), None);
     }
 

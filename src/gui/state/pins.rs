@@ -4,7 +4,8 @@
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultRow, parameters, results, unique};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
-use crate::job::pin::PinTask;
+use crate::job::pin::PinWork;
+use crate::job::task::TaskOf;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -42,7 +43,7 @@ pub struct Waiting {
     /// The colour that it had.
     slot: Option<usize>,
     /// None: its turn has not come.
-    task: Option<PinTask>,
+    task: Option<TaskOf<PinWork>>,
 }
 
 /// A pin as it outlives the window.
@@ -172,7 +173,7 @@ impl Pins {
     }
 
     /// Waits for `task`, which solves this scene.
-    pub fn wait(&mut self, scene: Scene, fidelity: Fidelity, task: PinTask) {
+    pub fn wait(&mut self, scene: Scene, fidelity: Fidelity, task: TaskOf<PinWork>) {
         let id = self.number();
         self.note = None;
         let name = scene.name.clone();
@@ -223,7 +224,7 @@ impl Pins {
     }
 
     /// `task` solves the one whose turn it is.
-    pub fn begin(&mut self, id: u64, task: PinTask) {
+    pub fn begin(&mut self, id: u64, task: TaskOf<PinWork>) {
         if let Some(waiting) = self.waiting.iter_mut().find(|waiting| waiting.id == id) {
             waiting.task = Some(task);
         }

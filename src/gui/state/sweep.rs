@@ -7,8 +7,8 @@ use crate::digits::rounded;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::sliders::slider_range;
 use crate::gui::derived::words::unused;
-use crate::job::sweep::{SweepMessage, SweepTask};
-use crate::job::task::News;
+use crate::job::sweep::{SweepMessage, SweepWork};
+use crate::job::task::{News, TaskOf};
 use crate::platform::Instant;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
@@ -237,7 +237,7 @@ pub struct SweepState {
     /// What is wrong with each axis that is asked for.
     pub faults: Vec<Option<String>>,
     quantity: Option<Quantity>,
-    task: Option<(SweepTask, Instant)>,
+    task: Option<(TaskOf<SweepWork>, Instant)>,
     /// What was begun.
     pub swept: Option<Swept>,
     /// Why the last sweep that was asked for could not begin.
@@ -293,7 +293,7 @@ impl SweepState {
     }
 
     /// It has begun, or goes on with the rows that there are.
-    pub fn begin(&mut self, task: SweepTask, goes_on: bool, now: Instant) {
+    pub fn begin(&mut self, task: TaskOf<SweepWork>, goes_on: bool, now: Instant) {
         self.refusal = None;
         self.task = Some((task, now));
         if let Some(swept) = self.swept.as_mut().filter(|_| goes_on) {

@@ -232,7 +232,7 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
                 Direction::Vertical => plot.vline(upright(on_axis(&panel.x, *value), colour, width).style(dash)),
             }
         }
-        Layer::Map(_) | Layer::Contours(_) | Layer::Categories(_) | Layer::Text(_) => {}
+        Layer::Map(_) | Layer::Categories(_) | Layer::Text(_) => {}
     }
 }
 

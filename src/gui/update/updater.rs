@@ -5,7 +5,7 @@ use super::platform::Platform;
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
-use crate::job::export::ExportTask;
+use crate::job::export::Files;
 use crate::job::task::{Task, TaskOf};
 use crate::job::work::Work;
 use crate::job::{Request, Solver};
@@ -31,7 +31,7 @@ pub struct Updater {
     pub(super) dialogs: Dialogs,
     pub(super) pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
     /// Pictures of the window that are being written.
-    pub(super) writing: Vec<ExportTask>,
+    pub(super) writing: Vec<TaskOf<Files>>,
 }
 
 impl Updater {

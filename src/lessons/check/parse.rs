@@ -155,21 +155,19 @@ impl Reader<'_> {
     }
 
     fn sum(&mut self) -> Result<Expression, String> {
-        let mut sum = self.product()?;
-        while let Some(Token::Sign(sign @ ('+' | '-'))) = self.tokens.get(self.at) {
-            self.at += 1;
-            sum = Expression::Pair(*sign, Box::new(sum), Box::new(self.product()?));
-        }
-        Ok(sum)
+        self.chain("+-", |reader| reader.chain("*/", Self::factor))
     }
 
-    fn product(&mut self) -> Result<Expression, String> {
-        let mut product = self.factor()?;
-        while let Some(Token::Sign(sign @ ('*' | '/'))) = self.tokens.get(self.at) {
+    /// Parts with these signs between them, from left to right.
+    fn chain(&mut self, signs: &str, part: fn(&mut Self) -> Result<Expression, String>) -> Result<Expression, String> {
+        let mut all = part(self)?;
+        while let Some(Token::Sign(sign)) = self.tokens.get(self.at)
+            && signs.contains(*sign)
+        {
             self.at += 1;
-            product = Expression::Pair(*sign, Box::new(product), Box::new(self.factor()?));
+            all = Expression::Pair(*sign, Box::new(all), Box::new(part(self)?));
         }
-        Ok(product)
+        Ok(all)
     }
 
     fn factor(&mut self) -> Result<Expression, String> {

@@ -34,10 +34,8 @@ pub(super) struct Raw {
 impl Reader<'_> {
     pub(super) fn step(&mut self, raw: &Raw) -> Option<Step> {
         let block = |kind: &str| raw.blocks.iter().find(|(found, _)| *found == kind).map(|(_, piece)| piece);
-        let mut setup = Setup::default();
-        if let Some(piece) = block(SETUP) {
-            self.table(SETUP, SETUP_KEYS, piece, |reader, table| setup = reader.setup(table));
-        }
+        let setup = self.table(SETUP, SETUP_KEYS, block(SETUP), |reader, table| Some(reader.setup(table)));
+        let setup = setup.unwrap_or_default();
         let Some(scene) = self.scene.clone() else {
             if !setup.faulty {
                 let missing =
@@ -47,23 +45,17 @@ impl Reader<'_> {
             return None;
         };
         let body = self.text(&raw.body);
-        let (mut question, mut task, mut observe) = (None, None, None);
-        if let Some(piece) = block(QUESTION) {
-            self.table(QUESTION, QUESTION_KEYS, piece, |reader, table| question = reader.question(table));
-        }
-        if let Some(piece) = block(TASK) {
-            self.table(TASK, TASK_KEYS, piece, |reader, table| task = reader.task(table, &scene));
-        }
-        match block(OBSERVE) {
+        let question = self.table(QUESTION, QUESTION_KEYS, block(QUESTION), Self::question);
+        let task = self.table(TASK, TASK_KEYS, block(TASK), |reader, table| reader.task(table, &scene));
+        let observe = match block(OBSERVE) {
             Some(piece) if task.is_none() => {
                 let fault = "a block ```observe asks what was seen after a task, and this step has no ```task";
                 self.fault(piece.line - 1, fault);
+                None
             }
-            Some(piece) => {
-                self.table(OBSERVE, OBSERVE_KEYS, piece, |reader, table| observe = reader.question(table));
-            }
-            None => observe = question.as_ref().filter(|_| task.is_some()).and_then(same_choices),
-        }
+            None => question.as_ref().filter(|_| task.is_some()).and_then(same_choices),
+            piece => self.table(OBSERVE, OBSERVE_KEYS, piece, Self::question),
+        };
         let Setup { sets, light, look, tab, show, .. } = setup;
         Some(Step { title: raw.title.clone(), body, scene, sets, light, look, tab, show, question, task, observe })
     }
@@ -88,7 +80,7 @@ impl Reader<'_> {
             }
         }
         if let Some(mut scene) = self.scene.clone() {
-            if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+            if let Err(error) = scene.set_all(&changes) {
                 self.key_fault(table.line_of("set"), SETUP, "set", format!(": {error}"));
             }
             self.scene = Some(scene);
@@ -235,7 +227,7 @@ impl Reader<'_> {
             }
         }
         let mut changed = scene.clone();
-        if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+        if let Err(error) = changed.set_all(&doing.changes) {
             self.key_fault(table.line_of(key), TASK, key, format!(": {error}"));
         }
         doing

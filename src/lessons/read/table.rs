@@ -63,14 +63,15 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the TOML of a block and its keys.
-    pub(super) fn table(
+    /// Reads the TOML of a block and its keys; `None` if there is no such block, or it cannot be read.
+    pub(super) fn table<T>(
         &mut self,
         block: &'static str,
         keys: &'static [&'static str],
-        piece: &Piece,
-        read: impl FnOnce(&mut Self, &Table<'_>),
-    ) {
+        piece: Option<&Piece>,
+        read: impl FnOnce(&mut Self, &Table<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let piece = piece?;
         match DeTable::parse(&piece.text) {
             Ok(tree) => {
                 let table = Table { block, tree: tree.get_ref(), piece };
@@ -81,12 +82,13 @@ impl Reader<'_> {
                         self.key_fault(table.line(key.span().start), block, name, fault);
                     }
                 }
-                read(self, &table);
+                read(self, &table)
             }
             Err(error) => {
                 let line = piece.line + error.span().map_or(0, |span| newlines(&piece.text, span.start));
                 let message = error.message().lines().next().unwrap_or_default();
                 self.fault(line, format!("is not valid TOML: {message}"));
+                None
             }
         }
     }
@@ -149,13 +151,11 @@ impl Reader<'_> {
     pub(super) fn string(&mut self, table: &Table<'_>, key: &'static str) -> Option<(String, usize)> {
         let value = table.get(key)?;
         let line = table.line(value.span().start);
-        match value.get_ref() {
-            DeValue::String(text) => Some((text.to_string(), line)),
-            _ => {
-                self.wrong_type(table, key, value, "text in quotes");
-                None
-            }
+        let text = value.get_ref().as_str().map(|text| (text.to_owned(), line));
+        if text.is_none() {
+            self.wrong_type(table, key, value, "text in quotes");
         }
+        text
     }
 
     /// A finite number, and its line.

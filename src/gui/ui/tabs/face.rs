@@ -100,24 +100,23 @@ fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {
 
 /// Its statistics, and what follows from two faces like it.
 fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
-    let told = &face.told;
-    let Some(own) = told.faces.first() else { return };
-    let lengths = own.correlation_length_um.iter().flatten().map(|length| significant(*length, 3));
+    let (own, both) = (&face.texture, &face.pair);
+    let lengths = own.correlation.iter().flatten().map(|length| significant(length * 1e6, 3));
     let lengths = lengths.collect::<Vec<_>>().join(", ");
     let lengths = if lengths.is_empty() { "longer than half the face".to_owned() } else { format!("{lengths} µm") };
-    let lay = own.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3));
-    let nm = |value: f64| format!("{} nm", significant(value, 4));
+    let lay = own.lay().map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3));
+    let nm = |value: f64| format!("{} nm", significant(value * 1e9, 4));
     let rows = [
-        ["Sa, Sq", &format!("{}, {}", nm(own.sa_nm), nm(own.sq_nm)), "Roughness, both faces", &nm(told.rms_nm)],
-        ["Sz", &nm(own.sz_nm), "Minimum spacing H_m", &nm(told.min_spacing_nm)],
+        ["Sa, Sq", &format!("{}, {}", nm(own.mean), nm(own.rms)), "Roughness, both faces", &nm(both.rms)],
+        ["Sz", &nm(own.peak_to_valley), "Minimum spacing H_m", &nm(both.min_spacing)],
         [
             "Skewness, kurtosis",
-            &format!("{:.2}, {:.2}", own.ssk, own.sku),
+            &format!("{:.2}, {:.2}", own.skewness, own.kurtosis),
             "Summit radius",
-            &format!("{} µm", significant(told.summit_radius_um, 4)),
+            &format!("{} µm", significant(both.summit_radius * 1e6, 4)),
         ],
-        ["Correlation length", &lengths, "Summits", &format!("{} 1/mm²", significant(told.summit_density_per_mm2, 4))],
-        ["Lay", &lay, "Lay, both faces", &significant(told.lay, 3)],
+        ["Correlation length", &lengths, "Summits", &format!("{} 1/mm²", significant(both.summit_density * 1e-6, 4))],
+        ["Lay", &lay, "Lay, both faces", &significant(both.lay, 3)],
     ];
     Grid::new("face").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         for [name, value, follows, of_both] in rows {

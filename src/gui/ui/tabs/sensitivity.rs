@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         };
         let (name, stale) = (&found.scene().name, state.stale(cx.state.document.scene()));
         cx.alarm(ui, stale.then(|| format!("Computed for “{name}” before the scene changed; compute again")));
-        cx.warn(ui, found.warnings());
+        cx.warn(ui, &found.warnings);
         let output = state.output.min(found.outputs.len() - 1);
         choose(ui, found, output, cx);
         result(ui, found, output, uncertainties, cx);
@@ -91,7 +91,7 @@ fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncer
         cx.note(ui, "This scene has no such result");
         return;
     }
-    let unit = found.outputs[output].unit(found.problem());
+    let unit = found.outputs[output].unit(&found.problem);
     let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
     ui.horizontal_wrapped(|ui| {
         let known = value.error.is_finite();
