@@ -559,7 +559,6 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     });
     let startup = ["α", "Least film thickness", "Highest pressure", "Cycle", "Periodic solve"];
     explains(faults, &window, "Start-up", &startup);
-    window.click_on("Cancel the start-up");
 
     window.ctrl(Key::Num8);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
