@@ -4,7 +4,7 @@ use super::validity::mach;
 use crate::digits::{as_given, brief, rounded, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::problem::{Motor, Problem, Scenario};
+use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult};
 use std::f64::consts::SQRT_2;
 
@@ -12,6 +12,8 @@ use std::f64::consts::SQRT_2;
 const HARDLY: f64 = 1e-3;
 /// No film has an effect as small as this.
 const NOTHING: f64 = 1e-6;
+/// Least gap over the mean one of a plate below which its film is told where it is closest, too.
+const CLOSE: f64 = 0.5;
 
 /// What the film is: how far from its edges gas leaks in a cycle, beside its shorter side. Of a rotor that floats, where the film is
 /// thinnest, since it never has the minimum spacing.
@@ -28,6 +30,21 @@ pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
 }
 
 fn leaks(problem: &Problem) -> String {
+    let (says, is) = film(problem);
+    let Scenario::Plate(plate) = &problem.scenario else { return format!("in a cycle gas {says}: {is}") };
+    // A plate that vibrates widely spends part of the cycle at another squeeze number.
+    let least = plate.mean_gap - plate.amplitude;
+    let scenario = Scenario::Plate(Plate { mean_gap: least, amplitude: 0.0, ..plate.clone() });
+    match film(&Problem { scenario, ..problem.clone() }) {
+        (then, other) if least < CLOSE * plate.mean_gap && other != is => {
+            format!("in a cycle gas {says} at the mean gap: {is}; where it is closest, gas {then}: {other}")
+        }
+        _ => format!("in a cycle gas {says}: {is}"),
+    }
+}
+
+/// What gas does in a cycle at the present gap, and what that makes of the film.
+fn film(problem: &Problem) -> (String, &'static str) {
     let shorter = match &problem.scenario {
         Scenario::Motor(motor) => motor.tooth_width.min(motor.contact_width),
         Scenario::Plate(plate) => plate.squeezed_length().min(plate.width.unwrap_or(f64::INFINITY)),
@@ -35,11 +52,9 @@ fn leaks(problem: &Problem) -> String {
     let layer = Dimensionless::of(problem).boundary_layer;
     let within = format!("within {} µm of the edges", significant(layer * 1e6, 2));
     match layer / shorter {
-        share if share > SQRT_2 => "in a cycle gas flows out and back in everywhere: the film is a damper".to_owned(),
-        share if share > SQRT_2 / 10.0 => {
-            format!("in a cycle gas leaks {within}: the film is both spring and damper")
-        }
-        _ => format!("in a cycle gas leaks only {within}: the film is a spring"),
+        share if share > SQRT_2 => ("flows out and back in everywhere".to_owned(), "the film is a damper"),
+        share if share > SQRT_2 / 10.0 => (format!("leaks {within}"), "the film is both spring and damper"),
+        _ => (format!("leaks only {within}"), "the film is a spring"),
     }
 }
 
@@ -169,6 +184,13 @@ mod tests {
             MotorResult { levitated: true, min_film_thickness: Estimate::exact(749e-9), ..MotorResult::default() };
         let words = squeeze(&floating, &Outcome::Motor(result));
         assert!(words.starts_with("where the film is thinnest, 749 nm,") && words.contains("within 65 µm"), "{words}");
+        // A plate that nearly touches is a damper only while it is away.
+        let words = said(&strip, "plate.amplitude_um", "0.4999");
+        assert!(words.ends_with("the film is a spring") && !words.contains("closest"), "{words}");
+        let mut slow = Scene::plate();
+        slow.set_all([("plate.frequency_khz", "0.003"), ("plate.amplitude_um", "0.49")]).unwrap();
+        let words = said(&slow, "plate.length_mm", "1");
+        assert!(words.contains("a damper; where it is closest, gas leaks only within"), "{words}");
         // A narrow rectangle leaks along its length.
         assert!(said(&strip, "plate.width_mm", "0.1").contains("both spring and damper"));
     }

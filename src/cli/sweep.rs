@@ -11,6 +11,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Row, Sweep, Values, Vary};
 use crate::atomic::{Lock, WriteError, write_file};
 use crate::digits::{duration, significant};
+use crate::estimate::Estimate;
 use crate::export::compare::{LIMITS, TIME_UP};
 use crate::export::files::{self, Folder};
 use crate::export::json;
@@ -346,13 +347,15 @@ const SHOWN: [Quantity; 12] = [
     Quantity::FilmSteps,
 ];
 
+/// Relative error below which a number may stand without it.
+const WELL_KNOWN: f64 = 0.1;
+
 fn number(Row { numbers, .. }: &Row, quantity: Quantity) -> String {
-    match numbers.get(quantity) {
-        // Of two numbers that say the same only the first shows its error, and the load of a plate that floats is given.
-        Some(value) if quantity == Quantity::FilmLoad => significant(value, 4),
-        Some(value) if quantity == Quantity::LoadRatio && numbers.get(Quantity::MeanGap).is_some() => {
-            significant(value, 4)
-        }
+    // Of two numbers that say the same only the first shows its error, and the load of a plate that floats is given.
+    let floats = || numbers.get(Quantity::MeanGap).is_some();
+    let said = quantity == Quantity::FilmLoad || quantity == Quantity::LoadRatio && floats();
+    match numbers.estimate(quantity) {
+        Some(Estimate { value, error }) if said && error <= WELL_KNOWN * value.abs() => significant(value, 4),
         _ => numbers.text(quantity),
     }
 }

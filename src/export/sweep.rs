@@ -276,7 +276,14 @@ pub(crate) fn map_panel(
         }
     }
     // There is nothing between words.
-    let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
+    let error = typical_error(rows, quantity);
+    let contours = (x.words.is_empty() && y.words.is_empty()).then_some(error);
+    // What differs by less than its error has one colour.
+    let [least, most] = extent(values.iter().copied().filter(|value| value.is_finite()));
+    let range = match range {
+        Range::Auto if most - least < error => Range::Fixed(least - error, most + error),
+        given => given,
+    };
     let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
     let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
