@@ -64,10 +64,24 @@ pub fn check_file(path: &Path) -> Result<(), WriteError> {
     check_writable(folder).map_err(|WriteError { source, .. }| failed(source))
 }
 
-/// Checks whether files can be written into a folder, or the folder created, before any work is done for them.
+/// Checks whether files can be written into a folder, or the folder created, before any work is done for them: also that no folder is in
+/// the way, with a name as files of results have.
 pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
+    let entries = if HAS_FILES { fs::read_dir(folder).into_iter().flatten().flatten().collect() } else { Vec::new() };
+    let named_as_a_file =
+        |path: &Path| path.extension().is_some_and(|kind| RESULTS.iter().any(|result| kind == *result));
+    if let Some(path) = entries.iter().map(fs::DirEntry::path).find(|path| named_as_a_file(path) && path.is_dir()) {
+        let source = io::Error::new(
+            ErrorKind::IsADirectory,
+            "it is a folder, and a file of results may have this name: move it away",
+        );
+        return Err(WriteError { path, source });
+    }
     Staged::new(folder)?.add("check", |_| Ok(()))
 }
+
+/// Extensions of the files of results.
+const RESULTS: [&str; 8] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html"];
 
 /// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]
@@ -410,6 +424,10 @@ mod tests {
         fs::write(folder.path().join(".squeezefilm-sweep.lock"), "").unwrap();
         fs::write(folder.path().join(".squeezefilm-notes"), "mine").unwrap();
         check_writable(folder.path()).unwrap();
+        fs::create_dir(folder.path().join("series.csv")).unwrap();
+        let error = check_writable(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("series.csv: cannot be written: it is a folder"), "{error}");
+        fs::remove_dir(folder.path().join("series.csv")).unwrap();
         assert_eq!(names(folder.path()).len(), 2, "{:?}", names(folder.path()));
         living.commit().unwrap();
         assert_eq!(names(folder.path()), [".squeezefilm-notes", "a"]);

@@ -15,7 +15,7 @@ use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
-use window::{Memory, User, Window, begin_export, drop_file, open, reopen, until};
+use window::{Memory, User, Window, begin_export, drop_file, open, reopen, reopen_on, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
@@ -234,6 +234,27 @@ fn pins_that_were_removed_together_come_back() {
     assert_eq!(window.known().pins.runs.len(), 2);
 }
 
+fn saved_scene() -> String {
+    presets::find("fundamental").unwrap().to_toml()
+}
+
+#[test]
+fn changes_that_the_last_window_left_unsaved_are_asked_for_before_another_scene_is_opened() {
+    let mut edited = presets::find("fundamental").unwrap();
+    edited.set("film.min_spacing_nm", "77").unwrap();
+    let left = [("scene", edited.to_toml()), ("saved", saved_scene())].map(|(key, text)| (key.to_owned(), text));
+    let opened = Document::opened(presets::find("levitating").unwrap(), None);
+    let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
+    let mut window = reopen_on(Memory(left.into()), Some(opened.clone()), 900.0, platform);
+    window.run_steps(2);
+    let name = |window: &Window| window.state().state().document.scene().name.clone();
+    assert_eq!(name(&window), edited.name);
+    window.get_by_label_contains("Save the changes");
+    window.click_on("Don't save");
+    window.run_steps(2);
+    assert_eq!(name(&window), opened.scene().name);
+}
+
 #[test]
 fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     let folder = tempfile::tempdir().unwrap();
@@ -257,6 +278,24 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     window.run_steps(2);
     window.get_by_label_contains("this is not what a window of this version writes");
     assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.ron")).unwrap(), "the whole file");
+    drop(window);
+    // What is not of a later version is told in the same way: progress in lessons, and what else there is.
+    let kept_as = [
+        ("lessons", "{\"a\": {\"step\": \"3\"}}"),
+        ("budget", "soon"),
+        ("lecture", "maybe"),
+        ("scene", &saved_scene()),
+    ];
+    let mut window = open(Memory(kept_as.map(|(key, text)| (key.to_owned(), text.to_owned())).into()), file.clone());
+    window.run_steps(2);
+    for fault in [
+        "The progress in lessons cannot be read",
+        "soon",
+        "lecture = maybe: false or true is allowed",
+        "app.unreadable-3.ron",
+    ] {
+        window.get_by_label_contains(fault);
+    }
     drop(window);
     // The first window of all has nothing to complain about.
     std::fs::remove_file(&file).unwrap();

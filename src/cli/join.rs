@@ -5,6 +5,7 @@ use super::options::OutputOptions;
 use super::sweep::tell;
 use super::terminal;
 use crate::export::files;
+use crate::export::saved::LARGEST;
 use crate::export::saved::{Joined, join};
 use crate::export::sweep::primary;
 use crate::input::read_text;
@@ -19,9 +20,6 @@ Examples:
 const FILES: &str = "\
 Files of --out: those of squeezefilm sweep, byte by byte what one machine
 would have written.";
-
-/// Most of a file of a part \[MB\]: more than all points that a sweep can have.
-const LARGEST: u64 = 512;
 
 /// Joins the parts of a sweep that were solved with sweep --part
 #[derive(Debug, Args)]

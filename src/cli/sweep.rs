@@ -15,8 +15,9 @@ use crate::estimate::Estimate;
 use crate::export::compare::{LIMITS, TIME_UP};
 use crate::export::files::{self, Folder};
 use crate::export::json;
-use crate::export::saved;
+use crate::export::saved::{self, LARGEST};
 use crate::export::sweep::{object, primary};
+use crate::input::read_text;
 use crate::scene::show_text;
 use crate::solution::StoppedBy;
 use clap::Args;
@@ -244,11 +245,11 @@ impl<'a> Saved<'a> {
             let way_out = "give another folder, or --restart to begin anew";
             CliError::file(&path, format!("cannot be continued: {fault}; {way_out}"))
         };
-        match std::fs::read_to_string(&path) {
-            Ok(text) => saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
-            Err(error) => Err(fault(format!("line 1: {error}"))),
+        if matches!(path.symlink_metadata(), Err(error) if error.kind() == ErrorKind::NotFound) {
+            return Ok(Vec::new());
         }
+        let text = read_text(&path, LARGEST).map_err(|error| fault(error.to_string()))?;
+        saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault)
     }
 
     fn save_unfinished(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {

@@ -138,7 +138,11 @@ pub fn number(value: f64) -> String {
 /// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an
 /// apostrophe, by which it knows it for text.
 pub fn words(text: &str) -> Cow<'_, str> {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{text}").into() } else { text.into() }
+    if text.starts_with(['=', '+', '-', '−', '@', '＝', '＋', '－', '＠', '\t', '\r']) {
+        format!("'{text}").into()
+    } else {
+        text.into()
+    }
 }
 
 /// What a field holds.

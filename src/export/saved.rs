@@ -18,6 +18,9 @@ use std::fmt::Display;
 use std::io::{self, Write};
 use std::ops::Range;
 
+/// Largest file of rows that is read \[MB\]: more than all points that a sweep can have.
+pub const LARGEST: u64 = 512;
+
 /// The last column.
 const CHECK: &str = "check";
 /// What a comment begins with.

@@ -3,7 +3,6 @@
 use super::command::Command;
 use super::state::dialogs::Purpose;
 use super::state::document::{Document, Next};
-use super::state::lessons::LessonState;
 use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
@@ -47,8 +46,9 @@ impl App {
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
         mirror(&context.egui_ctx);
-        let state = restored(context.storage, opened, platform.storage.as_deref())?;
-        let updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
+        let (state, next) = restored(context.storage, opened, platform.storage.as_deref())?;
+        let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
+        next.into_iter().for_each(|document| updater.carry_out(Command::Proceed(Next::Given(Box::new(document)))));
         let (after_text, address) = (Vec::new(), String::new());
         Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address })
     }
@@ -202,12 +202,13 @@ impl eframe::App for App {
     }
 }
 
-/// The state that the last window was left in; with the scene that was `opened`, if one was.
+/// The state that the last window was left in, with the scene that was `opened`, if one was; or that scene to be asked for, if the last
+/// window left changes unsaved.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
     file: Option<&Path>,
-) -> Result<State, Box<dyn std::error::Error + Send + Sync>> {
+) -> Result<(State, Option<Document>), Box<dyn std::error::Error + Send + Sync>> {
     let stored = |key: &str| storage.and_then(|storage| storage.get_string(key));
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
     let empty = stored("tour").is_none() && stored("scene").is_none();
@@ -216,15 +217,27 @@ fn restored(
         faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
     }
     let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
-    let document = opened.or_else(|| last_document(&stored, &mut faults));
-    let document = document.map_or_else(Document::fundamental, Ok)?;
+    // What the last window left unsaved is there first, and asked for.
+    let (document, next) = match (opened, last_document(&stored, &mut faults)) {
+        (Some(opened), Some(last)) if last.is_dirty() => (last, Some(opened)),
+        (opened, last) => (opened.or(last).map_or_else(Document::fundamental, Ok)?, None),
+    };
     let target = stored("fidelity").and_then(|name| name.parse().map_err(|fault| faults.push(fault)).ok());
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
-    state.budget = stored("budget").and_then(|text| parse_duration(&text).ok());
-    state.lessons = LessonState::new(stored("lessons"));
+    let budget = stored("budget").filter(|text| !text.is_empty());
+    state.budget = budget.and_then(|text| parse_duration(&text).map_err(|fault| faults.push(fault)).ok());
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
-    state.dark = stored("theme").map_or(prefers_dark().unwrap_or(true), |theme| theme != "light");
-    state.lecture = stored("lecture").is_some_and(|size| size == "true");
+    let mut one_of = |key: &str, [no, yes]: [&str; 2]| {
+        let text = stored(key)?;
+        let fault = (text != no && text != yes).then(|| format!("{key} = {text}: {no} or {yes} is allowed"));
+        faults.extend(fault);
+        Some(text != no)
+    };
+    state.dark = one_of("theme", ["light", "dark"]).unwrap_or(prefers_dark().unwrap_or(true));
+    state.lecture = one_of("lecture", ["false", "true"]).unwrap_or_default();
+    if let Some(Err(fault)) = stored("lessons").map(|text| state.lessons.restore(&text)) {
+        faults.push(format!("The progress in lessons cannot be read: {fault}."));
+    }
     state.lessons.tour = first_start.then_some(0);
     // What cannot be read is told, and the rest is there.
     if let Some(Err(fault)) = stored("pins").map(|text| state.pins.restore(&text)) {
@@ -239,7 +252,7 @@ fn restored(
         }
         state.fail(faults.join("\n\n"));
     }
-    Ok(state)
+    Ok((state, next))
 }
 
 /// The scene that the last window was left with; what cannot be read of it is added to the faults.

@@ -9,7 +9,7 @@ const TRIES: usize = 2;
 
 /// How far a student has come in a lesson.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Progress {
     /// The step that comes next.
     pub step: usize,
@@ -21,7 +21,7 @@ pub struct Progress {
 
 /// A student's work in one step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct StepWork {
     /// The answer to the question, if there is one yet.
     pub prediction: Option<Prediction>,

@@ -93,7 +93,8 @@ impl Scene {
                 let (length, width, hole) = match self.text("plate.shape")? {
                     "disc" => (2.0 * si("plate.radius_mm")?, None, Some(0.0)),
                     "ring" => (2.0 * si("plate.radius_mm")?, None, Some(si("plate.inner_radius_mm")?)),
-                    _ => (si("plate.length_mm")?, optional("plate.width_mm")?, None),
+                    "rectangle" => (si("plate.length_mm")?, optional("plate.width_mm")?, None),
+                    _ => return Err(self.unknown_key("plate.shape")),
                 };
                 let plate = Plate {
                     length,
@@ -128,7 +129,8 @@ impl Scene {
                 let (law, heights) = law.zip(heights).ok_or_else(|| self.unknown_key("surface.contact_law"))?;
                 Some(Asperities::new(summits, law, heights))
             }
-            _ => None,
+            "minimum-spacing" => None,
+            _ => return Err(self.unknown_key("surface.model")),
         };
         let flow = match self.text("surface.flow_factors")? {
             "patir-cheng" => Some(Roughness {
@@ -137,7 +139,8 @@ impl Scene {
                 stator_share: self.number("surface.stator_share")?,
                 asperities,
             }),
-            _ => None,
+            "none" => None,
+            _ => return Err(self.unknown_key("surface.flow_factors")),
         };
         Ok(Surface { asperities, flow })
     }

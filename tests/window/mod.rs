@@ -26,10 +26,15 @@ pub(crate) fn open(opened: Document, height: f32, platform: Platform) -> Window 
 
 /// A window that was there before and left `memory`, or never; it opens no file.
 pub(crate) fn reopen(memory: Memory, height: f32, platform: Platform) -> Window {
+    reopen_on(memory, None, height, platform)
+}
+
+/// The same that is to open a document.
+pub(crate) fn reopen_on(memory: Memory, opened: Option<Document>, height: f32, platform: Platform) -> Window {
     let memory: &'static Memory = Box::leak(Box::new(memory));
     Harness::builder().with_size(Vec2::new(1400.0, height)).build_eframe(move |context| {
         context.storage = Some(memory);
-        App::on_platform(context, None, platform).unwrap()
+        App::on_platform(context, opened, platform).unwrap()
     })
 }
 

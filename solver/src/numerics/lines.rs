@@ -18,14 +18,14 @@ const MOST_CYCLES: usize = 20;
 #[derive(Clone, Debug)]
 pub struct LineSolver {
     /// All columns, then every other one, and so on.
-    levels: Vec<Level>,
+    levels: Vec<Columns>,
     /// The one that is left.
     last: Lines,
 }
 
 /// The columns of one level, two at least.
 #[derive(Clone, Debug)]
-struct Level {
+struct Columns {
     even: Lines,
     odd: Lines,
     /// Width of each even column over that which it has where it is alone.
@@ -55,7 +55,7 @@ impl LineSolver {
             let [even, odd] = across.apart().map(|across| Lines::new(rows, across));
             let share;
             (across, share) = across.every_other();
-            levels.push(Level { even, odd, share });
+            levels.push(Columns { even, odd, share });
         }
         Self { levels, last: Lines::new(rows, across) }
     }
@@ -78,7 +78,7 @@ impl LineSolver {
         for cycle in 1..=MOST_CYCLES {
             self.cycle();
             self.levels[0].add_to(rhs);
-            let Level { even, odd, .. } = &mut self.levels[0];
+            let Columns { even, odd, .. } = &mut self.levels[0];
             // What is left: nothing of the odd lines, and of the even ones what they took for known and is not.
             odd.given.fill(0.0);
             even.solution.copy_from_slice(&even.known);
@@ -119,7 +119,7 @@ impl LineSolver {
     fn cycle(&mut self) {
         for k in 0..self.levels.len() {
             let (here, fewer) = self.levels.split_at_mut(k + 1);
-            let Level { even, odd, share } = &mut here[k];
+            let Columns { even, odd, share } = &mut here[k];
             odd.known.copy_from_slice(&odd.given);
             odd.solve();
             even.beside(odd, 0);
@@ -134,7 +134,7 @@ impl LineSolver {
         self.last.solve();
         for k in (0..self.levels.len()).rev() {
             let (here, fewer) = self.levels.split_at_mut(k + 1);
-            let Level { even, odd, .. } = &mut here[k];
+            let Columns { even, odd, .. } = &mut here[k];
             match fewer.first() {
                 Some(fewer) => {
                     even.solution.fill(0.0);
@@ -152,7 +152,7 @@ impl LineSolver {
     }
 }
 
-impl Level {
+impl Columns {
     /// Takes the even and the odd columns of `all` apart.
     #[inline(always)]
     fn take(&mut self, all: &[f64], field: impl Fn(&mut Lines) -> &mut Vec<f64>) {

@@ -16,8 +16,8 @@ pub enum Next {
     Preset(&'static str),
     /// The preset in a file.
     File(PathBuf),
-    /// A motor that was made of answers.
-    New(Box<Scene>),
+    /// A scene that is there already: a motor made of answers, that of a link, or the one that the window is to open.
+    Given(Box<Document>),
     /// The window closes.
     Quit,
 }
@@ -33,7 +33,7 @@ pub fn absolute(path: &Path) -> PathBuf {
 }
 
 /// A scene and where it came from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     scene: Scene,
     target: Fidelity,
@@ -74,6 +74,11 @@ impl Document {
     /// A scene that outlived its window: unsaved if it differs from what its file or preset says.
     pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>) -> Self {
         Self { saved, ..Self::opened(scene, path) }
+    }
+
+    /// A motor that nothing has yet, so that it counts as unsaved.
+    pub fn made(scene: Scene) -> Self {
+        Self::restored(scene, Scene::motor(), None)
     }
 
     /// The fundamental case.

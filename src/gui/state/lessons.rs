@@ -81,11 +81,19 @@ pub struct LessonState {
 }
 
 impl LessonState {
-    /// The built-in lessons, with the progress that was stored.
-    pub fn new(progress: Option<String>) -> Self {
+    /// The built-in lessons.
+    pub fn new() -> Self {
         let (lessons, faults) = window_names(lessons::built_in);
-        let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self { lessons, faults, progress, ..Self::default() }
+        Self { lessons, faults, ..Self::default() }
+    }
+
+    /// Takes the progress that was stored ([`Self::progress_text`]).
+    ///
+    /// # Errors
+    /// If it cannot be read: then there is none.
+    pub fn restore(&mut self, text: &str) -> Result<(), serde_json::Error> {
+        self.progress = serde_json::from_str(text)?;
+        Ok(())
     }
 
     /// The step on screen, with its lesson.

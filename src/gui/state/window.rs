@@ -94,7 +94,7 @@ pub struct State {
 impl State {
     /// A window on `document`, with nothing solved yet.
     pub fn new(document: Document) -> Self {
-        Self { document, lessons: LessonState::new(None), dark: true, ..Self::default() }
+        Self { document, lessons: LessonState::new(), dark: true, ..Self::default() }
     }
 
     /// Says that something did not work.

@@ -37,7 +37,7 @@ impl Updater {
             Command::Proceed(next) => self.proceed(next),
             Command::NewMotor => state.modal = Some(Modal::NewMotor(Answers::new())),
             Command::MakeNewMotor(answers) => match agreeing(&answers, &timed(&Cancel::new(), NEW_MOTOR)) {
-                Ok(motor) => self.proceed(Next::New(Box::new(motor.scene))),
+                Ok(motor) => self.proceed(Next::Given(Box::new(Document::made(motor.scene)))),
                 Err(wrong) => state.fail(wrong),
             },
             Command::AnswerNewMotor(question, answer) => {

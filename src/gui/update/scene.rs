@@ -84,7 +84,7 @@ impl Updater {
     pub(super) fn proceed_with_document(&mut self, next: Next) {
         // A file that cannot be opened takes nothing away, and a lesson goes on.
         let loses = match &next {
-            Next::Preset(_) | Next::New(_) | Next::Quit => true,
+            Next::Preset(_) | Next::Given(_) | Next::Quit => true,
             Next::File(path) => Scene::load(path).is_ok(),
         };
         if loses {
@@ -109,10 +109,8 @@ impl Updater {
         match next {
             Next::Preset(name) => self.open(presets::find(name), None),
             Next::File(path) => self.open(Scene::load(&path), Some(path)),
-            Next::New(scene) => {
-                // Nothing has it yet, so that it counts as changed.
-                let target = self.state.document.target();
-                self.state.document = Document::restored(*scene, Scene::motor(), None).with_target(target);
+            Next::Given(document) => {
+                self.state.document = document.with_target(self.state.document.target());
                 self.state.view.opened += 1;
                 self.scene_replaced();
             }
