@@ -3,7 +3,7 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
-use squeezefilm::analysis::exact::Comparison;
+use squeezefilm::analysis::exact::ExactComparison;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
@@ -258,7 +258,7 @@ fn the_published_stiffness_and_damping_of_a_plate() {
     let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = solve(plate, Fidelity::Reference);
-    let compared = Comparison::of(plate, &found.result, &found.recording);
+    let compared = ExactComparison::of(plate, &found.result, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();
     for (what, solved, published, digit, exact) in [
         ("stiffness", solved.spring, 28.65e3, 0.01e3, compared.linear.spring * compared.unit.spring),
@@ -411,7 +411,7 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
     scene.set_all(set).unwrap();
     let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
     let found = solve(&plate, Fidelity::Draft);
-    let compared = Comparison::of(&plate, &found.result, &found.recording);
+    let compared = ExactComparison::of(&plate, &found.result, &found.recording);
     let damping = compared.solved.unwrap().damping;
     assert!((damping.value - compared.linear.damping).abs() < damping.error, "{damping:?} {:?}", compared.linear);
 }

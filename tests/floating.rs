@@ -4,7 +4,7 @@
 
 mod scenes;
 
-use squeezefilm::analysis::exact::Comparison;
+use squeezefilm::analysis::exact::ExactComparison;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::Sweep;
 use squeezefilm::control::Cancel;
@@ -41,9 +41,9 @@ fn found(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> (Plate, P
     (plate, result, solution)
 }
 
-fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> Comparison {
+fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> ExactComparison {
     let (plate, result, solution) = found(preset, set, fidelity);
-    Comparison::of(&plate, &result, &solution.recording)
+    ExactComparison::of(&plate, &result, &solution.recording)
 }
 
 // ---- round films
@@ -222,7 +222,7 @@ fn what_the_gap_is_off_by_is_in_all_errors_there() {
         let set: Vec<_> = set.split(' ').filter_map(|change| change.split_once('=')).collect();
         let [standard, reference] = [Fidelity::Standard, Fidelity::Reference].map(|fidelity| {
             let (plate, result, solution) = found("plate-crossover", &[&set], fidelity);
-            let film = Comparison::of(&plate, &result, &solution.recording).stiffness_and_damping().unwrap();
+            let film = ExactComparison::of(&plate, &result, &solution.recording).stiffness_and_damping().unwrap();
             let Floating { mean_gap, stiffness, slow, .. } = result.floating.unwrap();
             let extremes = [result.film_load_min, result.film_load_max, result.max_pressure];
             let slow = slow.map_or(Estimate::default(), |slow| slow.damping);

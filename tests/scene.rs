@@ -7,7 +7,9 @@ use proptest::prelude::*;
 use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::input::ReadError;
 use squeezefilm::problem::{Gas, Motor, Problem, RotorCompliance, Scenario};
-use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, heights, presets, table1};
+use squeezefilm::scene::{
+    FaultKind, PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, heights, presets, table1,
+};
 use squeezefilm::surface::texture::{Pair, measured};
 use std::path::Path;
 
@@ -215,7 +217,7 @@ fn files_that_cannot_be_read_say_why() {
     std::fs::write(folder.path().join("large.toml"), format!("schema = 1\n#{}", "x".repeat(15_999_988))).unwrap();
     Scene::load(&folder.path().join("large.toml")).unwrap();
     std::fs::write(folder.path().join("larger.toml"), format!("schema = 1\n#{}", "x".repeat(15_999_989))).unwrap();
-    assert!(matches!(load("larger.toml").faults()[0].what, What::Read(ReadError::TooLarge(16))));
+    assert!(matches!(load("larger.toml").faults()[0].what, FaultKind::Read(ReadError::TooLarge(16))));
     let message = Scene::load(folder.path()).unwrap_err().to_string();
     assert!(message.ends_with(": cannot be read: it is a folder, not a regular file"), "{message}");
 }
@@ -826,7 +828,7 @@ fn saving_replaces_the_file_and_leaves_nothing_else() {
     assert_eq!(Scene::load(&path).unwrap(), Scene::motor());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let error = Scene::motor().save(&folder.path().join("no/p.toml")).unwrap_err();
-    assert!(matches!(error.faults()[0].what, What::Unwritable { .. }), "{error}");
+    assert!(matches!(error.faults()[0].what, FaultKind::Unwritable { .. }), "{error}");
     assert!(Scene::motor().save(folder.path()).is_err());
 }
 

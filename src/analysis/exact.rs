@@ -53,7 +53,7 @@ pub fn units(plate: &Plate) -> [&'static str; 2] {
 
 /// A solved plate beside what is known exactly.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct ExactComparison {
     /// σ/Q, Q = 1 + 6m for first-order slip: what the linear film depends on.
     pub effective_squeeze_number: f64,
     /// Of the solved load, extrapolated; `None` if nothing vibrates.
@@ -74,7 +74,7 @@ pub struct Comparison {
     pub viscous: Vec<f64>,
 }
 
-impl Comparison {
+impl ExactComparison {
     /// Stiffness \[N/m\] and damping \[N s/m\] of the solved load, of a strip per metre of width; `None` if nothing vibrates.
     pub fn stiffness_and_damping(&self) -> Option<Harmonic<Estimate>> {
         self.solved.map(|solved| Harmonic {
@@ -199,7 +199,7 @@ mod tests {
     use crate::solution::Outcome;
     use crate::solve::{Settings, solve};
 
-    fn compared(preset: &str, set: &[(&str, &str)]) -> (Plate, Recording, Comparison) {
+    fn compared(preset: &str, set: &[(&str, &str)]) -> (Plate, Recording, ExactComparison) {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
         let problem = Problem::try_from(&scene).unwrap();
@@ -208,7 +208,7 @@ mod tests {
         let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
             panic!("a plate")
         };
-        let comparison = Comparison::of(&plate, &result, &solution.recording);
+        let comparison = ExactComparison::of(&plate, &result, &solution.recording);
         (plate, solution.recording, comparison)
     }
 

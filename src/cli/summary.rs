@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use crate::analysis::decision::{exactness, sentences};
-use crate::analysis::exact::{Comparison, units};
+use crate::analysis::exact::{ExactComparison, units};
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
@@ -223,7 +223,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floati
 }
 
 /// What is known exactly beside what was computed.
-fn exact_rows(columns: &mut Columns, exact: &Comparison, plate: &Plate) {
+fn exact_rows(columns: &mut Columns, exact: &ExactComparison, plate: &Plate) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
         // To as many digits as the computed number has beside it.
         let digits = (known / solved.error).abs().log10().ceil() + 1.0;

@@ -4,7 +4,7 @@ use super::estimates::{self, finite};
 use super::figure::extent;
 use super::torque::merit;
 use crate::analysis::decision::sentences;
-use crate::analysis::exact::Comparison;
+use crate::analysis::exact::ExactComparison;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
@@ -38,7 +38,7 @@ pub struct Summary {
     /// Torque, power and efficiency (motor), if they were asked for.
     pub torque: Option<TorqueCurves>,
     /// What is known exactly beside what was computed (plate).
-    pub exact: Option<Comparison>,
+    pub exact: Option<ExactComparison>,
     /// Wall time of the solve alone \[s\].
     pub wall_s: f64,
     /// What it cost beside that.
@@ -172,7 +172,7 @@ fn floating_object(plate: &Plate, load: f64, found: &Floating) -> Value {
 /// stiffness \[N/m, of a strip per metre of width\] and damping \[N s/m\]; `linear_…` is exact for ε → 0 (Langlois 1962 of a strip, Blech 1983
 /// of a rectangle), `trapped_…` for σ → ∞ (Langlois 1962, Salbu 1964; with slip); loads in the object's force unit, of gas that cannot
 /// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
-fn exact_object(found: &Comparison) -> Value {
+fn exact_object(found: &ExactComparison) -> Value {
     let [boyle, viscous] = [&found.boyle, &found.viscous].map(|load| extent(load.iter().copied()));
     let (linear, unit, absolute) = (found.linear, found.unit, found.stiffness_and_damping());
     let mut object = json!({ "effective_squeeze_number": found.effective_squeeze_number });
@@ -235,7 +235,7 @@ impl Summary {
             torque: None,
             exact: match (&problem.scenario, &solution.outcome) {
                 (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                    Some(Comparison::of(plate, result, &solution.recording))
+                    Some(ExactComparison::of(plate, result, &solution.recording))
                 }
                 _ => None,
             },

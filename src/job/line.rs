@@ -13,7 +13,7 @@ const SPARE: usize = 2;
 
 /// What a worker sends.
 #[derive(Debug)]
-pub(super) enum Told<M, R> {
+pub(super) enum Sent<M, R> {
     Message(M),
     End(Result<Option<R>, String>),
     /// The worker has failed, with this text, and has ended.
@@ -64,13 +64,13 @@ impl Line {
     pub(super) fn ask<W: Work>(
         &self,
         work: &W,
-        mut told: impl FnMut(Told<W::Message, W::Found>) + 'static,
+        mut told: impl FnMut(Sent<W::Message, W::Found>) + 'static,
     ) -> io::Result<()> {
         *self.listener.borrow_mut() = Some(Box::new(move |news| {
             told(match news {
-                News::Failed(text) => Told::Failed(text),
+                News::Failed(text) => Sent::Failed(text),
                 News::Message(bytes) => {
-                    read(&bytes).unwrap_or_else(|| Told::Failed("what the worker said cannot be read".to_owned()))
+                    read(&bytes).unwrap_or_else(|| Sent::Failed("what the worker said cannot be read".to_owned()))
                 }
             });
         }));
@@ -90,10 +90,10 @@ impl Line {
     }
 }
 
-fn read<M: DeserializeOwned, R: DeserializeOwned>(bytes: &[u8]) -> Option<Told<M, R>> {
+fn read<M: DeserializeOwned, R: DeserializeOwned>(bytes: &[u8]) -> Option<Sent<M, R>> {
     match bytes.split_first()? {
-        (&MESSAGE, rest) => postcard::from_bytes(rest).ok().map(Told::Message),
-        (&END, rest) => postcard::from_bytes(rest).ok().map(Told::End),
+        (&MESSAGE, rest) => postcard::from_bytes(rest).ok().map(Sent::Message),
+        (&END, rest) => postcard::from_bytes(rest).ok().map(Sent::End),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 //! A request that comes while the worker solves waits until that fidelity is solved, because a new worker takes time to start, and has no
 //! fields to start from. If this takes too long, the worker is ended, and a new one is started.
 
-use super::line::{Line, Told};
+use super::line::{Line, Sent};
 use super::work::{Posed, Work};
 use super::{Event, Request, SolvedScene, Timed, failure, solved};
 use crate::control::{Cancel, Progress};
@@ -183,29 +183,29 @@ fn step(shared: &Rc<RefCell<Shared>>) {
 }
 
 /// Handles a message of the worker about request `number`.
-fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as Work>::Found>) {
+fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Sent<Progress, <Step as Work>::Found>) {
     let mut this = shared.borrow_mut();
     let Some(running) = this.running.as_mut().filter(|running| running.number == number) else { return };
     let fidelity = running.at.0;
     let failed = |message| Event::Failed { number, message };
     match told {
-        Told::Message(progress) => {
+        Sent::Message(progress) => {
             running.history.push(progress);
             return this.tell(Event::Progress { number, fidelity, progress });
         }
-        Told::End(Ok(Some(timed))) => {
+        Sent::End(Ok(Some(timed))) => {
             let history = std::mem::take(&mut running.history);
             let Request { scene, problem, .. } = &running.request;
             let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
         // A worker is ended when it is cancelled.
-        Told::End(Ok(None)) => running.left.clear(),
-        Told::End(Err(message)) => {
+        Sent::End(Ok(None)) => running.left.clear(),
+        Sent::End(Err(message)) => {
             running.left.clear();
             this.tell(failed(message));
         }
-        Told::Failed(panic) => {
+        Sent::Failed(panic) => {
             running.left.clear();
             this.line = None;
             this.tell(failed(failure(fidelity, &panic)));

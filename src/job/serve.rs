@@ -12,7 +12,7 @@ use super::sensitivity::{Derivatives, Draws};
 use super::startup::StartupWork;
 use super::sweep::SweepWork;
 use super::torque::TorqueWork;
-use super::tradeoff::Measurement;
+use super::tradeoff::TradeoffWork;
 use super::work::Work;
 use crate::control::Cancel;
 use crate::platform::worker::{reply, serve};
@@ -40,7 +40,7 @@ const WORKS: &[(&str, Serve)] = &[
     (StartupWork::NAME, run::<StartupWork>),
     (DropWork::NAME, run::<DropWork>),
     (SweepWork::NAME, run::<SweepWork>),
-    (Measurement::NAME, run::<Measurement>),
+    (TradeoffWork::NAME, run::<TradeoffWork>),
     (RotorWork::NAME, run::<RotorWork>),
     (FitWork::NAME, run::<FitWork>),
     (Derivatives::NAME, run::<Derivatives>),

@@ -11,7 +11,7 @@ pub type Progress = (Vec<MeasuredSetting>, f64);
 
 /// A measurement, as it is sent to the thread or worker that makes it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Measurement {
+pub struct TradeoffWork {
     /// The scene.
     pub posed: Posed,
     /// The settings that are measured.
@@ -27,7 +27,7 @@ fn clock() -> fn() -> Instant {
     Instant::now
 }
 
-impl Work for Measurement {
+impl Work for TradeoffWork {
     const NAME: &'static str = "measure";
     type Message = Progress;
     /// All settings with what was measured of them.
@@ -50,12 +50,12 @@ mod tests {
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
 
-    fn start(fidelity: Fidelity, repeats: usize) -> TaskOf<Measurement> {
+    fn start(fidelity: Fidelity, repeats: usize) -> TaskOf<TradeoffWork> {
         let posed = posed("fundamental");
         let mut candidates = candidates(&posed.problem);
         candidates.retain(|candidate| candidate.name == fidelity.name());
         let effort = Effort { repeats: Some(repeats), ..Effort::default() };
-        Task::of(Measurement { posed, candidates, effort, now: Instant::now }, |_| ()).unwrap()
+        Task::of(TradeoffWork { posed, candidates, effort, now: Instant::now }, |_| ()).unwrap()
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Checks whether a key accepts a value.
 
 use super::compliance;
-use super::error::{What, check_count};
+use super::error::{FaultKind, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
 use super::quantity_text;
@@ -11,7 +11,7 @@ use super::value::{Value, show_text};
 const MOST_RECORDS: usize = 32;
 
 /// Checks how many tables an array has; `fewest` is the least that its key allows.
-pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> Result<(), What> {
+pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> Result<(), FaultKind> {
     check_count(key, "tables", count, fewest..=MOST_RECORDS)
 }
 
@@ -25,9 +25,9 @@ pub(super) fn named(record: &[Value], number: usize) -> String {
 
 impl Parameter {
     /// The value in the type of the key: a whole number is accepted as a number, and a number without a fraction as a whole number.
-    pub(super) fn accept(&'static self, value: Value) -> Result<Value, What> {
-        let wrong_type = |value: Value| Err(What::wrong_type(self, value.to_string()));
-        let refused = |found, why, nearest| Err(What::Refused { parameter: self, found, why, nearest });
+    pub(super) fn accept(&'static self, value: Value) -> Result<Value, FaultKind> {
+        let wrong_type = |value: Value| Err(FaultKind::wrong_type(self, value.to_string()));
+        let refused = |found, why, nearest| Err(FaultKind::Refused { parameter: self, found, why, nearest });
         match (self.kind, value) {
             (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, value) => {
                 let whole = matches!(self.kind, ParameterKind::Whole { .. });
@@ -35,7 +35,7 @@ impl Parameter {
                 match self.range().filter(|range| !range.contains(number)) {
                     _ if !number.is_finite() => refused(number.to_string(), "not finite", None),
                     _ if whole && number.fract() != 0.0 => wrong_type(value),
-                    Some(range) => Err(What::OutOfRange { parameter: self, value, range }),
+                    Some(range) => Err(FaultKind::OutOfRange { parameter: self, value, range }),
                     None if whole => Ok(Value::Whole(number as i64)),
                     None => Ok(Value::Number(number)),
                 }
@@ -58,7 +58,11 @@ impl Parameter {
                     let which = named(&record, number);
                     let cells = columns.iter().zip(record).map(|(column, value)| column.accept(value));
                     let cells = cells.collect::<Result<_, _>>();
-                    accepted.push(cells.map_err(|fault| What::Within { key: self.key, which, fault: fault.into() })?);
+                    accepted.push(cells.map_err(|fault| FaultKind::Within {
+                        key: self.key,
+                        which,
+                        fault: fault.into(),
+                    })?);
                 }
                 Ok(Value::Records(accepted))
             }
@@ -73,19 +77,19 @@ impl Parameter {
     }
 
     /// The value written as `--set` takes it: a number in the key's unit, or with another of its kind, a name or text without quotes.
-    pub(super) fn read(&'static self, text: &str) -> Result<Value, What> {
+    pub(super) fn read(&'static self, text: &str) -> Result<Value, FaultKind> {
         let read = match self.kind {
             ParameterKind::Number { .. } | ParameterKind::Whole { .. } => {
                 // Commas are between the values of a list.
                 let typed = || quantity_text::number(self.unit, text).filter(|_| !text.contains(','));
                 let number = text.parse().ok().or_else(typed).map(Value::Number);
                 let message = || quantity_text::no_number(self, text);
-                return number.ok_or_else(|| What::Rule { key: self.key, message: message() });
+                return number.ok_or_else(|| FaultKind::Rule { key: self.key, message: message() });
             }
             ParameterKind::Flag { .. } => text.parse().ok().map(Value::Flag),
             ParameterKind::Choice { .. } | ParameterKind::Text { .. } => Some(Value::Text(text.to_owned())),
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } | ParameterKind::Records { .. } => None,
         };
-        read.ok_or_else(|| What::wrong_type(self, show_text(text)))
+        read.ok_or_else(|| FaultKind::wrong_type(self, show_text(text)))
     }
 }

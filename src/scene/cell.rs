@@ -5,7 +5,7 @@
 //! value in the array.
 
 use super::edges::with_edge;
-use super::error::What;
+use super::error::FaultKind;
 use super::keys::PARAMETERS;
 use super::parameter::{Parameter, ParameterKind};
 use super::value::Value;
@@ -66,7 +66,7 @@ fn find(key: &str) -> Option<&'static Parameter> {
 
 impl Scene {
     /// The place of the value that a key names in an array, a fault if there is no such table; `None` for any other key.
-    fn cell(&self, key: &str) -> Option<Result<Place, What>> {
+    fn cell(&self, key: &str) -> Option<Result<Place, FaultKind>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
         let called = |record: &Vec<Value>| matches!(record.first(), Some(Value::Text(name)) if name == which);
@@ -82,7 +82,7 @@ impl Scene {
     }
 
     /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
-    pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), What>> {
+    pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), FaultKind>> {
         let put = |(array, mut records, [row, column]): Place| {
             let ParameterKind::Records { columns, fewest, .. } = array.kind else {
                 return (array, Value::Records(records));

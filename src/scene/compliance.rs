@@ -16,7 +16,7 @@
 //! `#` are comments. The scene keeps the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor
 //! as it is.
 
-use super::error::{Fault, SceneError, What, check_count};
+use super::error::{Fault, FaultKind, SceneError, check_count};
 use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 use super::value::{Value, show_number, show_text};
 use std::path::Path;
@@ -49,7 +49,11 @@ const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.
-pub(super) fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), before: Option<f64>) -> Result<(), What> {
+pub(super) fn check_row(
+    columns: &'static [Parameter; 2],
+    row: (f64, f64),
+    before: Option<f64>,
+) -> Result<(), FaultKind> {
     for (column, value) in columns.iter().zip([row.0, row.1]) {
         column.accept(Value::Number(value))?;
     }
@@ -61,27 +65,31 @@ pub(super) fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), befor
         }
         _ => return Ok(()),
     };
-    Err(What::Rule { key, message: format!("{key} = {} {message}", show_number(row.0)) })
+    Err(FaultKind::Rule { key, message: format!("{key} = {} {message}", show_number(row.0)) })
 }
 
 /// The fault of a row that is not two numbers, as written.
-pub(super) fn not_a_pair(found: &str, [first, second]: &[Parameter; 2]) -> What {
+pub(super) fn not_a_pair(found: &str, [first, second]: &[Parameter; 2]) -> FaultKind {
     let message = format!("{} is not a pair of numbers, {} and {}", show_text(found), first.key, second.key);
-    What::Rule { key: first.key, message }
+    FaultKind::Rule { key: first.key, message }
 }
 
 /// The fault of row `row`, counted from 1.
-pub(super) fn in_row(key: &'static str, row: usize, fault: What) -> What {
-    What::Within { key, which: format!("row {row}"), fault: fault.into() }
+pub(super) fn in_row(key: &'static str, row: usize, fault: FaultKind) -> FaultKind {
+    FaultKind::Within { key, which: format!("row {row}"), fault: fault.into() }
 }
 
 /// Checks how many rows there are.
-pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), What> {
+pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), FaultKind> {
     check_count(key, "rows", rows, 1..=MOST_ROWS)
 }
 
 /// Checks a table held in memory, up to its first fault.
-pub(super) fn check_rows(key: &'static str, columns: &'static [Parameter; 2], rows: &[(f64, f64)]) -> Result<(), What> {
+pub(super) fn check_rows(
+    key: &'static str,
+    columns: &'static [Parameter; 2],
+    rows: &[(f64, f64)],
+) -> Result<(), FaultKind> {
     check_row_count(key, rows.len())?;
     let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
     let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(columns, *row, before)).zip(1..);
@@ -114,7 +122,10 @@ pub(super) fn read_csv(
             _ => ("table of a deflection", ""),
         };
         let [first, second] = columns.each_ref().map(|column| column.key);
-        What::Rule { key, message: format!("{key}: this is no {what}: expected the header {other}{first},{second}") }
+        FaultKind::Rule {
+            key,
+            message: format!("{key}: this is no {what}: expected the header {other}{first},{second}"),
+        }
     };
     let header = match records.next() {
         Some(Ok(header)) => header,
@@ -165,13 +176,13 @@ fn row_of(
     columns: &'static [Parameter; 2],
     harmonics: bool,
     wavelength: f64,
-) -> Result<(f64, f64), What> {
+) -> Result<(f64, f64), FaultKind> {
     let [first, second] = record.iter().collect::<Vec<_>>()[..] else {
         return Err(not_a_pair(&record.iter().collect::<Vec<_>>().join(","), columns));
     };
     let number = |column: &'static Parameter, field| {
         let value = column.accept(column.read(field)?)?;
-        Ok::<_, What>(value.as_number().unwrap_or(f64::NAN))
+        Ok::<_, FaultKind>(value.as_number().unwrap_or(f64::NAN))
     };
     let wavenumber = if harmonics {
         std::f64::consts::TAU * number(&HARMONIC, first)? / wavelength

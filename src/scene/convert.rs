@@ -1,7 +1,7 @@
 //! Turns a scene into a problem: values of keys become fields, in SI units.
 
 use super::compliance::GREEN;
-use super::error::{SceneError, What};
+use super::error::{FaultKind, SceneError};
 use super::parameter::Parameter;
 use super::section::{PART, SUPPORT};
 use super::value::Value;
@@ -27,10 +27,10 @@ impl TryFrom<&Scene> for Problem {
 impl Scene {
     /// The problem of a scene, without a check of the rules between keys. It is an error if the table of keys lacks a key that is used here,
     /// or has it with another type; that would be a fault of the program, which any test finds.
-    pub(super) fn unchecked(&self) -> Result<Problem, What> {
+    pub(super) fn unchecked(&self) -> Result<Problem, FaultKind> {
         let optional = |key| {
             let parameter = self.parameter(key)?;
-            Ok::<_, What>(self.optional_number(parameter).map(|number| parameter.si(number)))
+            Ok::<_, FaultKind>(self.optional_number(parameter).map(|number| parameter.si(number)))
         };
         let si = |key| self.si(key);
         let gas = Gas {
@@ -115,7 +115,7 @@ impl Scene {
     }
 
     /// How the faces of a motor meet.
-    fn surface(&self) -> Result<Surface, What> {
+    fn surface(&self) -> Result<Surface, FaultKind> {
         let asperities = match self.text("surface.model")? {
             "asperities" => {
                 let summits = Summits {
@@ -146,7 +146,7 @@ impl Scene {
     }
 
     /// The cross-section of the ring, checked.
-    pub(super) fn section(&self) -> Result<Section, What> {
+    pub(super) fn section(&self) -> Result<Section, FaultKind> {
         let records = |key: &'static str| match self.get(key) {
             Some(Value::Records(records)) => records,
             _ => Vec::new(),
@@ -174,12 +174,12 @@ impl Scene {
         });
         Section::new(parts.collect(), supports.collect()).map_err(|fault| {
             let key = if matches!(fault, RingError::Support { .. }) { "rotor.support" } else { "rotor.part" };
-            What::Rule { key, message: format!("{key}: {fault}") }
+            FaultKind::Rule { key, message: format!("{key}: {fault}") }
         })
     }
 }
 
 /// The choice of a key, by its name.
-fn choice<T: for<'de> Deserialize<'de>>(scene: &Scene, key: &str) -> Result<T, What> {
+fn choice<T: for<'de> Deserialize<'de>>(scene: &Scene, key: &str) -> Result<T, FaultKind> {
     T::deserialize(StrDeserializer::<Error>::new(scene.text(key)?)).map_err(|_| scene.unknown_key(key))
 }

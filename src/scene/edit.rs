@@ -1,6 +1,6 @@
 //! Changes of a scene, key by key, and its title after a change.
 
-use super::error::{SceneError, What};
+use super::error::{FaultKind, SceneError};
 use super::heights;
 use super::parameter::{Parameter, ParameterKind};
 use super::parse;
@@ -97,7 +97,7 @@ impl Scene {
                 continue;
             };
             if let Some(other) = parameter.alternatives().find(|other| given.contains(other)) {
-                faults.push(What::BothGiven { key: parameter.key, other: other.key });
+                faults.push(FaultKind::BothGiven { key: parameter.key, other: other.key });
             }
             given.push(parameter);
         }
@@ -108,23 +108,26 @@ impl Scene {
     }
 
     /// The parameter of a key that can be set. A table can be set on a rotor of another model: it then replaces that model.
-    fn settable(&self, key: &str) -> Result<&'static Parameter, What> {
+    fn settable(&self, key: &str) -> Result<&'static Parameter, FaultKind> {
         if let Some(key) = ["schema", "scene"].into_iter().find(|fixed| *fixed == key) {
-            return Err(What::Rule { key, message: format!("{key} cannot be changed: start from another preset") });
+            return Err(FaultKind::Rule {
+                key,
+                message: format!("{key} cannot be changed: start from another preset"),
+            });
         }
         let parameter = self.parameter(key)?;
         match (self.applies(parameter), parameter.kind) {
             (Ok(()), _) if !self.heeds(key) => {
                 let scene = self.scene();
                 let message = format!("{key} has no effect on a {scene}: it cannot be changed or varied here");
-                Err(What::Rule { key: parameter.key, message })
+                Err(FaultKind::Rule { key: parameter.key, message })
             }
             (
-                Err(What::Elsewhere { selector, .. }),
+                Err(FaultKind::Elsewhere { selector, .. }),
                 ParameterKind::Rows { .. } | ParameterKind::CsvPath { fills: [_] } | ParameterKind::Records { .. },
             ) if selector != "scene" => Ok(parameter),
             // The key that is set replaces the one that was given.
-            (Err(What::BothGiven { .. }), _) => Ok(parameter),
+            (Err(FaultKind::BothGiven { .. }), _) => Ok(parameter),
             (applies, _) => applies.map(|()| parameter),
         }
     }

@@ -103,11 +103,11 @@ pub struct Fault {
     /// Column in the line, in characters, from 1.
     pub column: Option<usize>,
     /// What is wrong.
-    pub what: What,
+    pub what: FaultKind,
 }
 
-impl From<What> for Fault {
-    fn from(what: What) -> Self {
+impl From<FaultKind> for Fault {
+    fn from(what: FaultKind) -> Self {
         Self { origin: None, line: None, column: None, what }
     }
 }
@@ -119,7 +119,7 @@ impl fmt::Display for Fault {
             if let Some(line) = self.line {
                 write!(f, "{line}:")?;
             }
-            if let (What::Syntax(_), Some(column)) = (&self.what, self.column) {
+            if let (FaultKind::Syntax(_), Some(column)) = (&self.what, self.column) {
                 write!(f, "{column}:")?;
             }
             f.write_str(" ")?;
@@ -130,7 +130,7 @@ impl fmt::Display for Fault {
 
 /// What is wrong. Values carry the unit of their key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum What {
+pub enum FaultKind {
     /// The file is not read.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -213,7 +213,7 @@ pub enum What {
         /// Which row or table it is: its name, or its number from 1; the header of a CSV file does not count.
         which: String,
         /// What is wrong with it. Its columns or keys are named without those of the table around them.
-        fault: Box<What>,
+        fault: Box<FaultKind>,
     },
     /// Neither a built-in preset nor a file.
     #[error(
@@ -228,7 +228,7 @@ pub enum What {
     },
 }
 
-impl What {
+impl FaultKind {
     /// A value of the wrong type, as written.
     pub(super) fn wrong_type(parameter: &'static Parameter, found: String) -> Self {
         Self::Refused { parameter, found, why: "of the wrong type", nearest: None }
@@ -257,9 +257,9 @@ pub(super) fn check_count(
     what: &str,
     count: usize,
     allowed: RangeInclusive<usize>,
-) -> Result<(), What> {
+) -> Result<(), FaultKind> {
     let message = || format!("{key} has {count} {what}: allowed {} to {}", allowed.start(), allowed.end());
-    if allowed.contains(&count) { Ok(()) } else { Err(What::Rule { key, message: message() }) }
+    if allowed.contains(&count) { Ok(()) } else { Err(FaultKind::Rule { key, message: message() }) }
 }
 
 /// `"a", "b" or "c"`.

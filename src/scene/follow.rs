@@ -2,7 +2,7 @@
 //! Some quantities of a motor have two keys, such as the load on one wavelength and the load on the whole ring ([`ALTERNATIVES`]). One of the
 //! two is given, and the other follows from it.
 
-use super::error::What;
+use super::error::FaultKind;
 use super::parameter::Parameter;
 use super::values::Scene;
 use crate::digits::as_given;
@@ -15,12 +15,12 @@ struct Following {
     /// The key that it follows from: the one that is given instead, or the one that chooses a model.
     source: &'static str,
     /// The value in the unit of `key`, from the scene and `source`; `None` if the scene gives it.
-    value: fn(&Scene, &str) -> Result<Option<f64>, What>,
+    value: fn(&Scene, &str) -> Result<Option<f64>, FaultKind>,
 }
 
 /// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
 /// one, as `[numerator, denominator]` of a fraction. It depends on the scene.
-type Alternative = (&'static str, fn(&Scene) -> Result<[f64; 2], What>);
+type Alternative = (&'static str, fn(&Scene) -> Result<[f64; 2], FaultKind>);
 
 const ALTERNATIVES: &[Alternative] = &[
     ("motor.load_n", |scene| Ok([scene.number("motor.waves")?, 1.0])),
@@ -54,12 +54,12 @@ impl Scene {
     }
 
     /// The factor of a key in [`ALTERNATIVES`], as a fraction; `None` of any other key.
-    pub(super) fn factor(&self, key: &str) -> Option<Result<[f64; 2], What>> {
+    pub(super) fn factor(&self, key: &str) -> Option<Result<[f64; 2], FaultKind>> {
         ALTERNATIVES.iter().find(|(alternative, _)| *alternative == key).map(|(_, factor)| factor(self))
     }
 
     /// Values that follow and are out of the range of their key: for each the key that it follows from, and what is wrong.
-    pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
+    pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], FaultKind)> + '_ {
         FOLLOWING.iter().filter(|following| self.is_set(following.source)).filter_map(
             |Following { key, source, value }| {
                 let (parameter, value) = (Parameter::find(key)?, value(self, source).ok()??);
@@ -70,13 +70,13 @@ impl Scene {
                 let unit = parameter.unit;
                 let message =
                     format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
-                Some((std::slice::from_ref(source), What::Rule { key: source, message }))
+                Some((std::slice::from_ref(source), FaultKind::Rule { key: source, message }))
             },
         )
     }
 
     /// The value of the key that a key in [`ALTERNATIVES`] replaces, if that key is given.
-    fn replaced_by(&self, key: &str) -> Result<Option<f64>, What> {
+    fn replaced_by(&self, key: &str) -> Result<Option<f64>, FaultKind> {
         let (Some(given), Some(factor)) = (self.given(key), self.factor(key)) else { return Ok(None) };
         let [factor, divisor] = factor?;
         Ok(Some(divisor * given / factor))
@@ -89,18 +89,18 @@ impl Scene {
     }
 
     /// The gas of the film, if it has a name.
-    pub(super) fn species(&self) -> Result<Option<&'static Species>, What> {
+    pub(super) fn species(&self) -> Result<Option<&'static Species>, FaultKind> {
         Ok(gas::find(self.text("film.gas")?))
     }
 
     /// A number of this scene in SI.
-    pub(super) fn si(&self, key: &str) -> Result<f64, What> {
+    pub(super) fn si(&self, key: &str) -> Result<f64, FaultKind> {
         Ok(self.parameter(key)?.si(self.number(key)?))
     }
 }
 
 /// C_p = ℓ³/(8 EI) of a beam on a foundation that lets its deflection die out over ℓ, with I = w t³/12.
-fn point_compliance(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
+fn point_compliance(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
     if scene.text("rotor.model")? != "section" {
         return Ok(None);
     }
@@ -109,16 +109,16 @@ fn point_compliance(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
     Ok(Some(scene.si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6))
 }
 
-fn pressure_at_altitude(scene: &Scene, altitude: &str) -> Result<Option<f64>, What> {
+fn pressure_at_altitude(scene: &Scene, altitude: &str) -> Result<Option<f64>, FaultKind> {
     Ok(scene.given(altitude).map(|altitude| atmosphere::pressure(altitude) / 1e3))
 }
 
-fn viscosity(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
+fn viscosity(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
     let Some(gas) = scene.species()? else { return Ok(None) };
     Ok(Some((gas.viscosity)(scene.si("film.temperature_c")?) * 1e6))
 }
 
-fn mean_free_path(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
+fn mean_free_path(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
     let Some(gas) = scene.species()? else { return Ok(None) };
     let (pressure, temperature) = (scene.si("film.ambient_pressure_kpa")?, scene.si("film.temperature_c")?);
     Ok(Some(gas.mean_free_path(pressure, temperature) * 1e9))

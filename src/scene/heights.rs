@@ -2,7 +2,7 @@
 //! [`crate::surface::height_map`]. Both faces are assumed to be like the measured one. Keys that the preset does not give get their values
 //! from the file. The scene keeps these values, so that a saved preset needs no second file.
 
-use super::error::{SceneError, What};
+use super::error::{FaultKind, SceneError};
 use super::parameter::Parameter;
 use crate::digits::rounded;
 use crate::input;
@@ -28,7 +28,7 @@ pub fn keys_of(pair: &Pair) -> [(&'static str, f64); 4] {
 
 /// Reads the file at `path`. `parameter` names it, with the value `given`, which messages quote.
 pub(super) fn read(parameter: &'static Parameter, given: &str, path: &Path) -> Result<Pair, SceneError> {
-    let fault = |fault| What::csv(parameter.key, given, path, fault);
+    let fault = |fault| FaultKind::csv(parameter.key, given, path, fault);
     let text = input::read_text(path, LARGEST).map_err(|error| fault(format!(" {error}")))?;
     let (_, texture) = measured(&text, 1).map_err(|error| match error {
         // Nothing of the line is quoted, because the file may be any of this machine.

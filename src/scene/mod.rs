@@ -43,7 +43,7 @@ mod value;
 mod values;
 mod write;
 
-pub use error::{Fault, SCHEMA, SceneError, What};
+pub use error::{Fault, FaultKind, SCHEMA, SceneError};
 pub use keys::{PARAMETERS, markdown};
 pub(crate) use nearest::nearest;
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};

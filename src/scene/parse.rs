@@ -3,7 +3,7 @@
 
 use super::accept::{check_records, named};
 use super::compliance::{self, check_row, check_row_count, in_row, not_a_pair};
-use super::error::{Fault, SCHEMA, SceneError, What, did_you_mean};
+use super::error::{Fault, FaultKind, SCHEMA, SceneError, did_you_mean};
 use super::keys::tables;
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -26,7 +26,7 @@ impl Scene {
     /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let text =
-            input::read_text(path, LARGEST_FILE).map_err(|error| SceneError::from(What::Read(error)).at(path))?;
+            input::read_text(path, LARGEST_FILE).map_err(|error| SceneError::from(FaultKind::Read(error)).at(path))?;
         Self::from_toml(&text, path)
     }
 
@@ -37,7 +37,7 @@ impl Scene {
         let scene = reader.read();
         // Without a fault there is a scene.
         reader.faults.or(())?;
-        scene.ok_or_else(|| What::SchemaMissing.into())
+        scene.ok_or_else(|| FaultKind::SchemaMissing.into())
     }
 }
 
@@ -52,16 +52,16 @@ pub(super) fn read_table(
 ) -> Result<Value, SceneError> {
     let key = parameter.key;
     let ParameterKind::Rows { columns } = of.kind else {
-        return Err(What::wrong_type(parameter, show_text(given)).into());
+        return Err(FaultKind::wrong_type(parameter, show_text(given)).into());
     };
     let text =
-        input::read_text(path, LARGEST_FILE).map_err(|fault| What::csv(key, given, path, format!(" {fault}")))?;
+        input::read_text(path, LARGEST_FILE).map_err(|fault| FaultKind::csv(key, given, path, format!(" {fault}")))?;
     compliance::read_csv(key, columns, &text, path, wavelength).map(Value::Rows)
 }
 
 /// The rows of a table, or an array of tables, from the text of `--set`, written as in TOML.
 pub(super) fn array_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, SceneError> {
-    let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
+    let tree = DeValue::parse(text).map_err(|_| FaultKind::wrong_type(parameter, show_text(text)))?;
     let mut faults = SceneError::none();
     let value = array_from_toml(parameter, &tree, text, &mut |_, what| faults.push(what));
     faults.or(value)
@@ -83,7 +83,7 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                self.fault(error.span(), || What::Syntax(syntax_message(error.message())));
+                self.fault(error.span(), || FaultKind::Syntax(syntax_message(error.message())));
                 return None;
             }
         };
@@ -109,12 +109,12 @@ impl Reader<'_> {
     /// Whether the file is of a schema this program reads.
     fn schema(&mut self, root: &DeTable<'_>) -> bool {
         match root.get("schema") {
-            None => self.fault(None, || What::SchemaMissing),
+            None => self.fault(None, || FaultKind::SchemaMissing),
             Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
             Some(value) => {
                 let found = self.written(value.span());
                 let message = format!("schema = {found} is not supported: this program reads schema = {SCHEMA}");
-                self.fault(Some(value.span()), || What::Rule { key: "schema", message });
+                self.fault(Some(value.span()), || FaultKind::Rule { key: "schema", message });
             }
         }
         false
@@ -128,7 +128,7 @@ impl Reader<'_> {
             let message = format!(
                 "{missing}; allowed \"motor\" or \"plate\", and without it the scene is a motor, which has no [plate]"
             );
-            self.fault(Some(plate.span()), || What::Rule { key: "scene", message });
+            self.fault(Some(plate.span()), || FaultKind::Rule { key: "scene", message });
             return None;
         };
         let name = value.get_ref().as_str().unwrap_or_default();
@@ -137,7 +137,7 @@ impl Reader<'_> {
             let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
             let found = self.written(value.span());
             let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
-            self.fault(Some(value.span()), || What::Rule { key: "scene", message });
+            self.fault(Some(value.span()), || FaultKind::Rule { key: "scene", message });
         }
         kind.map(Scene::new)
     }
@@ -161,12 +161,12 @@ impl Reader<'_> {
                 (Some(table), _) => {
                     let found = self.written(value.span());
                     let message = format!("{table} = {found} is not a table: write [{table}] with its keys below");
-                    self.fault(Some(value.span()), || What::Rule { key: table, message });
+                    self.fault(Some(value.span()), || FaultKind::Rule { key: table, message });
                 }
                 (None, DeValue::Table(_)) => self.fault(Some(at), || {
                     let siblings = scene.tables();
                     let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
-                    What::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
+                    FaultKind::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
                 }),
                 (None, _) => entries.push((at, name.to_owned(), value)),
             }
@@ -180,12 +180,12 @@ impl Reader<'_> {
         };
         let span = value.span();
         if let Some(other) = parameter.alternatives().find(|other| self.spans.contains_key(other.key)) {
-            return self.fault(Some(at), || What::BothGiven { key: parameter.key, other: other.key });
+            return self.fault(Some(at), || FaultKind::BothGiven { key: parameter.key, other: other.key });
         }
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
             // If the model itself is at fault, it is not known which keys there are.
-            Err(What::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
+            Err(FaultKind::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
             Err(what) => return self.fault(Some(at), || what),
             Ok(()) => {}
         }
@@ -203,13 +203,15 @@ impl Reader<'_> {
             }
             ParameterKind::CsvPath { fills } => return self.csv(scene, parameter, fills, value),
             _ => value_from_toml(parameter, value.get_ref())
-                .ok_or_else(|| What::wrong_type(parameter, self.written(span.clone()))),
+                .ok_or_else(|| FaultKind::wrong_type(parameter, self.written(span.clone()))),
         };
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
             let found = self.written(span.clone());
             self.fault(Some(span), || match what {
                 // The message shows the value as it is written in the file.
-                What::Refused { parameter, why: "of the wrong type", .. } => What::wrong_type(parameter, found),
+                FaultKind::Refused { parameter, why: "of the wrong type", .. } => {
+                    FaultKind::wrong_type(parameter, found)
+                }
                 what => what,
             });
         }
@@ -220,11 +222,11 @@ impl Reader<'_> {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
             let found = self.written(value.span());
-            return self.fault(span, || What::wrong_type(parameter, found));
+            return self.fault(span, || FaultKind::wrong_type(parameter, found));
         };
         if let [rows] = fills {
             if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
-                return self.fault(span, || What::BothGiven { key: parameter.key, other: other.key });
+                return self.fault(span, || FaultKind::BothGiven { key: parameter.key, other: other.key });
             }
             if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
                 return;
@@ -260,7 +262,7 @@ impl Reader<'_> {
     }
 
     /// Adds a fault. The message is composed only if it will be shown, because a hostile file may have a fault on every line.
-    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> What) {
+    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> FaultKind) {
         if self.faults.is_full() {
             return self.faults.count_one();
         }
@@ -288,15 +290,20 @@ fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> 
 }
 
 /// Takes a fault, and the bytes of the text that are at fault.
-type Told<'a> = &'a mut dyn FnMut(Bytes<usize>, What);
+type OnFault<'a> = &'a mut dyn FnMut(Bytes<usize>, FaultKind);
 
 /// The rows of a table, or an array of tables: those that are in order. `fault` is told of the others.
-fn array_from_toml(parameter: &'static Parameter, value: &Spanned<DeValue<'_>>, text: &str, fault: Told<'_>) -> Value {
+fn array_from_toml(
+    parameter: &'static Parameter,
+    value: &Spanned<DeValue<'_>>,
+    text: &str,
+    fault: OnFault<'_>,
+) -> Value {
     let counted = |array: &DeArray<'_>| match parameter.kind {
         ParameterKind::Records { fewest, .. } => check_records(parameter.key, array.len(), fewest),
         _ => check_row_count(parameter.key, array.len()),
     };
-    let wrong_type = || What::wrong_type(parameter, show_text(text.get(value.span()).unwrap_or_default()));
+    let wrong_type = || FaultKind::wrong_type(parameter, show_text(text.get(value.span()).unwrap_or_default()));
     let array = value.get_ref().as_array().ok_or_else(wrong_type);
     let array = array.and_then(|array| counted(array).map(|()| &array[..])).unwrap_or_else(|what| {
         fault(value.span(), what);
@@ -317,7 +324,7 @@ fn rows_from_toml(
     columns: &'static [Parameter; 2],
     array: &[Spanned<DeValue<'_>>],
     text: &str,
-    fault: Told<'_>,
+    fault: OnFault<'_>,
 ) -> Vec<(f64, f64)> {
     let mut rows: Vec<(f64, f64)> = Vec::new();
     for (row, i) in array.iter().zip(1..) {
@@ -342,36 +349,36 @@ fn records_from_toml(
     columns: &'static [Parameter],
     array: &[Spanned<DeValue<'_>>],
     text: &str,
-    fault: Told<'_>,
+    fault: OnFault<'_>,
 ) -> Vec<Vec<Value>> {
     let written = |span: Bytes<usize>| show_text(text.get(span).unwrap_or_default());
     let key = parameter.key;
     let mut records = Vec::new();
     for (table, number) in array.iter().zip(1..) {
         let Some(given) = table.get_ref().as_table() else {
-            fault(table.span(), What::wrong_type(parameter, written(table.span())));
+            fault(table.span(), FaultKind::wrong_type(parameter, written(table.span())));
             continue;
         };
         let name = columns.first().and_then(|column| given.get(column.key)).and_then(|value| value.get_ref().as_str());
         let which = named(&name.map(|name| Value::Text(name.to_owned())).into_iter().collect::<Vec<_>>(), number);
-        let mut wrong = |span, what: What| {
-            fault(span, What::Within { key, which: which.clone(), fault: what.into() });
+        let mut wrong = |span, what: FaultKind| {
+            fault(span, FaultKind::Within { key, which: which.clone(), fault: what.into() });
         };
         let keys: Vec<&'static str> = columns.iter().map(|column| column.key).collect();
         for (unknown, _) in given.iter().filter(|(given, _)| !keys.contains(&given.get_ref().as_ref())) {
             let near = nearest(unknown.get_ref(), keys.iter().copied()).map(str::to_owned);
             let key = show_text(unknown.get_ref());
-            wrong(unknown.span(), What::Unknown { kind: "key", key, nearest: near, siblings: keys.clone() });
+            wrong(unknown.span(), FaultKind::Unknown { kind: "key", key, nearest: near, siblings: keys.clone() });
         }
         let mut record = Vec::new();
         for column in columns {
             let Some(cell) = given.get(column.key) else {
                 let message = format!("{} is missing: expected {}", column.key, column.accepts());
-                wrong(table.span(), What::Rule { key: column.key, message });
+                wrong(table.span(), FaultKind::Rule { key: column.key, message });
                 continue;
             };
             let read = value_from_toml(column, cell.get_ref())
-                .ok_or_else(|| What::wrong_type(column, written(cell.span())))
+                .ok_or_else(|| FaultKind::wrong_type(column, written(cell.span())))
                 .and_then(|value| column.accept(value));
             match read {
                 Ok(value) => record.push(value),

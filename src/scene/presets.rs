@@ -1,6 +1,6 @@
 //! The presets built into the program, and how a PRESET argument is resolved.
 
-use super::error::{SceneError, What};
+use super::error::{FaultKind, SceneError};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
 use super::parse::LARGEST_FILE;
@@ -89,7 +89,7 @@ pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.
 ///
 /// # Errors
-/// The faults of the file; or, if there is no such file, [`What::UnknownPreset`] with the nearest built-in name.
+/// The faults of the file; or, if there is no such file, [`FaultKind::UnknownPreset`] with the nearest built-in name.
 pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == name_or_path) {
         return built_in.scene();
@@ -102,5 +102,5 @@ pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
     let stem = stem.strip_suffix(".toml").unwrap_or(&stem).replace(['_', ' '], "-");
     let nearest = nearest(&stem, BUILT_IN.iter().map(|built_in| built_in.name)).map(str::to_owned);
-    Err(What::UnknownPreset { name: show_text(name_or_path), nearest }.into())
+    Err(FaultKind::UnknownPreset { name: show_text(name_or_path), nearest }.into())
 }

@@ -1,7 +1,7 @@
 //! The rules between the keys of a scene. The values that a key accepts by itself are in [`super::PARAMETERS`], and are checked when it is
 //! set.
 
-use super::error::{SceneError, What};
+use super::error::{FaultKind, SceneError};
 use super::parameter::{Parameter, Range};
 use super::value::show_number;
 use super::values::{Kind, Scene};
@@ -17,7 +17,7 @@ struct Rule {
     /// The keys that the rule is about. It is checked if the first of them can change the results of the scene.
     keys: &'static [&'static str],
     /// Returns the fault, if the rule is broken.
-    check: fn(&Scene) -> Result<(), What>,
+    check: fn(&Scene) -> Result<(), FaultKind>,
 }
 
 static RULES: &[Rule] = &[
@@ -45,7 +45,7 @@ impl Scene {
     }
 
     /// The rules that are broken, each with the keys it is about.
-    pub(super) fn broken_rules(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
+    pub(super) fn broken_rules(&self) -> impl Iterator<Item = (&'static [&'static str], FaultKind)> + '_ {
         let has = |parameter: &'static Parameter| self.has(parameter) && self.heeds(parameter.key);
         let matters = move |rule: &&Rule| Parameter::find(rule.keys[0]).is_some_and(has);
         let broken = RULES.iter().filter(matters).filter_map(|rule| Some((rule.keys, (rule.check)(self).err()?)));
@@ -74,13 +74,13 @@ impl Scene {
     }
 
     /// Tooth widths the pitch allows \[mm\].
-    fn tooth_widths_mm(&self) -> Result<Range, What> {
+    fn tooth_widths_mm(&self) -> Result<Range, FaultKind> {
         let pitch = self.pitch_mm()?;
         Ok(Range::new(NARROWEST_TOOTH * pitch, pitch))
     }
 }
 
-fn table_is_given(scene: &Scene) -> Result<(), What> {
+fn table_is_given(scene: &Scene) -> Result<(), FaultKind> {
     let (model, rows) = match scene.text("rotor.model")? {
         "table" => ("table", "rotor.compliance"),
         "green" => ("green", "rotor.green"),
@@ -91,11 +91,11 @@ fn table_is_given(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn ring_hangs_together(scene: &Scene) -> Result<(), What> {
+fn ring_hangs_together(scene: &Scene) -> Result<(), FaultKind> {
     scene.section().map(|_| ())
 }
 
-fn wedge_is_there(scene: &Scene) -> Result<(), What> {
+fn wedge_is_there(scene: &Scene) -> Result<(), FaultKind> {
     let ruled_out = scene.text("numerics.wedge")? == "on" && !scene.flag("film.shear")?;
     unless(ruled_out, "numerics.wedge", || {
         "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: change one of the two"
@@ -103,7 +103,7 @@ fn wedge_is_there(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn gas_has_time(scene: &Scene) -> Result<(), What> {
+fn gas_has_time(scene: &Scene) -> Result<(), FaultKind> {
     if scene.kind() != Kind::Motor {
         return Ok(());
     }
@@ -115,7 +115,7 @@ fn gas_has_time(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), What> {
+fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), FaultKind> {
     let (range, width) = (scene.tooth_widths_mm()?, scene.number("stator.tooth_width_mm")?);
     let (radius, waves) = (scene.number("motor.contact_radius_mm")?, scene.number("motor.waves")?);
     let teeth = scene.number("stator.teeth_per_wave")?;
@@ -129,7 +129,7 @@ fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn hole_is_inside(scene: &Scene) -> Result<(), What> {
+fn hole_is_inside(scene: &Scene) -> Result<(), FaultKind> {
     let (hole, radius) = (scene.number("plate.inner_radius_mm")?, scene.number("plate.radius_mm")?);
     unless(hole > WIDEST_HOLE * radius, "plate.inner_radius_mm", || {
         let [hole, radius] = [hole, radius].map(show_number);
@@ -139,7 +139,7 @@ fn hole_is_inside(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn plate_stays_clear(scene: &Scene) -> Result<(), What> {
+fn plate_stays_clear(scene: &Scene) -> Result<(), FaultKind> {
     if scene.floats() {
         return Ok(());
     }
@@ -153,8 +153,8 @@ fn plate_stays_clear(scene: &Scene) -> Result<(), What> {
     })
 }
 
-fn unless(broken: bool, key: &'static str, message: impl FnOnce() -> String) -> Result<(), What> {
-    if broken { Err(What::Rule { key, message: message() }) } else { Ok(()) }
+fn unless(broken: bool, key: &'static str, message: impl FnOnce() -> String) -> Result<(), FaultKind> {
+    if broken { Err(FaultKind::Rule { key, message: message() }) } else { Ok(()) }
 }
 
 /// The range to six digits, rounded inwards, so that both ends as they are shown are allowed.

@@ -1,6 +1,6 @@
 //! A scene: the values of its keys, and which keys it has.
 
-use super::error::{SCHEMA, SceneError, What};
+use super::error::{FaultKind, SCHEMA, SceneError};
 use super::keys::{PARAMETERS, tables};
 use super::nearest::{nearest, nearest_key};
 use super::parameter::{Belongs, Model, Parameter, ParameterKind};
@@ -147,10 +147,10 @@ impl Scene {
     }
 
     /// Whether a key applies to this scene; if not, why.
-    pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), What> {
+    pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), FaultKind> {
         let elsewhere = |selector, needs, chosen: &str| {
             let (key, chosen) = (parameter.key.to_owned(), chosen.to_owned());
-            Err(What::Elsewhere { key, selector, needs, chosen })
+            Err(FaultKind::Elsewhere { key, selector, needs, chosen })
         };
         match (parameter.belongs, self.kind) {
             (Belongs::Motor, Kind::Plate) => return elsewhere("scene", &["motor"], self.scene()),
@@ -170,18 +170,18 @@ impl Scene {
         let replaces =
             |other: &&Parameter| other.instead_of == Some(parameter.key) && self.values.contains_key(other.key);
         match PARAMETERS.iter().find(replaces) {
-            Some(other) => Err(What::BothGiven { key: parameter.key, other: other.key }),
+            Some(other) => Err(FaultKind::BothGiven { key: parameter.key, other: other.key }),
             None => Ok(()),
         }
     }
 
     /// The fault of a key that does not exist.
-    pub(super) fn unknown_key(&self, key: &str) -> What {
+    pub(super) fn unknown_key(&self, key: &str) -> FaultKind {
         let table = key.split_once('.').map_or("", |(table, _)| table);
         let keys_of = |table: &str| self.parameters().filter(|p| p.table() == table).map(|p| p.key).collect::<Vec<_>>();
         let unknown = |nearest: Option<&str>, siblings| {
             let (key, nearest) = (show_text(key), nearest.map(str::to_owned));
-            What::Unknown { kind: "key", key, nearest, siblings }
+            FaultKind::Unknown { kind: "key", key, nearest, siblings }
         };
         if tables().contains(&key) {
             return unknown(None, keys_of(key));
@@ -204,17 +204,17 @@ impl Scene {
 
     /// Whether this kind of scene has a table; if not, why, with `key` as the subject of the message. A table that does not exist is not a
     /// fault here.
-    pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), What> {
+    pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), FaultKind> {
         match PARAMETERS.iter().find(|p| p.table() == table).map(|p| self.applies(p)) {
-            Some(Err(What::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
-                Err(What::Elsewhere { key, selector, needs, chosen })
+            Some(Err(FaultKind::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
+                Err(FaultKind::Elsewhere { key, selector, needs, chosen })
             }
             _ => Ok(()),
         }
     }
 
     /// Checks a value against the key's own type and range, and stores it.
-    pub(super) fn assign(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), What> {
+    pub(super) fn assign(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), FaultKind> {
         let value = parameter.accept(value)?;
         if let Some(array) = self.with_cell(parameter.key, &value) {
             let (array, records) = array?;
@@ -263,7 +263,7 @@ impl Scene {
         }
     }
 
-    pub(super) fn parameter(&self, key: &str) -> Result<&'static Parameter, What> {
+    pub(super) fn parameter(&self, key: &str) -> Result<&'static Parameter, FaultKind> {
         Parameter::find(key).ok_or_else(|| self.unknown_key(key))
     }
 
@@ -284,12 +284,12 @@ impl Scene {
     }
 
     /// The number of a key, in its unit.
-    pub(super) fn number(&self, key: &str) -> Result<f64, What> {
+    pub(super) fn number(&self, key: &str) -> Result<f64, FaultKind> {
         self.optional_number(self.parameter(key)?).ok_or_else(|| self.unknown_key(key))
     }
 
     /// The text of a key, or the name of its choice.
-    pub(super) fn text(&self, key: &str) -> Result<&str, What> {
+    pub(super) fn text(&self, key: &str) -> Result<&str, FaultKind> {
         match (self.values.get(key), self.parameter(key)?.kind) {
             (Some(Value::Text(text)), _) => Ok(text),
             (_, ParameterKind::Choice { default, .. } | ParameterKind::Text { default }) => Ok(default),
@@ -298,7 +298,7 @@ impl Scene {
     }
 
     /// Whether a key is true.
-    pub(super) fn flag(&self, key: &str) -> Result<bool, What> {
+    pub(super) fn flag(&self, key: &str) -> Result<bool, FaultKind> {
         match (self.values.get(key), self.parameter(key)?.kind) {
             (Some(Value::Flag(flag)), _) => Ok(*flag),
             (_, ParameterKind::Flag { default }) => Ok(default),
@@ -315,17 +315,17 @@ impl Scene {
     }
 
     /// Length of the circle on which teeth and rotor touch \[mm\].
-    pub(super) fn circumference_mm(&self) -> Result<f64, What> {
+    pub(super) fn circumference_mm(&self) -> Result<f64, FaultKind> {
         Ok(std::f64::consts::TAU * self.number("motor.contact_radius_mm")?)
     }
 
     /// Pitch of the teeth of a motor \[mm\].
-    pub(super) fn pitch_mm(&self) -> Result<f64, What> {
+    pub(super) fn pitch_mm(&self) -> Result<f64, FaultKind> {
         Ok(self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?)
     }
 
     /// Wavelength \[m\] of a motor, 2πr/waves.
-    pub(super) fn wavelength(&self) -> Result<f64, What> {
+    pub(super) fn wavelength(&self) -> Result<f64, FaultKind> {
         let radius = self.number("motor.contact_radius_mm")? / 1e3;
         Ok(std::f64::consts::TAU * radius / self.number("motor.waves")?)
     }

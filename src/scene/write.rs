@@ -1,7 +1,7 @@
 //! Writes a scene as TOML text, and to disk. All keys are written, absent optional ones as comments. Numbers have the fewest digits that
 //! read back to the same bits.
 
-use super::error::{Fault, SCHEMA, SceneError, What};
+use super::error::{Fault, FaultKind, SCHEMA, SceneError};
 use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, is_unseen};
 use super::values::Scene;
@@ -51,12 +51,12 @@ impl Scene {
     /// older file stays as it was.
     ///
     /// # Errors
-    /// The faults of [`Scene::check`], as such a file would not load; [`What::Unwritable`] if the folder or the file
+    /// The faults of [`Scene::check`], as such a file would not load; [`FaultKind::Unwritable`] if the folder or the file
     /// cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         self.check()?;
         write_file(path, |out| out.write_all(self.to_toml().as_bytes())).map_err(|error| {
-            let what = What::Unwritable(error.source.to_string());
+            let what = FaultKind::Unwritable(error.source.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
     }

@@ -4,7 +4,7 @@ pub mod anderson;
 pub mod bessel;
 pub mod grading;
 pub mod legendre;
-mod lines;
+pub mod lines;
 pub mod rows;
 pub mod system;
 

@@ -91,9 +91,9 @@ impl Motor {
 }
 
 /// What was computed last, for whoever asks for the same again. A result does not depend on whether it is found here.
-struct Kept<K, V>(Mutex<VecDeque<(K, V)>>);
+struct Cache<K, V>(Mutex<VecDeque<(K, V)>>);
 
-impl<K: PartialEq, V: Clone> Kept<K, V> {
+impl<K: PartialEq, V: Clone> Cache<K, V> {
     const fn new() -> Self {
         Self(Mutex::new(VecDeque::new()))
     }
@@ -137,8 +137,8 @@ pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
     Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
 }
 
-static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();
-static RESONATING: Kept<(Section, u32), [f64; RESONANCES]> = Kept::new();
+static RINGS: Cache<(Section, Wave), Compliances> = Cache::new();
+static RESONATING: Cache<(Section, u32), [f64; RESONANCES]> = Cache::new();
 
 fn of_ring(section: &Section, wave: &Wave, cancel: &Cancel) -> Result<Compliances, RotorError> {
     RINGS.or((section.clone(), *wave), |_| {

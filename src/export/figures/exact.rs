@@ -3,7 +3,7 @@
 use super::plate::force;
 use super::series::{over_cycle, rest, span, with_margin};
 use super::unit::prefixed;
-use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
+use crate::analysis::exact::{ExactComparison, Harmonic, crossover, linear};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -14,7 +14,7 @@ const SAMPLES: usize = 121;
 const WHOLE: f64 = 2.0;
 
 /// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
-pub fn exact(plate: &Plate, found: &Comparison, recording: &Recording) -> Figure {
+pub fn exact(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Figure {
     let mut figure = Figure::new("computed and exact")
         .panel(coefficients(plate, found).height(42.0))
         .panel(cycle(plate, found, recording).height(38.0));
@@ -27,7 +27,7 @@ pub fn exact(plate: &Plate, found: &Comparison, recording: &Recording) -> Figure
     figure
 }
 
-fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
+fn coefficients(plate: &Plate, found: &ExactComparison) -> Panel {
     let present = found.effective_squeeze_number;
     let crossover = crossover(plate.outline());
     let (from, to) = ((crossover / 300.0).min(present / 4.0), (crossover * 300.0).max(present * 4.0));
@@ -56,7 +56,7 @@ fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
         .legend(Legend::Above)
 }
 
-fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
+fn cycle(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Panel {
     let load = &recording.film_load;
     let mut range = span(load.iter().copied(), 0.0);
     let most = WHOLE * (range[1] - range[0]);
@@ -100,7 +100,7 @@ mod tests {
             let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
                 panic!("a plate")
             };
-            let found = Comparison::of(plate, result, &solution.recording);
+            let found = ExactComparison::of(plate, result, &solution.recording);
             let panel = coefficients(plate, &found);
             let (present, Range::Fixed(from, to)) = (found.effective_squeeze_number, &panel.x.range) else {
                 panic!("{:?}", panel.x.range)

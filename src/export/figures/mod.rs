@@ -27,7 +27,7 @@ mod unit;
 pub(super) use series::mirrored;
 
 use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Style};
-use crate::analysis::exact::Comparison;
+use crate::analysis::exact::ExactComparison;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Progress;
 use crate::problem::{Problem, Scenario};
@@ -58,7 +58,7 @@ pub fn of(
             figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
             figures.push(("map", plate::map(scene, recording)));
             if let Outcome::Plate(result) = &solution.outcome {
-                let comparison = Comparison::of(scene, result, recording);
+                let comparison = ExactComparison::of(scene, result, recording);
                 figures.push(("exact", exact::exact(scene, &comparison, recording)));
             }
         }

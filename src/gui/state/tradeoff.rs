@@ -14,7 +14,7 @@ use crate::solve::{Method, Settings};
 const PRESENT: &str = "present setting";
 
 /// The work of a measurement.
-pub type MeasurementTask = Task<Progress, Vec<MeasuredSetting>>;
+pub type TradeoffTask = Task<Progress, Vec<MeasuredSetting>>;
 
 /// A measurement, under way or ended.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ pub struct TradeoffState {
 
 impl TradeoffState {
     /// A measurement of `scene` that began at `started`.
-    pub fn new(task: MeasurementTask, scene: Scene, started: Instant) -> Self {
+    pub fn new(task: TradeoffTask, scene: Scene, started: Instant) -> Self {
         Self { work: task.into(), scene, started, share: 0.0, tradeoff: Tradeoff::of(&[]) }
     }
 

@@ -7,12 +7,12 @@ use crate::platform::window::Parent;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// Shows a file dialog; blocks until there is an answer.
-type Ask = fn(Purpose, &DialogStart) -> Answer;
+type AskDialog = fn(Purpose, &DialogStart) -> Answer;
 
 /// Runs dialogs and collects their answers.
 #[derive(Debug)]
 pub struct Dialogs {
-    ask: Ask,
+    ask: AskDialog,
     /// A dialog over the window.
     parent: Parent,
     /// What the dialogs that are open are for.
@@ -23,7 +23,7 @@ pub struct Dialogs {
 
 impl Dialogs {
     /// Dialogs that are shown by `ask`, over the window of `parent`.
-    pub fn new(ask: Ask, parent: Parent) -> Self {
+    pub fn new(ask: AskDialog, parent: Parent) -> Self {
         let (sender, receiver) = channel();
         Self { ask, parent, open: Vec::new(), sender, receiver }
     }

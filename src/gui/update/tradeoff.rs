@@ -2,7 +2,7 @@
 
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
-use crate::job::tradeoff::Measurement;
+use crate::job::tradeoff::TradeoffWork;
 use crate::job::work::Posed;
 use std::time::Duration;
 
@@ -21,7 +21,7 @@ impl Updater {
         with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
         let posed = Posed { scene: scene.clone(), problem };
-        let work = Measurement { posed, candidates, effort, now };
+        let work = TradeoffWork { posed, candidates, effort, now };
         if let Some(task) = self.start_work("The measurement cannot be started", work, MEASURE_INTERVAL) {
             self.state.tradeoff = Some(TradeoffState::new(task, scene, now()));
         }

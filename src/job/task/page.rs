@@ -1,6 +1,6 @@
 //! Work of a page: in a worker.
 
-use crate::job::line::{Line, Told};
+use crate::job::line::{Line, Sent};
 use crate::job::work::{News, Wake, Work};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -22,12 +22,12 @@ impl<M: 'static, R: 'static> Task<M, R> {
         let listen = move |news| {
             let mut told = theirs.borrow_mut();
             match news {
-                Told::Message(message) => told.messages.push(message),
-                Told::End(found) => {
+                Sent::Message(message) => told.messages.push(message),
+                Sent::End(found) => {
                     told.end = Some(found);
                     used.borrow_mut().take().into_iter().for_each(Line::give_back);
                 }
-                Told::Failed(text) => {
+                Sent::Failed(text) => {
                     told.end = Some(Err(format!("it failed: {text}")));
                     *used.borrow_mut() = None;
                 }

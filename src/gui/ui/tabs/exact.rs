@@ -1,7 +1,7 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use crate::analysis::exact::{Comparison, Harmonic, units};
+use crate::analysis::exact::{ExactComparison, Harmonic, units};
 use crate::digits::{percent, raised, significant};
 use crate::estimate::Estimate;
 use crate::export::figures::exact::exact;
@@ -109,7 +109,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let known = once(ui, "exact", (run.number, run.fidelity), || {
         let result = if let Outcome::Plate(result) = run.solution.outcome { result } else { PlateResult::default() };
-        let found = Comparison::of(plate, &result, &run.solution.recording);
+        let found = ExactComparison::of(plate, &result, &run.solution.recording);
         let panels = exact(plate, &found, &run.solution.recording).panels;
         (found, panels)
     });
@@ -135,7 +135,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 }
 
 /// Computed beside exact.
-fn table(ui: &mut Ui, found: &Comparison, units: [&str; 2], cx: &DrawContext<'_>) {
+fn table(ui: &mut Ui, found: &ExactComparison, units: [&str; 2], cx: &DrawContext<'_>) {
     let both = |solved: Option<Harmonic<Estimate>>| match solved {
         Some(solved) => [solved.spring, solved.damping].map(uncertain),
         None => ["nothing vibrates"; 2].map(str::to_owned),
