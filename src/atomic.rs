@@ -64,24 +64,23 @@ pub fn check_file(path: &Path) -> Result<(), WriteError> {
     check_writable(folder).map_err(|WriteError { source, .. }| failed(source))
 }
 
-/// Checks whether files can be written into a folder, or the folder created, before any work is done for them: also that no folder is in
-/// the way, with a name as files of results have.
+/// Checks whether files can be written into a folder, or the folder created, before any work is done for them.
 pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
-    let entries = if HAS_FILES { fs::read_dir(folder).into_iter().flatten().flatten().collect() } else { Vec::new() };
-    let named_as_a_file =
-        |path: &Path| path.extension().is_some_and(|kind| RESULTS.iter().any(|result| kind == *result));
-    if let Some(path) = entries.iter().map(fs::DirEntry::path).find(|path| named_as_a_file(path) && path.is_dir()) {
-        let source = io::Error::new(
-            ErrorKind::IsADirectory,
-            "it is a folder, and a file of results may have this name: move it away",
-        );
-        return Err(WriteError { path, source });
-    }
     Staged::new(folder)?.add("check", |_| Ok(()))
 }
 
-/// Extensions of the files of results.
-const RESULTS: [&str; 8] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html"];
+/// As [`check_writable`], of the folder for all files of results: none of its folders may be in the way, with a name such as they have.
+pub fn check_for_results(folder: &Path) -> Result<(), WriteError> {
+    const KINDS: [&str; 8] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html"];
+    let in_the_way =
+        |path: &PathBuf| path.extension().is_some_and(|of| KINDS.iter().any(|kind| of == *kind)) && path.is_dir();
+    let mut entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    if let Some(path) = entries.find(in_the_way) {
+        let why = "it is a folder, and a file of results may have this name: move it away, or give another folder";
+        return Err(WriteError { path, source: io::Error::new(ErrorKind::IsADirectory, why) });
+    }
+    check_writable(folder)
+}
 
 /// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]
@@ -425,8 +424,10 @@ mod tests {
         fs::write(folder.path().join(".squeezefilm-notes"), "mine").unwrap();
         check_writable(folder.path()).unwrap();
         fs::create_dir(folder.path().join("series.csv")).unwrap();
-        let error = check_writable(folder.path()).unwrap_err().to_string();
+        let error = check_for_results(folder.path()).unwrap_err().to_string();
         assert!(error.contains("series.csv: cannot be written: it is a folder"), "{error}");
+        // One file beside it is another matter.
+        check_file(&folder.path().join("other.csv")).unwrap();
         fs::remove_dir(folder.path().join("series.csv")).unwrap();
         assert_eq!(names(folder.path()).len(), 2, "{:?}", names(folder.path()));
         living.commit().unwrap();

@@ -639,6 +639,20 @@ fn an_unwritable_folder_is_named_before_anything_is_solved() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
+/// Rows that a sweep would go on with are read as any other file: a pipe, which nobody may ever write to, is not waited for.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_saved_rows_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("sweep.incomplete.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let vary = "film.min_spacing_nm=50:100:2";
+    let output = run(&["sweep", "fundamental", "--vary", vary, "--out", folder.path().to_str().unwrap()]);
+    assert!(!output.status.success());
+    let told = err(&output);
+    assert!(told.contains("cannot be continued") && told.contains("a pipe or a device"), "{told}");
+}
+
 #[test]
 fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     let folder = tempfile::tempdir().unwrap();

@@ -392,6 +392,25 @@ fn a_plate_that_nearly_touches_is_recorded_between_its_steps() {
 }
 
 #[test]
+fn what_trapped_gas_leaves_out_is_in_the_error_of_every_instant() {
+    // The mean load is small beside the swing, and so is what leaks of it; a part of the swing is missing all the same.
+    let plate = scenes::plate("plate-trapped", &[("plate.length_mm", "10"), ("plate.amplitude_um", "0.05")]);
+    let [trapped, leaking] = [(Fidelity::Draft, true), (Fidelity::Reference, false)].map(|(fidelity, trapped)| {
+        let plan = Plan::plate(&plate, fidelity, &Numerics::default());
+        assert_eq!(plan.trapped, trapped);
+        plate::periodic(&plate, &plan, &mut (), &Cancel::new()).unwrap()
+    });
+    let every = leaking.recording.frames / trapped.recording.frames;
+    assert_eq!(every * trapped.recording.frames, leaking.recording.frames);
+    for (frame, (load, error)) in trapped.recording.film_load.iter().zip(&trapped.recording.film_load_error).enumerate()
+    {
+        let true_load = leaking.recording.film_load[every * frame];
+        let known = error + leaking.recording.film_load_error[every * frame];
+        assert!((load - true_load).abs() <= known, "frame {frame}: {load} ± {error}, {true_load}");
+    }
+}
+
+#[test]
 fn a_switch_overrules_the_plan_and_is_marked() {
     let motor = scenes::motor("fundamental", &[]);
     let auto = Plan::motor(&motor, Fidelity::Standard, &Numerics::default()).unwrap();

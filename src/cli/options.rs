@@ -2,7 +2,7 @@
 
 use super::exit::CliError;
 use super::terminal;
-use crate::atomic::check_writable;
+use crate::atomic::check_for_results;
 use crate::control::Cancel;
 use crate::digits::parse_duration;
 use crate::export::figure::Format;
@@ -259,7 +259,7 @@ impl OutputOptions {
             return Err(CliError::usage("--figures none is no figures at all: give it alone, or leave it out"));
         }
         let Some(path) = &self.out else { return Ok(None) };
-        check_writable(path)?;
+        check_for_results(path)?;
         let formats = Format::ALL.into_iter().filter(|format| self.has(format.name())).collect();
         Ok(Some(Folder { path, command, formats }))
     }

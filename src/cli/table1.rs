@@ -8,7 +8,7 @@ use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
-use crate::atomic::{Staged, check_writable};
+use crate::atomic::{Staged, check_for_results};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
 use crate::export::compare::{mark, status};
@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         return Err(CliError::usage("--converged is method auto, and --method paper was asked for: keep one"));
     }
     let folder = arguments.out.as_deref();
-    folder.map(check_writable).transpose()?;
+    folder.map(check_for_results).transpose()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, method)?;
 

@@ -17,6 +17,7 @@ use crate::export::figure::{
 use crate::scene::{ParameterKind, Scale, show_text};
 use crate::solution::StoppedBy;
 use crate::solve::Method;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -64,22 +65,49 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
 }
 
 /// The object of `--json`: a sweep, its points so far, of which the last axis varies fastest, and the published values of Table I in its plane.
-pub fn object(sweep: &Sweep, rows: &[Row]) -> Value {
-    let (scene, settings, quantities) = (sweep.scene(), sweep.settings(), sweep.quantities());
-    json!({
-        "preset": scene.name,
-        "scene": scene.scene(),
-        "force_unit": force_unit(sweep.problem()),
-        "method": settings.method.name(),
+pub fn object<'a>(sweep: &'a Sweep, rows: &'a [Row]) -> impl Serialize + 'a {
+    let (scene, settings) = (sweep.scene(), sweep.settings());
+    Object {
+        preset: &scene.name,
+        scene: scene.scene(),
+        force_unit: force_unit(sweep.problem()),
+        method: settings.method.name(),
         // The paper's method has no fidelity.
-        "fidelity": (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
-        "complete": rows.len() == sweep.len(),
+        fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
+        complete: rows.len() == sweep.len(),
         // As in the first column of the CSV.
-        "sweep": sweep.fingerprint(),
-        "axes": sweep.axes().iter().map(axis_object).collect::<Vec<_>>(),
-        "rows": rows.iter().map(|row| row_object(sweep.axes(), &quantities, row)).collect::<Vec<_>>(),
-        "published": sweep.published(),
-    })
+        sweep: sweep.fingerprint(),
+        axes: sweep.axes().iter().map(axis_object).collect(),
+        rows: Rows { sweep, rows },
+        published: sweep.published(),
+    }
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    preset: &'a str,
+    scene: &'static str,
+    force_unit: &'static str,
+    method: &'static str,
+    fidelity: Option<String>,
+    complete: bool,
+    sweep: String,
+    axes: Vec<Value>,
+    rows: Rows<'a>,
+    published: Vec<Published>,
+}
+
+/// Made into JSON one after the other: there may be a hundred thousand.
+struct Rows<'a> {
+    sweep: &'a Sweep,
+    rows: &'a [Row],
+}
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let quantities = self.sweep.quantities();
+        serializer.collect_seq(self.rows.iter().map(|row| row_object(self.sweep.axes(), &quantities, row)))
+    }
 }
 
 /// An axis: its key, the unit, how its values are spaced (`linear`, `log`, or of words `list`), and the values, numbers or words as in `--set`.
@@ -130,16 +158,18 @@ pub fn figure(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
         ..Provenance::named(&show_text(&sweep.scene().name))
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
+    let found =
+        rows.iter().filter(|row| row.status == RunStatus::Converged).filter_map(|row| row.numbers.get(quantity));
+    let [least, most] = extent(found);
+    // On a map, what differs by less than its error has one colour.
+    let error = typical_error(rows, quantity);
+    let noise = error.is_finite() && (0.0..error).contains(&(most - least));
+    let noise = noise.then_some(Range::Fixed(least - error, most + error));
     match sweep.axes() {
-        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity, Range::Auto)),
+        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity, noise.unwrap_or_default())),
         [first, x, y] => {
             // A map for each value of the first key, with one scale of colours.
-            let found = rows
-                .iter()
-                .filter(|row| row.status == RunStatus::Converged)
-                .filter_map(|row| row.numbers.get(quantity));
-            let [least, most] = extent(found);
-            let range = if least < most { Range::Fixed(least, most) } else { Range::Auto };
+            let range = noise.unwrap_or(if least < most { Range::Fixed(least, most) } else { Range::Auto });
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
                 let of_value: Vec<Row> =
@@ -276,14 +306,7 @@ pub(crate) fn map_panel(
         }
     }
     // There is nothing between words.
-    let error = typical_error(rows, quantity);
-    let contours = (x.words.is_empty() && y.words.is_empty()).then_some(error);
-    // What differs by less than its error has one colour.
-    let [least, most] = extent(values.iter().copied().filter(|value| value.is_finite()));
-    let range = match range {
-        Range::Auto if most - least < error => Range::Fixed(least - error, most + error),
-        given => given,
-    };
+    let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
     let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
     let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
@@ -338,18 +361,33 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = Row {
-            point: 1,
-            values: plane.values(1),
+        let row = |point: usize, numbers: Numbers| Row {
+            point,
+            values: plane.values(point),
             status: RunStatus::Converged,
             stopped_by: Some(StoppedBy::Accuracy),
             numbers,
             outside: Vec::new(),
         };
-        let drawn = figure(&plane, &[row], primary(&plane));
+        let drawn = figure(&plane, &[row(1, numbers)], primary(&plane));
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
         let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
         assert_eq!(known, [5]);
+
+        // Of nothing there is no range, and what differs by less than its error has one colour.
+        let range = |rows: &[Row]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
+            Layer::Map(ref map) => map.range.clone(),
+            _ => panic!("no map"),
+        };
+        let with = |alpha: f64, error: f64| {
+            let mut numbers = Numbers::default();
+            numbers.set(Quantity::Alpha, alpha);
+            numbers.set(Quantity::AlphaError, error);
+            numbers
+        };
+        let two = |error: f64| range(&[row(0, with(0.25, error)), row(1, with(0.75, error))]);
+        assert_eq!((range(&[]), two(0.25), two(f64::INFINITY)), (Range::Auto, Range::Auto, Range::Auto));
+        assert_eq!(two(1.0), Range::Fixed(-0.75, 1.75));
     }
 }
