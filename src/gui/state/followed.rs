@@ -34,7 +34,9 @@ impl<K: Clone, T: Send + 'static> Followed<K, T> {
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        if let (Some(end), Some(of)) = (self.work.news().end, self.asked.clone()) {
+        if let Some(end) = self.work.news().end
+            && let Some(of) = self.asked.clone()
+        {
             self.known = end.transpose().map(|found| (of, found)).or(self.known.take());
         }
     }
