@@ -279,7 +279,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     window.get_by_label_contains("this is not what a window of this version writes");
     assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.ron")).unwrap(), "the whole file");
     drop(window);
-    // What is not of a later version is told in the same way: progress in lessons, and what else there is.
+    // So are progress in lessons and settings that cannot be read.
     let kept_as = [
         ("lessons", "{\"a\": {\"step\": \"3\"}}"),
         ("budget", "soon"),
