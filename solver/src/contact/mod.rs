@@ -88,7 +88,7 @@ impl Contact {
     /// Nodes that stand for `lengths` \[m\], with film on `film_widths` \[m\] of the width at each, on a rotor with `modes`;
     /// `ambient_pressure` \[Pa\], `min_spacing` H_m \[m\], and `load` L \[N\] on one wavelength.
     pub fn new(
-        modes: Modes,
+        mut modes: Modes,
         lengths: Vec<f64>,
         film_widths: &[f64],
         ambient_pressure: f64,
@@ -96,6 +96,7 @@ impl Contact {
         load: f64,
     ) -> Self {
         let nodes = lengths.len();
+        modes.keep_positive(&lengths);
         Self {
             modes,
             ambient: film_widths.iter().map(|w| ambient_pressure * w).collect(),

@@ -26,6 +26,8 @@ pub struct Modes {
     cosines: Vec<f64>,
     /// sin(k_n x_i), `[n][i]`.
     sines: Vec<f64>,
+    /// 1 − C_n/C_∞ of the stiffest harmonic, or 0.
+    stiffest: f64,
 }
 
 /// The unknowns of one instant, kept as the start of the next solve.
@@ -93,7 +95,24 @@ impl Modes {
                 sines.push(s * cos + c * sin);
             }
         }
-        Self { nodes, count, local, scale, sign, cosines, sines }
+        let stiffest = (1..=count).map(|n| -smooth(n) / local).fold(0.0, f64::max);
+        Self { nodes, count, local, scale, sign, cosines, sines, stiffest }
+    }
+
+    /// Keeps the whole compliance positive on nodes that stand for `lengths` \[m\]: short waves look like longer ones on too few nodes, where
+    /// together they might take more from the local part than there is. Then all that are stiffer than the local part are made less so.
+    pub(super) fn keep_positive(&mut self, lengths: &[f64]) {
+        let stiff: Vec<usize> = (1..self.unknowns()).filter(|k| self.sign(*k) < 0.0).collect();
+        if stiff.is_empty() {
+            return;
+        }
+        let taken = self.stiffness(lengths).select_rows(&stiff).select_columns(&stiff) / self.local;
+        let (allowed, most) = (self.stiffest, taken.symmetric_eigenvalues().max());
+        if most > allowed {
+            for (scale, _) in self.scale.iter_mut().zip(&self.sign).filter(|(_, sign)| **sign < 0.0) {
+                *scale *= (allowed / most).sqrt();
+            }
+        }
     }
 
     /// C_∞ \[m²/N\].

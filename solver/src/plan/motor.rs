@@ -95,7 +95,8 @@ impl Plan {
         // What the trapped limit leaves out, it leaves out once.
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
-        let irregular = 1.0 + (IRREGULAR - 1.0) / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));
+        let sharp = 1.0 / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));
+        let irregular = 1.0 + (IRREGULAR - 1.0) * if rotor.dips() { 1.0 } else { sharp };
         Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
@@ -135,7 +136,8 @@ impl Plan {
 const RIGID: f64 = 1e-5;
 
 /// Local compliance over that of the closed film below which contact ends abruptly at the edges of teeth, so that its errors are not of
-/// second order; and what their estimate is multiplied by then (calibrated: docs/validation.md).
+/// second order; and what their estimate is multiplied by then, and where a harmonic is stiffer than the limit of short waves
+/// (calibrated: docs/validation.md).
 const SHARP: f64 = 2e-3;
 const IRREGULAR: f64 = 3.0;
 

@@ -85,6 +85,12 @@ impl Compliances {
         Self { harmonics, local: self.local.max(least), ..self }
     }
 
+    /// Whether a harmonic is stiffer than what is left beyond them all, as no body's is but a measured table's may be.
+    pub fn dips(&self) -> bool {
+        let least = self.beyond(self.harmonics.len());
+        self.harmonics.iter().any(|value| *value < least)
+    }
+
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
         if self.local > 0.0 { self.local } else { self.harmonic(n) }
