@@ -399,7 +399,7 @@ impl<'a> Scaled<'a> {
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let speed = self.motor.stator_speed();
-        let (unit, v0) = (self.torque(), Estimate::exact(speed));
+        let unit = self.torque();
         let per_radius = speed / self.motor.contact_radius;
         let power = unit * per_radius;
         let driven = unit.value > 0.0 && self.drive.0.load() > 0.0 && speed > 0.0;
@@ -412,6 +412,13 @@ impl<'a> Scaled<'a> {
             Some(judged(mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
         };
         let marked = |unit: Estimate, mark: fn(&Marks) -> f64| Some(self.scaled(unit, judged(mark)?, 1.0));
+        // What grids agree on at one speed by chance they do not agree on beside it.
+        let no_load = || {
+            let v = judged(|marks| marks.no_load)?;
+            let force = self.shares(&self.near(v.value), &|_, (s0, _), _| s0);
+            let slope = (force[0].value - force[2].value) / (2.0 * NEAR);
+            Some(Estimate { error: v.error.hypot(greatest_error(&force) / slope), ..v } * speed)
+        };
         // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
         let place = |mark: fn(&Marks) -> f64, share: Share<'_>| {
             let v = judged(mark)?;
@@ -427,7 +434,7 @@ impl<'a> Scaled<'a> {
         Performance {
             max_torque: unit,
             stall_torque: marked(unit, |marks| marks.stall).unwrap_or_else(|| nothing(unit)),
-            no_load_speed: marked(v0, |marks| marks.no_load),
+            no_load_speed: no_load(),
             max_power: marked(power, |marks| marks.output.1).unwrap_or_else(|| nothing(power)),
             max_power_speed: place(|marks| marks.output.0, &|v, (s0, _), _| v * s0),
             max_efficiency: marked(self.loss_scale(), |marks| marks.efficiency.1),

@@ -9,7 +9,7 @@
 //! The sum of line load × `length_m` over the rows of one time is the load in the series. Fields of a plate have no
 //! teeth and no contact; a strip's forces are per metre of width, and its columns are named so.
 
-use crate::analysis::quantity::force_unit;
+use super::fields;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use serde::Serialize;
@@ -54,14 +54,14 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
             for (i, (x, length)) in recording.x.iter().zip(&recording.node_length).enumerate() {
                 let (thickness, film) = (recording.film_thickness[line + i], recording.film[line + i]);
                 let Some(motor) = motor else {
-                    table.row([time, phase, *x, *length, thickness * 1e9, film].map(Number))?;
+                    table.row([time, phase, *x, *length, thickness * 1e9, film])?;
                     continue;
                 };
                 let (stator, gap) = (recording.stator[line + i], thickness - motor.spacing());
                 let surfaces = [stator, thickness, gap, stator + gap].map(|height| height * 1e9);
                 let forces = [recording.contact[line + i], film];
-                let before = [Number(time), Number(phase), Whole(tooth), Number(middle + x), Number(*length)];
-                table.row(before.into_iter().chain(surfaces.into_iter().chain(forces).map(Number)))?;
+                let before = [time, phase, tooth as f64, middle + x, *length];
+                table.row(before.into_iter().chain(surfaces).chain(forces))?;
             }
         }
     }
@@ -78,34 +78,21 @@ pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
         let time = recording.time(frame);
         for x in &recording.map_x {
             for (y, pressure) in recording.map_y.iter().zip(&mut values) {
-                table.row([time, *x, *y, pressure * 1e-3].map(Number))?;
+                table.row([time, *x, *y, pressure * 1e-3])?;
             }
         }
     }
     table.finish()
 }
 
-/// Writes what the whole wavelength (or the plate) does, time by time.
+/// Writes what the whole wavelength (or the plate) does, time by time: every field that has a value each frame.
 pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
-    let motor = matches!(problem.scenario, Scenario::Motor(_));
-    let force = |name: &str| format!("{name}_{}", force_unit(problem).to_lowercase().replace('/', "_per_"));
-    let names = ["time_s", &force("film_load"), "contact_load_n", "teeth_in_contact", "min_film_thickness_nm"];
-    let errors = [&force("film_load_error"), "min_film_thickness_error_nm", "max_pressure_error_kpa"];
-    let names = names.into_iter().filter(|name| motor || !["contact_load_n", "teeth_in_contact"].contains(name));
-    table.writer.write_record(names.chain(["max_pressure_kpa"]).chain(errors))?;
-    for frame in 0..recording.frames {
-        let loads = [recording.time(frame), recording.film_load[frame]].map(Number);
-        let contact = || [Number(recording.contact_load[frame]), Whole(recording.teeth_in_contact[frame])];
-        let extremes = [recording.min_film_thickness[frame] * 1e9, recording.max_pressure[frame] * 1e-3].map(Number);
-        let errors = [
-            (&recording.film_load_error, 1.0),
-            (&recording.min_film_thickness_error, 1e9),
-            (&recording.max_pressure_error, 1e-3),
-        ]
-        .map(|(errors, unit)| errors.get(frame).map_or(Nothing, |error| Number(error * unit)));
-        let contact = motor.then(contact).into_iter().flatten();
-        table.row(loads.into_iter().chain(contact).chain(extremes).chain(errors))?;
+    let series = fields::fields(problem, recording).into_iter().filter(|field| field.axes == fields::FRAMES);
+    let (names, mut columns): (Vec<_>, Vec<_>) = series.map(|field| (field.name, field.values)).unzip();
+    table.header(&names)?;
+    for _ in 0..recording.frames {
+        table.row(columns.iter_mut().map(|values| values.next().unwrap_or(f64::NAN)))?;
     }
     table.finish()
 }
@@ -145,15 +132,6 @@ pub fn words(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// What a field holds.
-pub(super) enum Cell {
-    /// Nine digits.
-    Number(f64),
-    Whole(usize),
-    Nothing,
-}
-use Cell::{Nothing, Number, Whole};
-
 /// A CSV file of numbers, row by row.
 pub(super) struct Table<'a> {
     writer: csv::Writer<&'a mut dyn Write>,
@@ -169,15 +147,15 @@ impl<'a> Table<'a> {
         Ok(self.writer.write_record(names.iter().map(AsRef::as_ref))?)
     }
 
-    pub(super) fn row(&mut self, cells: impl IntoIterator<Item = Cell>) -> io::Result<()> {
-        for cell in cells {
+    /// Nine digits of each number, whole ones as they are; what is not finite is empty.
+    pub(super) fn row(&mut self, cells: impl IntoIterator<Item = f64>) -> io::Result<()> {
+        for value in cells {
             self.text.clear();
-            // Writing to a String cannot fail.
-            let _ = match cell {
-                Number(0.0) => write!(self.text, "0"),
-                Number(value) => write!(self.text, "{value:.8e}"),
-                Whole(value) => write!(self.text, "{value}"),
-                Nothing => Ok(()),
+            // Writing to a String cannot fail; a sum with zero has no minus.
+            let _ = match value + 0.0 {
+                whole if whole.fract() == 0.0 && whole.abs() < 1e9 => write!(self.text, "{whole}"),
+                value if value.is_finite() => write!(self.text, "{value:.8e}"),
+                _ => Ok(()),
             };
             self.writer.write_field(&self.text)?;
         }

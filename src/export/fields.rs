@@ -9,9 +9,9 @@
 //! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip or a round plate: `film_n_per_m2`) |
 //! | `map_x_m`, `map_y_m` | | where the pressure is, of a symmetric film only the half that was solved |
 //! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
-//! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`) |
+//! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`); the contact load's error is the film load's |
 //! | `min_film_thickness_nm`, `max_pressure_kpa` | frames | the least film thickness and the highest pressure at every instant |
-//! | `film_load_error_n`, `min_film_thickness_error_nm`, `max_pressure_error_kpa` | frames | stated errors, absolute |
+//! | `film_load_error_n`, `teeth_in_contact_error`, `min_film_thickness_error_nm`, `max_pressure_error_kpa` | frames | stated errors, absolute |
 
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -28,9 +28,11 @@ pub struct Field<'a> {
     pub values: Box<dyn Iterator<Item = f64> + 'a>,
 }
 
+/// The axes of a series.
+pub const FRAMES: &[&str] = &["frame"];
+
 /// All fields of a solve.
 pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'a>> {
-    const FRAMES: &[&str] = &["frame"];
     const LINES: &[&str] = &["frame", "tooth", "node"];
     let length = |axis: &str| match axis {
         "frame" => recording.frames,
@@ -52,6 +54,7 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field(position, &["node"], of(&recording.x, 1.0)),
         field(size, &["node"], of(&recording.node_length, 1.0)),
     ];
+    let (mut contact, mut contact_error) = (Vec::new(), None);
     let (axes, film, load, error): (&'static [&'static str], _, _, _) = match &problem.scenario {
         Scenario::Motor(motor) => {
             let (spacing, pitch) = (motor.spacing() * 1e9, recording.pitch);
@@ -63,9 +66,13 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
                 field("stator_nm", LINES, Box::new(lines(recording, &recording.stator, 1e9))),
                 field("gap_nm", LINES, Box::new(gap)),
                 field("contact_n_per_m", LINES, Box::new(lines(recording, &recording.contact, 1.0))),
+            ]);
+            let errors = recording.touching_errors(motor.touching_thickness());
+            contact = vec![
                 field("contact_load_n", FRAMES, of(&recording.contact_load, 1.0)),
                 field("teeth_in_contact", FRAMES, Box::new(touching)),
-            ]);
+            ];
+            contact_error = Some(field("teeth_in_contact_error", FRAMES, Box::new(errors.into_iter())));
             (LINES, "film_n_per_m", "film_load_n", "film_load_error_n")
         }
         Scenario::Plate(plate) if plate.is_strip() => {
@@ -80,6 +87,9 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field("film_thickness_nm", axes, Box::new(lines(recording, &recording.film_thickness, 1e9))),
         field(film, axes, Box::new(lines(recording, &recording.film, 1.0))),
         field(load, FRAMES, of(&recording.film_load, 1.0)),
+    ]);
+    all.extend(contact);
+    all.extend([
         field("min_film_thickness_nm", FRAMES, of(&recording.min_film_thickness, 1e9)),
         field("max_pressure_kpa", FRAMES, of(&recording.max_pressure, 1e-3)),
     ]);
@@ -91,6 +101,7 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         // Of a recording on one mesh there is none.
         all.push(Field { name, axes: FRAMES, shape: vec![errors.len()], values: of(errors, unit) });
     }
+    all.extend(contact_error);
     all.extend([
         field("map_x_m", &["map_x"], of(&recording.map_x, 1.0)),
         field("map_y_m", &["map_y"], of(&recording.map_y, 1.0)),

@@ -1,7 +1,7 @@
 //! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rpm, for the
 //! whole ring.
 
-use super::csv::{Cell, Table};
+use super::csv::Table;
 use super::estimates;
 use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
@@ -64,19 +64,14 @@ pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     }
     table.header(&header)?;
     for (wet, dry) in curves.with_film.curve.iter().zip(&curves.without_film.curve) {
-        let mut row = vec![cell(curves.rpm(wet.speed))];
+        let mut row = vec![curves.rpm(wet.speed)];
         for point in [wet, dry] {
             let numbers = [Some(point.torque), Some(point.output), Some(point.friction), point.efficiency];
             let unknown = Estimate { value: f64::NAN, error: f64::NAN };
             let numbers = numbers.map(|number| number.unwrap_or(unknown));
-            row.extend(numbers.iter().flat_map(|number| [number.value, number.error]).map(cell));
+            row.extend(numbers.iter().flat_map(|number| [number.value, number.error]));
         }
         table.row(row)?;
     }
     table.finish()
-}
-
-/// Empty if it is not known.
-fn cell(value: f64) -> Cell {
-    if value.is_finite() { Cell::Number(value) } else { Cell::Nothing }
 }

@@ -354,7 +354,12 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
     // A pressure changes by what is left out also where the mean load has no share of it.
-    recording.judge_series(of_gas, of_gas.max(plan.left_out));
+    recording.judge_series(of_gas, of_gas.max(plan.left_out), plan.irregular);
+    if motor.surface.asperities.is_some()
+        && let Some(grid) = plan.grids.last()
+    {
+        recording.judge_short_waves(plan.harmonics(grid));
+    }
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
     let alpha = result.alpha.value;
@@ -376,13 +381,13 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let max_pressure = recording.extreme(LineLoads::max_pressures, pressures, errors, f64::max, f64::INFINITY);
     let (thicknesses, errors) = (&recording.min_film_thickness, &recording.min_film_thickness_error);
     let min_film_thickness =
-        recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min, motor.min_spacing);
+        recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min, motor.least_thickness());
     let levitated = recording.teeth_in_contact.iter().all(|&teeth| teeth == 0);
     let teeth_in_contact = Estimate {
         value: recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames,
         // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
         error: if levitated {
-            recording.near_teeth(motor.touching_thickness())
+            recording.touching_errors(motor.touching_thickness()).iter().sum::<f64>() / frames
         } else {
             recording.estimate(LineLoads::teeth_in_contact).error + motor.teeth as f64 / frames
         },

@@ -287,7 +287,7 @@ impl Lines {
 }
 
 /// Calls `each` with every harmonic, n = 1, 2, …, and cosine and sine of n times `angle`.
-fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64; 2], f64, f64)) {
+pub(super) fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64; 2], f64, f64)) {
     let (sin, cos) = angle.sin_cos();
     let (mut c, mut s) = (1.0, 0.0);
     for harmonic in harmonics {
