@@ -164,9 +164,9 @@ fn text(
             row.cycle.to_string(),
             significant(row.time_us, 4),
             row.main().to_string(),
-            significant(row.film_load_n, 4),
-            significant(row.min_gap_nm, 4),
-            significant(row.max_pressure_kpa, 4),
+            row.film_load().to_string(),
+            row.thickness().to_string(),
+            row.pressure().to_string(),
             format!("{:.1e}", row.change),
         ]);
     }

@@ -31,18 +31,30 @@ pub struct Row {
     pub load_ratio_error: Option<f64>,
     /// Mean of the film's net gauge force on one wavelength or the plate.
     pub film_load_n: f64,
+    /// Error that the grids show, absolute, as of all that follow.
+    pub film_load_error_n: Option<f64>,
     /// Its least value.
     pub film_load_min_n: f64,
+    /// Error of that.
+    pub film_load_min_error_n: Option<f64>,
     /// Its greatest value.
     pub film_load_max_n: f64,
-    /// Mean of the contact force on one wavelength.
+    /// Error of that.
+    pub film_load_max_error_n: Option<f64>,
+    /// Mean of the contact force on one wavelength; its error is that of the film load.
     pub contact_load_n: Option<f64>,
     /// Mean of the number of teeth that touch.
     pub teeth_in_contact: Option<f64>,
+    /// Error of that.
+    pub teeth_in_contact_error: Option<f64>,
     /// Least film thickness.
     pub min_gap_nm: f64,
+    /// Error of that.
+    pub min_gap_error_nm: Option<f64>,
     /// Greatest absolute pressure.
     pub max_pressure_kpa: f64,
+    /// Error of that.
+    pub max_pressure_error_kpa: Option<f64>,
     /// Largest change of ln Z over the cycle.
     pub change: f64,
     /// By how much ln Z may still change; null while nothing is known.
@@ -69,7 +81,7 @@ impl Row {
             Outcome::Motor(r) => {
                 [row.alpha, row.alpha_error] = parts(r.alpha);
                 row.contact_load_n = finite(r.contact_load.value);
-                row.teeth_in_contact = finite(r.teeth_in_contact.value);
+                [row.teeth_in_contact, row.teeth_in_contact_error] = parts(r.teeth_in_contact);
                 ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
             }
             Outcome::Plate(r) => {
@@ -79,15 +91,34 @@ impl Row {
                 ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
             }
         };
+        let (thickness, pressure) = (thickness * 1e9, pressure * 1e-3);
         [row.film_load_n, row.film_load_min_n, row.film_load_max_n] = loads.map(|load| load.value);
-        [row.min_gap_nm, row.max_pressure_kpa] = [thickness.value * 1e9, pressure.value * 1e-3];
+        [row.film_load_error_n, row.film_load_min_error_n, row.film_load_max_error_n] =
+            loads.map(|load| finite(load.error));
+        [row.min_gap_nm, row.max_pressure_kpa] = [thickness.value, pressure.value];
+        [row.min_gap_error_nm, row.max_pressure_error_kpa] = [thickness.error, pressure.error].map(finite);
         row
     }
 
     /// What rises to the steady state: α, or the load ratio.
     pub fn main(&self) -> Estimate {
-        let [value, error] = [self.alpha.or(self.load_ratio), self.alpha_error.or(self.load_ratio_error)];
-        Estimate { value: value.unwrap_or(f64::NAN), error: error.unwrap_or(f64::NAN) }
+        let value = self.alpha.or(self.load_ratio).unwrap_or(f64::NAN);
+        estimate(value, self.alpha_error.or(self.load_ratio_error))
+    }
+
+    /// Mean film load \[N; of a strip N/m\].
+    pub fn film_load(&self) -> Estimate {
+        estimate(self.film_load_n, self.film_load_error_n)
+    }
+
+    /// Least film thickness \[nm\].
+    pub fn thickness(&self) -> Estimate {
+        estimate(self.min_gap_nm, self.min_gap_error_nm)
+    }
+
+    /// Highest pressure \[kPa\].
+    pub fn pressure(&self) -> Estimate {
+        estimate(self.max_pressure_kpa, self.max_pressure_error_kpa)
     }
 
     /// How much of the way is done, 0 to 1, as ln of what remains.
@@ -96,6 +127,10 @@ impl Row {
         let by_change = self.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
         by_cycles.max(by_change)
     }
+}
+
+fn estimate(value: f64, error: Option<f64>) -> Estimate {
+    Estimate { value, error: error.unwrap_or(f64::NAN) }
 }
 
 /// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not

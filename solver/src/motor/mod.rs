@@ -301,8 +301,9 @@ impl<'a> Transient<'a> {
             |level| level.line_loads(motor),
             |level, coarser| level.recording(motor, plan, coarser),
         );
-        let Some(Marched { recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
+        let Some(Marched { mut recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
         let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
+        recording.judge_series(astray.min(1.0), astray.min(1.0).max(plan.left_out), plan.irregular);
         let mut result = summarise(motor, &recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = end - recording.film_load[0] / motor.load;

@@ -45,10 +45,11 @@ impl Transient {
             |level| level.fields(plate, false).0,
             |level, coarser| level.recording(plate, plan, coarser),
         );
-        let Marched { recording, change, mean, end } = match marched {
+        let Marched { mut recording, change, mean, end } = match marched {
             Err(Interrupted::Cancelled) => return Ok(None),
             marched => marched?,
         };
+        recording.judge_series(plan.left_out, plan.left_out, plan.irregular);
         let mut result = PlateResult::of(&recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = end - recording.film_load[0];

@@ -3,7 +3,6 @@
 use crate::estimate::Estimate;
 use crate::export::startup::Row;
 use crate::gui::command::StartupCommand;
-use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::chart::{Inset, between, chosen, dots, level, line, upright};
@@ -25,15 +24,12 @@ struct Quantity {
     titles: [&'static str; 3],
     /// What the glossary explains it under.
     word: &'static str,
-    /// Known with an error.
-    extrapolated: bool,
     of: fn(&Row) -> Estimate,
 }
 
 const ALPHA: Quantity = Quantity {
     titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
     word: "α",
-    extrapolated: true,
     of: Row::main,
 };
 const RATIO: Quantity = Quantity {
@@ -44,14 +40,12 @@ const RATIO: Quantity = Quantity {
 const THICKNESS: Quantity = Quantity {
     titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
     word: "Least film thickness",
-    extrapolated: false,
-    of: |row| Estimate::exact(row.min_gap_nm * 1e-3),
+    of: |row| row.thickness() * 1e-3,
 };
 const PRESSURE: Quantity = Quantity {
     titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
     word: "Highest pressure",
-    extrapolated: false,
-    of: |row| Estimate::exact(row.max_pressure_kpa),
+    of: Row::pressure,
 };
 const OF_MOTOR: &[(Quantity, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
 /// Without room for three: what is left out is in the words above.
@@ -96,10 +90,7 @@ fn plot(
     cx: &DrawContext<'_>,
 ) {
     let points = &startup.points;
-    // Extremes are those of one grid, without an error: compared with those of another they would mislead.
-    let aim = periodic
-        .filter(|run| quantity.extrapolated || run.fidelity == startup.fidelity)
-        .map(|run| (quantity.of)(&Row::of_outcome(&startup.problem, &run.solution.outcome)));
+    let aim = periodic.map(|run| (quantity.of)(&Row::of_outcome(&startup.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(quantity.of).collect();
     let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
     let margin = 0.12 * (high - low);
@@ -151,9 +142,9 @@ fn plot(
 pub fn words(row: &Row) -> String {
     let Estimate { value, error } = row.main();
     let (name, thickness) = match row.alpha {
-        Some(_) => ("α", format!(", least film thickness {} µm", number(row.min_gap_nm * 1e-3))),
+        Some(_) => ("α", format!(", least film thickness {} µm", row.thickness() * 1e-3)),
         None => ("load ratio", String::new()),
     };
-    let (cycle, pressure) = (row.cycle, number(row.max_pressure_kpa));
+    let (cycle, pressure) = (row.cycle, row.pressure());
     format!("cycle {cycle}: {name} {value:.4} ± {error:.1e}{thickness}, highest pressure {pressure} kPa absolute")
 }
