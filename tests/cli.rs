@@ -473,7 +473,9 @@ fn files_of_a_motor_agree_with_the_summary() {
     let series = columns(&folder.join("series.csv"));
     let steps = summary["stats"]["steps_per_cycle"].as_u64().unwrap() as usize;
     let film = &series["film_load_n"];
-    assert_eq!((film.len(), series.len()), (steps, 9));
+    assert_eq!((film.len(), series.len()), (steps, 10));
+    // A tooth is known to touch or not where it does not begin or end to.
+    assert!(series["teeth_in_contact_error"].iter().all(|error| [0.0, 1.0, 2.0].contains(error)));
     // The mean of the series is the headline.
     assert!(close(mean(film), number("film_load_n")));
     assert!(series["film_load_error_n"].iter().all(|error| *error > 0.0 && *error < 0.1 * mean(film)));

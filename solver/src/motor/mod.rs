@@ -303,7 +303,7 @@ impl<'a> Transient<'a> {
         );
         let Some(Marched { mut recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
         let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
-        recording.judge_series(astray.min(1.0), astray.min(1.0).max(plan.left_out), plan.irregular);
+        recording.judge_series(astray.min(1.0), astray.min(1.0).max(plan.left_out), UNEVEN * plan.irregular);
         let mut result = summarise(motor, &recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = end - recording.film_load[0] / motor.load;
@@ -320,6 +320,9 @@ impl<'a> Transient<'a> {
         Ok(Some(TransientCycle { outcome: Outcome::Motor(result), recording, change, elsewhere, unsettled }))
     }
 }
+
+/// Error of the load at an instant over that of its mean, where contact begins and ends (calibrated: docs/validation.md).
+const UNEVEN: f64 = 1.25;
 
 /// α with what the grids tell of its error.
 fn of_grids(plan: &Plan, found: &Found<Level>) -> Estimate {
@@ -355,7 +358,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
     // A pressure changes by what is left out also where the mean load has no share of it.
-    recording.judge_series(of_gas, of_gas.max(plan.left_out), plan.irregular);
+    recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
     if motor.surface.asperities.is_some()
         && let Some(grid) = plan.grids.last()
     {

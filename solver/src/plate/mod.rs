@@ -73,7 +73,7 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     // What does not leak while it should is a share of the swing, whatever the mean is.
     let swing = recording.film_load.iter().fold(0.0_f64, |swing, load| swing.max(load.abs()));
     let of_gas = elsewhere.max(plan.left_out * swing) / gas_force(plate, estimate.value);
-    recording.judge_series(of_gas, of_gas.max(plan.left_out), plan.irregular);
+    recording.judge_series(of_gas, of_gas.max(plan.left_out), 1.0);
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
     add_errors(&mut result, width_errors(plate, found));

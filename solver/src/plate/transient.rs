@@ -49,7 +49,7 @@ impl Transient {
             Err(Interrupted::Cancelled) => return Ok(None),
             marched => marched?,
         };
-        recording.judge_series(plan.left_out, plan.left_out, plan.irregular);
+        recording.judge_series(plan.left_out, plan.left_out, 1.0);
         let mut result = PlateResult::of(&recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = end - recording.film_load[0];

@@ -7,13 +7,9 @@ pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
 use crate::rotor::Compliances;
-use sample::turned;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
 use std::ops::{Deref, DerefMut};
 
-/// Error of the load at an instant over that of a mean which differs as much from grid to grid: it has less to even out.
-const LOAD: f64 = 1.25;
 /// Error of a greatest pressure over that of a mean which differs as much from grid to grid: it is found where contact begins, or between
 /// nodes, and comes closer with the first order only.
 const PEAK: f64 = 8.0;
@@ -145,8 +141,9 @@ impl Recording {
     }
 
     /// Errors of the series, frame by frame: that of the fields there, from what they are judged by, and what no grid shows, the relative errors
-    /// `of_gas`, the gas's force, and `of_pressure`, the highest one.
-    pub fn judge_series(&mut self, of_gas: f64, of_pressure: f64, irregular: f64) {
+    /// `of_gas`, the gas's force, and `of_pressure`, the highest one. `uneven`: error of the load at an instant over that of a mean which differs
+    /// as much from grid to grid, and has more to even out.
+    pub fn judge_series(&mut self, of_gas: f64, of_pressure: f64, uneven: f64) {
         let [before, finest] = &self.yardsticks[..] else { return };
         type Series = fn(&LineLoads) -> Vec<f64>;
         let errors = |found: &[f64], series: Series, factor: f64, everywhere: &dyn Fn(f64) -> f64| {
@@ -161,37 +158,13 @@ impl Recording {
         };
         let ambient: f64 = finest.ambient.iter().zip(&finest.node_length).map(|(force, length)| force * length).sum();
         let gas = ambient * self.teeth as f64;
-        self.film_load_error =
-            errors(&self.film_load, LineLoads::film_loads, LOAD * irregular, &|load| of_gas * (gas + load));
+        self.film_load_error = errors(&self.film_load, LineLoads::film_loads, uneven, &|load| of_gas * (gas + load));
         self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| of_pressure * p);
         let factor = if self.touching_from > 0.0 { ROUGH } else { 1.0 };
         let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|_| 0.0);
         let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
-    }
-
-    /// Adds to the errors of the least film thickness what the rotor is deflected by in harmonics of the load from the one `first` on, which
-    /// were left out: those of up to twice that, and up to half a pitch.
-    pub fn judge_short_waves(&mut self, first: usize) {
-        let last = 2 * first.max(self.teeth);
-        let (wave, limit) = (TAU / self.length, self.rotor.beyond(last));
-        let smooth = |n: usize| if n < first { 0.0 } else { self.rotor.harmonic(n) - limit };
-        let smooth: Vec<f64> = (1..=last).map(smooth).collect();
-        let nodes = self.x.len();
-        for frame in 0..self.frames.min(self.min_film_thickness_error.len()) {
-            let mut harmonics = vec![[0.0; 2]; last];
-            for (tooth, i) in (0..self.teeth).flat_map(|tooth| (0..nodes).map(move |i| (tooth, i))) {
-                let k = self.line_offset(tooth, frame) + i;
-                let force = (self.contact[k] + self.film[k]) * self.node_length[i] * 2.0 / self.length;
-                turned(wave * (tooth as f64 * self.pitch + self.x[i]), &mut harmonics, |[a, b], cos, sin| {
-                    *a += force * cos;
-                    *b += force * sin;
-                });
-            }
-            let deflections = harmonics.iter().zip(&smooth).map(|([a, b], smooth)| smooth.abs() * a.hypot(*b));
-            self.min_film_thickness_error[frame] += deflections.sum::<f64>();
-        }
     }
 
     /// An extreme of a series, none of which is beyond `bound`. Its error is by how much it differs on what this recording is judged by, or by

@@ -287,7 +287,7 @@ impl Lines {
 }
 
 /// Calls `each` with every harmonic, n = 1, 2, …, and cosine and sine of n times `angle`.
-pub(super) fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64; 2], f64, f64)) {
+fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64; 2], f64, f64)) {
     let (sin, cos) = angle.sin_cos();
     let (mut c, mut s) = (1.0, 0.0);
     for harmonic in harmonics {
@@ -297,6 +297,29 @@ pub(super) fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMu
 }
 
 impl Recording {
+    /// Adds to the errors of the least film thickness what the rotor is deflected by in harmonics of the load from the one `first` on, which
+    /// were left out: those of up to twice that, and up to half a pitch.
+    pub fn judge_short_waves(&mut self, first: usize) {
+        let last = 2 * first.max(self.teeth);
+        let (wave, limit) = (TAU / self.length, self.rotor.beyond(last));
+        let smooth = |n: usize| if n < first { 0.0 } else { self.rotor.harmonic(n) - limit };
+        let smooth: Vec<f64> = (1..=last).map(smooth).collect();
+        let nodes = self.x.len();
+        for frame in 0..self.frames.min(self.min_film_thickness_error.len()) {
+            let mut harmonics = vec![[0.0; 2]; last];
+            for (tooth, i) in (0..self.teeth).flat_map(|tooth| (0..nodes).map(move |i| (tooth, i))) {
+                let k = self.line_offset(tooth, frame) + i;
+                let force = (self.contact[k] + self.film[k]) * self.node_length[i] * 2.0 / self.length;
+                turned(wave * (tooth as f64 * self.pitch + self.x[i]), &mut harmonics, |[a, b], cos, sin| {
+                    *a += force * cos;
+                    *b += force * sin;
+                });
+            }
+            let deflections = harmonics.iter().zip(&smooth).map(|([a, b], smooth)| smooth.abs() * a.hypot(*b));
+            self.min_film_thickness_error[frame] += deflections.sum::<f64>();
+        }
+    }
+
     /// The same cycle at `frames` instants, evenly spaced from its first frame; between recorded frames read as [`Lines`] are. All teeth
     /// are stored, and no errors.
     pub fn resampled(&self, frames: usize) -> Self {
