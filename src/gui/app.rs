@@ -213,7 +213,7 @@ fn restored(
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
     let empty = stored("tour").is_none() && stored("scene").is_none();
     let mut faults = Vec::new();
-    if let (true, Some(file)) = (empty, file.filter(|file| file.metadata().is_ok_and(|known| known.len() > 0))) {
+    if let (true, Some(file)) = (empty, file.filter(|file| file.exists())) {
         faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
     }
     let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();

@@ -59,7 +59,9 @@ pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
         kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
     let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
     let (key, found, accepts) = (parameter.key, show_text(text.trim()), parameter.accepts());
-    format!("{key} = {found} is not a number: expected {accepts}{units}, or a calculation such as (1 + 2) × 3")
+    let sum = text.contains('+') && text.contains(char::is_alphabetic);
+    let sum = if sum && !units.is_empty() { ", where all terms of a sum have a unit or none" } else { "" };
+    format!("{key} = {found} is not a number: expected {accepts}{units}, or a calculation such as (1 + 2) × 3{sum}")
 }
 
 fn kind_of(unit: &str) -> Kind {
@@ -266,6 +268,9 @@ mod tests {
             assert!(message.starts_with("film.min_spacing_nm = "), "{message}");
             assert!(message.contains("from 5 to 10000 nm, in nm, µm, mm, cm, m"), "{message}");
         }
+        assert!(
+            of("film.min_spacing_nm", "2*100+50/2 nm").unwrap_err().ends_with("all terms of a sum have a unit or none")
+        );
         assert!(of("motor.waves", "7 mm").unwrap_err().contains("a whole number from 1 to 100"));
     }
 

@@ -18,7 +18,7 @@ pub struct StorageFile {
 }
 
 impl StorageFile {
-    /// The first file in `folder` that no window has. One that was never used begins as a copy of the first.
+    /// The first file in `folder` that no window has, and nothing but a file is in the place of. One that was never used begins as a copy of the first.
     ///
     /// # Errors
     /// If the folder cannot be made, or no file can be locked.
@@ -27,10 +27,14 @@ impl StorageFile {
         let first = folder.join("app.ron");
         for number in 1..=MOST {
             let path = if number == 1 { first.clone() } else { folder.join(format!("app-{number}.ron")) };
+            // What is no file, such as a pipe, would block.
+            if [&path, &path.with_extension("lock")].iter().any(|path| path.exists() && !path.is_file()) {
+                continue;
+            }
             let lock = File::options().create(true).append(true).open(path.with_extension("lock"))?;
             match lock.try_lock() {
                 Ok(()) => {
-                    if !path.exists() && first.exists() {
+                    if !path.exists() && first.is_file() {
                         fs::copy(&first, &path)?;
                     }
                     return Ok(Self { path, _lock: lock });
@@ -73,6 +77,14 @@ mod tests {
         assert_eq!(fs::read_to_string(other.path).unwrap(), "first");
         drop(one);
         assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.ron"));
+    }
+
+    #[test]
+    fn what_is_no_file_is_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("app.ron")).unwrap();
+        fs::create_dir(folder.path().join("app-2.lock")).unwrap();
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app-3.ron"));
     }
 
     #[test]
