@@ -336,8 +336,8 @@ fn headline(outcome: &Outcome) -> Estimate {
 
 /// Either scene on its way.
 enum SceneTransient<'a> {
-    Motor(Box<motor::Transient<'a>>),
-    Plate(Box<plate::Transient>),
+    Motor(Box<motor::MotorTransient<'a>>),
+    Plate(Box<plate::PlateTransient>),
 }
 
 impl<'a> SceneTransient<'a> {
@@ -378,9 +378,9 @@ impl<'a> SceneTransient<'a> {
     /// On the grids of `plan`; `width_error` is that of the nodes across, of the headline.
     fn on(problem: &'a Problem, plan: &Plan, width_error: f64, stats: &mut Stats) -> Result<Self, SolveError> {
         Ok(match &problem.scenario {
-            Scenario::Motor(motor) => Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error)?)),
+            Scenario::Motor(motor) => Self::Motor(Box::new(motor::MotorTransient::at_rest(motor, plan, width_error)?)),
             Scenario::Plate(plate) => {
-                Self::Plate(Box::new(plate::Transient::at_rest(plate, plan, width_error, stats)?))
+                Self::Plate(Box::new(plate::PlateTransient::at_rest(plate, plan, width_error, stats)?))
             }
         })
     }

@@ -6,7 +6,7 @@
 
 use super::MotorError;
 use super::ending::unless_cancelled;
-use super::level::Level;
+use super::level::MotorLevel;
 use crate::control::Cancel;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
@@ -21,7 +21,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
     let plan = Plan { every_tooth: false, trapped: false, shear: false, flow: Flow::Along, ..plan.clone() };
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {
-        let mut level = Level::new(motor, &plan, &Grid { steps: 2 * grid.steps, ..*grid });
+        let mut level = MotorLevel::new(motor, &plan, &Grid { steps: 2 * grid.steps, ..*grid });
         let Some(()) = unless_cancelled(level.dry_cycle(cancel))? else { return Ok(None) };
         let lines = level.line_loads(motor);
         cycles.push(LineLoads {

@@ -33,7 +33,7 @@ const LEAST_CHANGE: f64 = 1e-9;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
 #[derive(Debug)]
-pub(super) struct Level {
+pub(super) struct MotorLevel {
     teeth: usize,
     stored: usize,
     steps: usize,
@@ -69,13 +69,13 @@ pub(super) struct Level {
     line: Vec<f64>,
     /// `line` moved by the slow shift: ζ for the next round.
     next: Vec<f64>,
-    /// If gas leaves within a step: the gap that each node's film force is known for, lines ([`Level::soften`]).
+    /// If gas leaves within a step: the gap that each node's film force is known for, lines ([`MotorLevel::soften`]).
     reference: Option<Vec<f64>>,
     /// Width on which the film acts at the nodes of a tooth \[m\].
     widths: Vec<f64>,
 }
 
-impl Level {
+impl MotorLevel {
     pub(super) fn new(motor: &Motor, plan: &Plan, grid: &Grid) -> Self {
         let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
         let (half, beta) = (0.5 * motor.contact_width, plan.clustering_across);
@@ -529,7 +529,7 @@ impl Level {
     }
 }
 
-impl State for Level {
+impl State for MotorLevel {
     /// α.
     fn headline(&self) -> Mean {
         Mean { all: self.alpha(), shared: self.mean_film_load_of(2) / self.load }

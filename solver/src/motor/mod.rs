@@ -25,7 +25,7 @@ use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Outcome, Stats, Status};
 use ending::{Stop, unless_cancelled};
-use level::Level;
+use level::MotorLevel;
 
 /// Rounds that a start from another motor's state is given.
 const WARM_ROUNDS: usize = 12;
@@ -55,7 +55,7 @@ pub type Periodic = ladder::Periodic<MotorResult>;
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
 #[derive(Debug, Default)]
 pub struct Warm {
-    found: Option<Found<Level>>,
+    found: Option<Found<MotorLevel>>,
 }
 
 impl Warm {
@@ -140,7 +140,7 @@ pub fn touching(
     cancel: &Cancel,
 ) -> Option<Periodic> {
     let unrefined = Plan { most_grids: plan.grids.len(), ..plan.clone() };
-    let mut last: Option<Found<Level>> = None;
+    let mut last: Option<Found<MotorLevel>> = None;
     for heavier in HEAVIER {
         let plan = if heavier > 1.0 { &unrefined } else { plan };
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
@@ -153,7 +153,7 @@ pub fn touching(
             stats: &mut *stats,
         };
         let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
-        let floats = |level: &Level| level.alpha() > NEARLY_FLOATS;
+        let floats = |level: &MotorLevel| level.alpha() > NEARLY_FLOATS;
         if found.status != Status::Converged || found.levels.last().is_some_and(floats) {
             return None;
         }
@@ -177,7 +177,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve
     /// may take. Over asperities, whose contact problems cost many times as much, that would be too much.
-    fn march(&mut self, plan: &Plan) -> Option<Found<Level>> {
+    fn march(&mut self, plan: &Plan) -> Option<Found<MotorLevel>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
         let rough = self.motor.surface.asperities.is_some();
@@ -192,7 +192,7 @@ impl Search<'_> {
 }
 
 impl Scene for Search<'_> {
-    type Level = Level;
+    type Level = MotorLevel;
     type Error = MotorError;
     const WIDTH_AIM: f64 = 0.3;
     const MOST_WORK: f64 = 1.5e5;
@@ -201,15 +201,15 @@ impl Scene for Search<'_> {
         &mut self,
         plan: &Plan,
         grid: &Grid,
-        start: Option<&Level>,
+        start: Option<&MotorLevel>,
         similar: bool,
         number: usize,
-    ) -> Result<(Status, Level), MotorError> {
+    ) -> Result<(Status, MotorLevel), MotorError> {
         let motor = self.motor;
         let limit = if number + 1 < plan.grids.len() { plan.round_limit.min(COARSE_ROUNDS) } else { plan.round_limit };
         let grids = plan.grids.len().max(number + 1);
         let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
-        let mut level = Level::new(motor, plan, grid);
+        let mut level = MotorLevel::new(motor, plan, grid);
         if self.marching {
             let started = match start {
                 Some(other) => {
@@ -230,7 +230,7 @@ impl Scene for Search<'_> {
         let mut rounds = if similar { self.warm_rounds } else { limit };
         let mut softened = false;
         let anew = || {
-            let mut level = Level::new(motor, plan, grid);
+            let mut level = MotorLevel::new(motor, plan, grid);
             level.start(motor);
             level
         };
@@ -258,7 +258,7 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
+    fn settled(&self, plan: &Plan, found: &Found<MotorLevel>) -> bool {
         let whole = stated(plan, found);
         let grids = of_grids(plan, found).error;
         whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
@@ -267,22 +267,22 @@ impl Scene for Search<'_> {
 
 /// A motor from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 #[derive(Debug)]
-pub struct Transient<'a> {
+pub struct MotorTransient<'a> {
     motor: &'a Motor,
     plan: Plan,
-    levels: Vec<Level>,
+    levels: Vec<MotorLevel>,
     width_error: f64,
 }
 
-impl<'a> Transient<'a> {
+impl<'a> MotorTransient<'a> {
     /// At rest, every tooth by itself. `width_error`: that of α, by the nodes across.
     ///
     /// # Errors
     /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
     pub fn at_rest(motor: &'a Motor, plan: &Plan, width_error: f64) -> Result<Self, MotorError> {
         let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
-        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, &plan, grid)).collect();
-        levels.iter_mut().try_for_each(Level::rest)?;
+        let mut levels: Vec<MotorLevel> = plan.grids.iter().map(|grid| MotorLevel::new(motor, &plan, grid)).collect();
+        levels.iter_mut().try_for_each(MotorLevel::rest)?;
         Ok(Self { motor, plan, levels, width_error })
     }
 
@@ -325,13 +325,13 @@ impl<'a> Transient<'a> {
 const UNEVEN: f64 = 1.25;
 
 /// α with what the grids tell of its error.
-fn of_grids(plan: &Plan, found: &Found<Level>) -> Estimate {
+fn of_grids(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {
     let Estimate { value, error } = extrapolate_means(&found.headlines);
     Estimate { value, error: error * plan.irregular }
 }
 
 /// α with its error.
-fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
+fn stated(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {
     let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
@@ -349,7 +349,7 @@ fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
-fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Periodic {
+fn finish(motor: &Motor, plan: &Plan, found: &Found<MotorLevel>, stats: Stats) -> Periodic {
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();

@@ -8,7 +8,7 @@
 //! on coarse grids, then on those that the accuracy asks for, each solve started from the last. The gap is as accurate as the load is:
 //! its error is that of the load over |dF/dh|.
 
-use super::level::Level;
+use super::level::PlateLevel;
 use super::result::{add_errors, first_harmonic, numbers};
 use super::slow::slow_motion;
 use super::{Periodic, Search, finish, stated, turned};
@@ -160,7 +160,7 @@ struct Way<'a> {
     plate: Plate,
     load: f64,
     /// The last solve, to start the next from.
-    warm: Option<Found<Level>>,
+    warm: Option<Found<PlateLevel>>,
     stats: Stats,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
@@ -170,7 +170,7 @@ struct Way<'a> {
 struct Sought {
     x: f64,
     slope: f64,
-    found: Found<Level>,
+    found: Found<PlateLevel>,
     plan: Plan,
 }
 
@@ -179,7 +179,7 @@ impl Way<'_> {
         Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
     }
 
-    fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, Found<Level>), FloatError> {
+    fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, Found<PlateLevel>), FloatError> {
         // The last solve is kept beside this one.
         let need = memory::plate(plate, plan);
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;

@@ -54,7 +54,7 @@ pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
 
 /// The periodic state on one grid.
 #[derive(Debug)]
-pub(super) struct Level {
+pub(super) struct PlateLevel {
     /// Length of each step \[s\].
     dt: Vec<f64>,
     period: f64,
@@ -72,7 +72,7 @@ pub(super) struct Level {
     pub(super) residual: f64,
 }
 
-impl Level {
+impl PlateLevel {
     pub(super) fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
         let nodes = film_grid(plate, plan, grid);
         let nx = nodes.x.len();
@@ -350,7 +350,7 @@ impl Level {
     }
 }
 
-impl State for Level {
+impl State for PlateLevel {
     /// Mean load over all frames, and over those of the next coarser grid \[N\].
     fn headline(&self) -> Mean {
         let nx = self.cycle.grid().x.len();

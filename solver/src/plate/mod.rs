@@ -10,7 +10,7 @@ mod transient;
 pub(crate) use level::film_grid;
 pub use level::unit;
 pub use result::first_harmonic;
-pub use transient::Transient;
+pub use transient::PlateTransient;
 
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_smooth};
@@ -19,7 +19,7 @@ use crate::ladder::{self, Found, Nested, Scene, State, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::solution::{PlateResult, Stats, Status};
-use level::Level;
+use level::PlateLevel;
 use result::{add_errors, numbers};
 use std::borrow::Cow;
 
@@ -63,7 +63,7 @@ fn turned<'a>(plate: &'a Plate, plan: &Plan) -> Cow<'a, Plate> {
 }
 
 /// The numbers, their error and the fields of a plate, turned as the plan says, from what each grid gave, coarse to fine.
-fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Periodic {
+fn finish(plate: &Plate, plan: &Plan, found: &Found<PlateLevel>, stats: Stats) -> Periodic {
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
@@ -105,12 +105,12 @@ fn gas_force(plate: &Plate, load: f64) -> f64 {
 }
 
 /// Mean load \[N\] with the error of its grids alone.
-fn of_grids(found: &Found<Level>) -> Estimate {
-    extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, Level::unit))
+fn of_grids(found: &Found<PlateLevel>) -> Estimate {
+    extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, PlateLevel::unit))
 }
 
 /// Mean load with its error \[N\].
-fn stated(plate: &Plate, plan: &Plan, found: &Found<Level>) -> Estimate {
+fn stated(plate: &Plate, plan: &Plan, found: &Found<PlateLevel>) -> Estimate {
     let estimate = of_grids(found);
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
@@ -136,7 +136,7 @@ struct Search<'a> {
 }
 
 impl Scene for Search<'_> {
-    type Level = Level;
+    type Level = PlateLevel;
     type Error = Interrupted;
     /// Small, so that spring and damping are as accurate as the mean.
     const WIDTH_AIM: f64 = 0.02;
@@ -147,11 +147,11 @@ impl Scene for Search<'_> {
         &mut self,
         plan: &Plan,
         grid: &Grid,
-        start: Option<&Level>,
+        start: Option<&PlateLevel>,
         _: bool,
         number: usize,
-    ) -> Result<(Status, Level), Interrupted> {
-        let mut level = Level::new(self.plate, plan, grid);
+    ) -> Result<(Status, PlateLevel), Interrupted> {
+        let mut level = PlateLevel::new(self.plate, plan, grid);
         if let Some(coarse) = start {
             level.start_from(coarse);
         }
@@ -165,17 +165,17 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn settled(&self, plan: &Plan, found: &Found<Level>) -> bool {
+    fn settled(&self, plan: &Plan, found: &Found<PlateLevel>) -> bool {
         let whole = stated(self.plate, plan, found);
-        let unit = found.levels.last().map_or(0.0, Level::unit);
+        let unit = found.levels.last().map_or(0.0, PlateLevel::unit);
         whole.error <= plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
     }
 }
 
 /// What one node less across changes of [`numbers`], on the coarsest grid.
-fn width_errors(plate: &Plate, found: &Found<Level>) -> [f64; 5] {
+fn width_errors(plate: &Plate, found: &Found<PlateLevel>) -> [f64; 5] {
     let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 5] };
-    let of = |level: &Level| {
+    let of = |level: &PlateLevel| {
         let (lines, _) = level.fields(plate, false);
         numbers(&lines.film_loads(), &lines.max_pressures())
     };

@@ -1,6 +1,6 @@
 //! A plate from rest, cycle after cycle, on all grids of a plan at once.
 
-use super::level::Level;
+use super::level::PlateLevel;
 use crate::control::Cancel;
 use crate::film::cycle::Interrupted;
 use crate::ladder::{Marched, TransientCycle, march_cycle};
@@ -10,14 +10,14 @@ use crate::solution::{Outcome, PlateResult, Stats};
 
 /// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 #[derive(Debug)]
-pub struct Transient {
+pub struct PlateTransient {
     plate: Plate,
     plan: Plan,
-    levels: Vec<Level>,
+    levels: Vec<PlateLevel>,
     width_error: f64,
 }
 
-impl Transient {
+impl PlateTransient {
     /// From rest at the mean gap, gas at ambient pressure, to the widest gap, where the first cycle begins. `width_error`: that of the mean
     /// load, by the nodes across \[N\]; `stats`: what all has cost so far, to which this is added.
     ///
@@ -27,7 +27,7 @@ impl Transient {
         // It does not repeat, as frames between steps would ask.
         let plan = plan.even_steps();
         let plate = if plan.turned { plate.turned() } else { plate.clone() };
-        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(&plate, &plan, grid)).collect();
+        let mut levels: Vec<PlateLevel> = plan.grids.iter().map(|grid| PlateLevel::new(&plate, &plan, grid)).collect();
         levels.iter_mut().try_for_each(|level| level.rest(plate.mean_gap, stats))?;
         Ok(Self { plate, plan, levels, width_error })
     }

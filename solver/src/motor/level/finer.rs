@@ -1,9 +1,9 @@
 //! A finer grid starts from what a coarser one has found.
 
-use super::Level;
+use super::MotorLevel;
 use crate::film::grid::Between;
 
-impl Level {
+impl MotorLevel {
     /// Starts from the state on another grid, interpolated between its nodes and steps.
     pub(in crate::motor) fn start_from(&mut self, coarse: &Self) {
         for (s, shape) in self.shapes.iter_mut().enumerate() {

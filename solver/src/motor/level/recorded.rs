@@ -1,12 +1,12 @@
 //! The cycle of one grid as it is drawn and exported.
 
-use super::Level;
+use super::MotorLevel;
 use crate::film::grid::Start;
 use crate::plan::Plan;
 use crate::problem::Motor;
 use crate::recording::{Balance, LineLoads, Recording, Touching};
 
-impl Level {
+impl MotorLevel {
     /// Film, contact and gap.
     pub(in crate::motor) fn line_loads(&self, motor: &Motor) -> LineLoads {
         let x = &self.grid().x;

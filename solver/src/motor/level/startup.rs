@@ -5,7 +5,7 @@
 //! fixed point of the two, driven by Anderson acceleration of ln ζ, starts from ζ continued from the last two instants. What it
 //! settles to is a step of the same scheme as the periodic state's, so that this is where the transient ends, to the last digits.
 
-use super::{CONTACT_SHARE, Level, step_tolerance};
+use super::{CONTACT_SHARE, MotorLevel, step_tolerance};
 use crate::contact::{Instant, Shape};
 use crate::control::{Cancel, Reporter};
 use crate::estimate::left;
@@ -29,7 +29,7 @@ const SETTLED_SHARE: f64 = 0.01;
 /// Where three cycles change the film's load hardly less than the three before, the state may be that many times as far off.
 const CREEP: f64 = 10.0;
 
-impl Level {
+impl MotorLevel {
     /// Rest: the wave stands still, pressed against the rotor without a film, and the gas is at ambient pressure.
     ///
     /// # Errors
