@@ -132,6 +132,20 @@ fn an_npz_of_a_strip_has_no_teeth() {
 }
 
 #[test]
+fn an_npz_of_one_mesh_has_no_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let numerics = ["--set", "numerics.contact_nodes=60", "--set", "numerics.steps_per_cycle=60"];
+    done(&[&["solve", "fundamental", "--method", "paper", "--figures", "none", "--out", path][..], &numerics].concat());
+    let arrays = arrays(&folder.path().join("fields.npz"));
+    let errors: Vec<_> = arrays.iter().filter(|(name, _)| name.contains("_error")).collect();
+    assert!(
+        errors.len() == 4 && errors.iter().all(|(_, (shape, values))| *shape == [0] && values.is_empty()),
+        "{errors:?}"
+    );
+}
+
+#[test]
 fn python_reads_the_npz_with_the_example_of_the_docs() {
     let ready = Command::new("python3").args(["-c", "import numpy"]).stderr(Stdio::null()).status();
     if !ready.is_ok_and(|status| status.success()) {

@@ -416,7 +416,7 @@ impl<'a> Scaled<'a> {
         let no_load = || {
             let v = judged(|marks| marks.no_load)?;
             let force = self.shares(&self.near(v.value), &|_, (s0, _), _| s0);
-            let slope = (force[0].value - force[2].value) / (2.0 * NEAR);
+            let slope = ((force[0].value - force[2].value) / (2.0 * NEAR)).max(f64::MIN_POSITIVE);
             Some(Estimate { error: v.error.hypot(greatest_error(&force) / slope), ..v } * speed)
         };
         // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.

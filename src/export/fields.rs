@@ -54,7 +54,14 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field(position, &["node"], of(&recording.x, 1.0)),
         field(size, &["node"], of(&recording.node_length, 1.0)),
     ];
-    let (mut contact, mut contact_error) = (Vec::new(), None);
+    let (mut contact, mut touching_error) = (Vec::new(), None);
+    // Of a recording on one mesh there is none.
+    let of_errors = |name, errors: Vec<f64>| Field {
+        name,
+        axes: FRAMES,
+        shape: vec![errors.len()],
+        values: Box::new(errors.into_iter()),
+    };
     let (axes, film, load, error): (&'static [&'static str], _, _, _) = match &problem.scenario {
         Scenario::Motor(motor) => {
             let (spacing, pitch) = (motor.spacing() * 1e9, recording.pitch);
@@ -67,12 +74,12 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
                 field("gap_nm", LINES, Box::new(gap)),
                 field("contact_n_per_m", LINES, Box::new(lines(recording, &recording.contact, 1.0))),
             ]);
-            let errors = recording.touching_errors(motor.touching_thickness());
             contact = vec![
                 field("contact_load_n", FRAMES, of(&recording.contact_load, 1.0)),
                 field("teeth_in_contact", FRAMES, Box::new(touching)),
             ];
-            contact_error = Some(field("teeth_in_contact_error", FRAMES, Box::new(errors.into_iter())));
+            let errors = recording.touching_errors(motor.touching_thickness());
+            touching_error = Some(of_errors("teeth_in_contact_error", errors));
             (LINES, "film_n_per_m", "film_load_n", "film_load_error_n")
         }
         Scenario::Plate(plate) if plate.is_strip() => {
@@ -98,10 +105,9 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         ("min_film_thickness_error_nm", &recording.min_film_thickness_error, 1e9),
         ("max_pressure_error_kpa", &recording.max_pressure_error, 1e-3),
     ] {
-        // Of a recording on one mesh there is none.
-        all.push(Field { name, axes: FRAMES, shape: vec![errors.len()], values: of(errors, unit) });
+        all.push(of_errors(name, errors.iter().map(|error| error * unit).collect()));
     }
-    all.extend(contact_error);
+    all.extend(touching_error);
     all.extend([
         field("map_x_m", &["map_x"], of(&recording.map_x, 1.0)),
         field("map_y_m", &["map_y"], of(&recording.map_y, 1.0)),
