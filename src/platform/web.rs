@@ -101,6 +101,7 @@ pub mod worker {
     /// What a worker sends.
     #[derive(Debug)]
     pub enum News {
+        /// A message, as bytes.
         Message(Vec<u8>),
         /// The worker has failed, and has stopped.
         Failed(String),
