@@ -1,5 +1,5 @@
-//! Is the stated error of α, or of a plate's mean load ratio, honest? Random motors or plates, each solved at every fidelity; the true
-//! error of the others is taken to be the distance to reference. Measured numbers are in `docs/validation.md`. Of any other result, named
+//! Is the stated error of α, or of a plate's mean load ratio, honest? Random motors or plates, each solved at every fidelity, and within a
+//! budget that is spent at once, which gives the first grids of any budget; the true error is taken to be the distance to reference. Measured numbers are in `docs/validation.md`. Of any other result, named
 //! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
 //!
 //! ```text
@@ -75,15 +75,17 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
     let quantity = arguments.get(2).map(named).transpose()?;
 
     let mut random = Random(12345);
-    let judged = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine];
-    let mut tallies = judged.map(|fidelity| Tally::new(fidelity.name()));
+    let spent = Cancel::new().with_budget(|| || true);
+    let named = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine].map(|one| (one.name(), one, Cancel::new()));
+    let judged = [("no time", Fidelity::Reference, spent)].into_iter().chain(named);
+    let mut judged: Vec<_> = judged.map(|(name, fidelity, cancel)| (Tally::new(name), fidelity, cancel)).collect();
     let mut uncovered = String::new();
     for _ in 0..count {
         let (preset, changes) = drawn(&mut random);
         let words: Vec<String> = changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
         let words = format!("{preset} {}", words.join(" "));
-        let solve = |fidelity| found(preset, &changes, fidelity, quantity);
-        let reference = match solve(Fidelity::Reference)? {
+        let solve = |fidelity, cancel: &Cancel| found(preset, &changes, fidelity, quantity, cancel);
+        let reference = match solve(Fidelity::Reference, &Cancel::new())? {
             Ok(reference) => reference,
             Err(error) => {
                 writeln!(uncovered, "reference: {error}: {words}")?;
@@ -94,8 +96,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
             continue;
         }
         let unit = if quantity.is_some() { reference.value.abs() } else { 1.0 };
-        for (tally, fidelity) in tallies.iter_mut().zip(judged) {
-            match solve(fidelity)? {
+        for (tally, fidelity, cancel) in &mut judged {
+            match solve(*fidelity, cancel)? {
                 Ok(found) if found.value.is_nan() => {}
                 Ok(found) => {
                     let covered = tally.add(&found.over(unit), &reference.over(unit));
@@ -104,12 +106,12 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
                         let mark = if all_converged { "" } else { ", not converged" };
                         writeln!(
                             uncovered,
-                            "{fidelity}{mark}: {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {words}",
-                            found.value, found.error, reference.value, reference.error,
+                            "{}{mark}: {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {words}",
+                            tally.name, found.value, found.error, reference.value, reference.error,
                         )?;
                     }
                 }
-                Err(error) => writeln!(uncovered, "{fidelity}: {error}: {words}")?,
+                Err(error) => writeln!(uncovered, "{}: {error}: {words}", tally.name)?,
             }
         }
     }
@@ -118,7 +120,7 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
                      | 90 % | worst | median stated/true |\n\
                      | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
             .to_owned();
-    for tally in &mut tallies {
+    for (tally, ..) in &mut judged {
         tally.print(&mut table)?;
     }
     Ok((table, uncovered))
@@ -225,12 +227,13 @@ fn found(
     changes: &[(&str, String)],
     fidelity: Fidelity,
     quantity: Option<Quantity>,
+    cancel: &Cancel,
 ) -> Result<Result<Found, SolveError>, Box<dyn Error>> {
     let mut scene = presets::find(preset)?;
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str())))?;
     let problem = Problem::try_from(&scene)?;
     let settings = Settings { fidelity, ..Settings::default() };
-    Ok(solve(&problem, &settings, &mut (), &Cancel::new()).map(|solution| {
+    Ok(solve(&problem, &settings, &mut (), cancel).map(|solution| {
         let numbers = Numbers::of(&problem, &solution);
         let asked = quantity.unwrap_or(if numbers.get(Alpha).is_some() { Alpha } else { LoadRatio });
         let value = numbers.get(asked).unwrap_or(f64::NAN);

@@ -8,7 +8,7 @@ mod scenes;
 use rayon::prelude::*;
 use squeezefilm::control::Cancel;
 use squeezefilm::dimensionless::Dimensionless;
-use squeezefilm::fidelity::Fidelity;
+use squeezefilm::fidelity::{Fidelity, Spec};
 use squeezefilm::motor;
 use squeezefilm::plan::{Decision, Plan, ROTOR_EFFECT};
 use squeezefilm::plate;
@@ -37,20 +37,27 @@ fn a_wave_of_many_decay_lengths_has_as_many_harmonics_as_it_needs() {
     }
 }
 
-/// What *draft* and *standard* find of α is as near to what *fine* finds as they say.
+/// What *draft*, *standard* and a budget that is spent at once find of α is as near to what *fine* finds as they say.
 fn is_within_its_error(motor: &Motor) {
-    let solved = |fidelity| {
-        let plan = Plan::motor(motor, fidelity, &Numerics::default()).unwrap();
-        println!("{fidelity}: {:?}", plan.grids.iter().map(|grid| plan.harmonics(grid)).collect::<Vec<_>>());
-        let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
-        assert_eq!(found.status, Status::Converged, "{fidelity}");
-        found.result.alpha
+    let solved = |fidelity: Fidelity, spec: &Spec, cancel: &Cancel| {
+        let plan = Plan::motor_to(motor, fidelity, spec, &Numerics::default(), cancel).unwrap();
+        let harmonics: Vec<_> = plan.grids.iter().map(|grid| plan.harmonics(grid)).collect();
+        println!("{fidelity}: {harmonics:?}");
+        let found = motor::periodic(motor, &plan, &mut (), cancel).unwrap();
+        (found.status, found.result.alpha, harmonics)
     };
-    let fine = solved(Fidelity::Fine);
-    for fidelity in [Fidelity::Draft, Fidelity::Standard] {
-        let found = solved(fidelity);
-        println!("{fidelity}: {found}, {fine}");
-        assert!((found.value - fine.value).abs() < found.error + fine.error, "{fidelity}: {found}, {fine}");
+    let named = |fidelity: Fidelity| {
+        let (status, alpha, harmonics) = solved(fidelity, &fidelity.spec(), &Cancel::new());
+        assert_eq!(status, Status::Converged, "{fidelity}");
+        (alpha, harmonics)
+    };
+    let spent = Cancel::new().with_budget(|| || true).started();
+    let (_, early, harmonics) = solved(Fidelity::Reference, &Fidelity::Reference.spec().from_coarse(), &spent);
+    let ((fine, _), draft) = (named(Fidelity::Fine), named(Fidelity::Draft));
+    assert_eq!(harmonics, draft.1);
+    for found in [early, draft.0, named(Fidelity::Standard).0] {
+        println!("{found}, {fine}");
+        assert!((found.value - fine.value).abs() < found.error + fine.error, "{found}, {fine}");
     }
 }
 

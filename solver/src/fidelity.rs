@@ -56,6 +56,8 @@ pub struct Spec {
     pub plate_edge_fraction: f64,
     /// Relative error in α at which the level aims: terms of the model with a smaller effect are left out.
     pub target_error: f64,
+    /// What the error that a motor's grids tell is multiplied by, at the least.
+    pub least_factor: f64,
 }
 
 /// Number of nested grids of a plan: the finest one, and those with half and a quarter of its intervals and steps.
@@ -113,6 +115,7 @@ impl Fidelity {
                 plate_tolerance: 1e-4,
                 plate_edge_fraction: 0.5,
                 target_error: 2e-2,
+                least_factor: 1.0,
             },
             Self::Standard => Spec {
                 along: 12,
@@ -128,6 +131,7 @@ impl Fidelity {
                 plate_tolerance: 1e-4,
                 plate_edge_fraction: 0.5,
                 target_error: 5e-3,
+                least_factor: 1.0,
             },
             Self::Fine => Spec {
                 along: 24,
@@ -143,6 +147,7 @@ impl Fidelity {
                 plate_tolerance: 1e-5,
                 plate_edge_fraction: 0.4,
                 target_error: 1e-3,
+                least_factor: 1.0,
             },
             Self::Reference => Spec {
                 along: 48,
@@ -158,6 +163,7 @@ impl Fidelity {
                 plate_tolerance: 1e-6,
                 plate_edge_fraction: 0.4,
                 target_error: 2e-4,
+                least_factor: 1.0,
             },
             Self::To(_) => {
                 let target_error = self.accuracy();
@@ -193,16 +199,29 @@ impl Spec {
             plate_tolerance: real(self.plate_tolerance, fine.plate_tolerance),
             plate_edge_fraction: real(self.plate_edge_fraction, fine.plate_edge_fraction),
             target_error,
+            least_factor: 1.0,
         }
     }
 
     /// The same aim from coarse grids on, so that there soon is a result to be made better.
     pub fn from_coarse(&self) -> Self {
-        let coarse = Fidelity::Draft.spec();
-        let (along, steps, per_wave) = (coarse.along, coarse.steps, coarse.per_wave);
-        Self { along, steps, per_wave, plate: coarse.plate, plate_steps: coarse.plate_steps, ..*self }
+        let Self { across, tolerance, plate_tolerance, plate_edge_fraction, target_error, .. } = *self;
+        let least_factor = EARLY;
+        Self {
+            across,
+            tolerance,
+            plate_tolerance,
+            plate_edge_fraction,
+            target_error,
+            least_factor,
+            ..Fidelity::Draft.spec()
+        }
     }
 }
+
+/// What the error that grids tell is multiplied by if time may be up on the first of them: at a named level, an error that they tell too small
+/// is often covered by what else is part of it (calibrated: docs/validation.md).
+const EARLY: f64 = 2.0;
 
 impl Ord for Fidelity {
     fn cmp(&self, other: &Self) -> Ordering {

@@ -12,7 +12,7 @@ use crate::motor::{MotorError, without_film};
 use crate::plan::{Plan, wedge_bound};
 use crate::problem::{Motor, Numerics, Problem, Scenario, Wedge, rpm};
 use crate::recording::Recording;
-use crate::solution::{MotorResult, Outcome, Performance, Solution, Status};
+use crate::solution::{Accuracy, MotorResult, Outcome, Performance, Solution, Status, StoppedBy};
 use crate::solve::{Record, Settings, solve};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -45,8 +45,8 @@ pub struct TorqueCurves {
 }
 
 impl TorqueCurves {
-    /// From a solve of a motor, and the contact without film, which is solved here on the grids that `fidelity` and the scene ask for. `None`
-    /// of a plate, and if cancelled.
+    /// From a solve of a motor, and the contact without film, which is solved here on the grids that `fidelity` and the scene ask for, or if the
+    /// time for the solve was up, on those of the fidelity that it reached. `None` of a plate, and if cancelled.
     ///
     /// # Errors
     /// [`MotorError`] if a contact problem without film has no solution to working precision.
@@ -59,6 +59,10 @@ impl TorqueCurves {
         let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else {
             return Ok(None);
         };
+        let Accuracy { stated, stopped_by, .. } = solution.accuracy;
+        let reached =
+            |level: &Fidelity| stopped_by == StoppedBy::Budget && *level < fidelity && level.accuracy() <= stated;
+        let fidelity = Fidelity::ALL.into_iter().find(reached).unwrap_or(fidelity);
         let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
         let with_film = Scaled::with_film(motor, result, &solution.recording);

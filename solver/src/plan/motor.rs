@@ -125,7 +125,7 @@ impl Plan {
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
-            irregular,
+            irregular: irregular.max(spec.least_factor),
             decisions,
         })
     }
