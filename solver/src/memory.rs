@@ -118,8 +118,10 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
     let lines = (6 + u64::from(plan.shear)) * stored * steps * film.along;
     let stator = instants * nodes;
     let modes = 4 * harmonics * nodes + 8 * nodes;
+    // Of a Newton step: the equations, their factors, and what they are made of.
+    let matrices = 3 * nodes.min(2 * harmonics).pow(2);
     let shapes = 2 * harmonics * instants;
-    films + lines + stator + modes + shapes
+    films + lines + stator + modes + matrices + shapes
 }
 
 fn need(numbers: u64, (along, across, steps, teeth): (usize, usize, usize, usize)) -> Need {

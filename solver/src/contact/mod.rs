@@ -14,9 +14,9 @@
 //! ```
 //!
 //! What is left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (if a table has a harmonic stiffer than
-//! the last, its saddle point: see `modes`). Newton's method (semi-smooth,
-//! since φ has a corner where contact begins) with a line search on the slope converges from anywhere; once no node
-//! changes sides the remaining error is round-off. Complementarity holds exactly by construction.
+//! the last, its saddle point: see `modes`). Newton's method (semi-smooth, since φ has a corner where contact begins) with a line search on
+//! the slope converges from anywhere; once no node changes sides the remaining error is round-off. A step is solved for between the modes or,
+//! where these are more, between the nodes. Complementarity holds exactly by construction.
 //!
 //! **Asperities** in place of the hard stop make c = w p(g) a smooth function that falls with g, now the separation of the mean planes, and h the
 //! mean gap over them. g = s + C_∞ q(g) then is a scalar equation whose left side less its right side rises with g: it has one root, found to working
@@ -25,17 +25,22 @@
 mod modes;
 mod rough;
 
+use modes::scale_both;
 pub use modes::{Modes, Shape, cutoff};
 
 use crate::numerics::dot;
 use crate::surface::Asperities;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use faer::linalg::solvers::{Ldlt, SolveCore};
+use faer::{Conj, MatMut, MatRef, Side};
+use nalgebra::{DMatrix, DVector};
 use rough::Rough;
 
 /// What does not change from one instant to the next.
 #[derive(Clone, Debug)]
 pub struct Contact {
     modes: Modes,
+    /// Deflection \[m/N\] of the smooth part at each node under a unit force at each other, if nodes are fewer than unknowns.
+    compliance: Option<DMatrix<f64>>,
     /// Δx_i \[m\].
     lengths: Vec<f64>,
     /// p_a × width on which the film acts at the node \[N/m\]; 0 on a tooth's edges, where the film is at p_a.
@@ -97,8 +102,10 @@ impl Contact {
     ) -> Self {
         let nodes = lengths.len();
         modes.keep_positive(&lengths);
+        let compliance = (nodes < modes.unknowns()).then(|| modes.compliance(|sign| sign));
         Self {
             modes,
+            compliance,
             ambient: film_widths.iter().map(|w| ambient_pressure * w).collect(),
             lengths,
             ambient_pressure,
@@ -279,6 +286,14 @@ impl Contact {
     }
 
     fn newton_step(&self, gradient: &[f64]) -> Option<DVector<f64>> {
+        let step = match &self.compliance {
+            Some(compliance) => self.step_of_nodes(compliance, gradient),
+            None => self.step_of_modes(gradient),
+        };
+        step.filter(|step| step.iter().all(|v| v.is_finite()))
+    }
+
+    fn step_of_modes(&self, gradient: &[f64]) -> Option<DVector<f64>> {
         let mut hessian: DMatrix<f64> = self.modes.stiffness(&self.stiffness);
         for k in 1..hessian.nrows() {
             hessian[(k, k)] += self.modes.sign(k);
@@ -286,18 +301,44 @@ impl Contact {
         if hessian[(0, 0)] <= 0.0 {
             return None;
         }
-        let mut step = DVector::from_column_slice(gradient);
-        if self.modes.is_minimum() {
-            Cholesky::new(hessian)?.solve_mut(&mut step);
-        } else {
-            // The balance a − ⟨q, ψ⟩ of a concave mode is its gradient with the other sign, and so is its step.
-            hessian.lu().solve_mut(&mut step).then_some(())?;
-            for k in 1..step.len() {
-                step[k] *= self.modes.sign(k);
-            }
+        // The balance a − ⟨q, ψ⟩ of a concave mode is its gradient with the other sign, and so is its step.
+        let mut step = -DVector::from_column_slice(gradient);
+        Factors::of(&hessian)?.solve(&mut step);
+        for k in 1..step.len() {
+            step[k] *= self.modes.sign(k);
         }
-        step.neg_mut();
-        step.iter().all(|v| v.is_finite()).then_some(step)
+        Some(step)
+    }
+
+    /// The same step by the forces of the nodes. With nodal stiffness K, smooth compliance G between the nodes, and the deflection v of the
+    /// gradient's modes, the forces that the step takes off are r = K(δz₀ − v − G r), and Σ r = −∂₀. What is solved has K on both sides, as a
+    /// root: I + K^½ G K^½ is positive whatever the sign of a mode, because the whole compliance is.
+    fn step_of_nodes(&self, compliance: &DMatrix<f64>, gradient: &[f64]) -> Option<DVector<f64>> {
+        let nodes = self.nodes();
+        let root = DVector::from_iterator(nodes, self.stiffness.iter().map(|stiffness| stiffness.sqrt()));
+        let mut matrix = compliance.clone();
+        scale_both(&mut matrix, root.as_slice());
+        for i in 0..nodes {
+            matrix[(i, i)] += 1.0;
+        }
+        let factors = Factors::of(&matrix)?;
+        let mut modal = gradient.to_vec();
+        modal[0] = 0.0;
+        let mut deflection = DVector::zeros(nodes);
+        self.modes.deflection(&modal, deflection.as_mut_slice());
+        let (mut rigid, mut smooth) = (root.clone(), root.component_mul(&deflection));
+        factors.solve(&mut rigid);
+        factors.solve(&mut smooth);
+        let pushes = root.dot(&rigid);
+        let offset = (root.dot(&smooth) - gradient[0]) / pushes;
+        let force = (rigid * offset - smooth).component_mul(&root);
+        let mut step = DVector::zeros(gradient.len());
+        self.modes.project(force.as_slice(), step.as_mut_slice());
+        for (step, gradient) in step.iter_mut().zip(gradient) {
+            *step = -gradient - *step;
+        }
+        step[0] = offset;
+        (pushes > 0.0).then_some(step)
     }
 
     /// z₀ that balances the load with the other amplitudes as they are, by bisection: the total force falls with z₀.
@@ -352,6 +393,22 @@ impl Contact {
                 (self.min_spacing, (-s / local - self.rest[i] / local - film).max(0.0))
             };
         }
+    }
+}
+
+/// L D Lᵀ of a symmetric matrix, from its lower triangle: a positive one, or that of a saddle point, positive for some unknowns and
+/// negative for the others.
+struct Factors(Ldlt<f64>);
+
+impl Factors {
+    fn of(matrix: &DMatrix<f64>) -> Option<Self> {
+        let matrix = MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols());
+        Ldlt::new(matrix, Side::Lower).ok().map(Self)
+    }
+
+    fn solve(&self, right: &mut DVector<f64>) {
+        let rows = right.len();
+        self.0.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, 1));
     }
 }
 

@@ -9,7 +9,7 @@
 
 use crate::numerics::dot;
 use crate::rotor::Compliances;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 
 /// Cosines and sines of the harmonics at the contact nodes, and the compliance of each.
 #[derive(Clone, Debug)]
@@ -106,13 +106,32 @@ impl Modes {
         if stiff.is_empty() {
             return;
         }
-        let taken = self.stiffness(lengths).select_rows(&stiff).select_columns(&stiff) / self.local;
-        let (allowed, most) = (self.stiffest, taken.symmetric_eigenvalues().max());
+        // Of the same largest eigenvalue, between modes or between nodes.
+        let taken = if stiff.len() < self.nodes {
+            self.stiffness(lengths).select_rows(&stiff).select_columns(&stiff)
+        } else {
+            let mut taken = self.compliance(|sign| f64::from(sign < 0.0));
+            scale_both(&mut taken, &lengths.iter().map(|length| length.sqrt()).collect::<Vec<_>>());
+            taken
+        };
+        let (allowed, most) = (self.stiffest, taken.symmetric_eigenvalues().max() / self.local);
         if most > allowed {
             for (scale, _) in self.scale.iter_mut().zip(&self.sign).filter(|(_, sign)| **sign < 0.0) {
                 *scale *= (allowed / most).sqrt();
             }
         }
+    }
+
+    /// Deflection \[m/N\] at each node under a unit force at each other, of harmonics with a weight by the sign of their compliance.
+    pub(super) fn compliance(&self, weight: impl Fn(f64) -> f64) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(self.nodes, self.nodes);
+        for n in 1..=self.count {
+            for wave in [self.cosine(n), self.sine(n)] {
+                let wave = DVectorView::from_slice(wave, self.nodes);
+                matrix.ger(weight(self.sign[n - 1]) * self.scale[n - 1].powi(2), &wave, &wave, 1.0);
+            }
+        }
+        matrix
     }
 
     /// C_∞ \[m²/N\].
@@ -123,11 +142,6 @@ impl Modes {
     /// Sign of the own stiffness of unknown `index`, z₀ not among them: −1 for a mode stiffer than the local part.
     pub(super) fn sign(&self, index: usize) -> f64 {
         self.sign[(index - 1) % self.count]
-    }
-
-    /// Whether the local part is the stiffest of all: then every sign is positive, and the solution a minimum.
-    pub(super) fn is_minimum(&self) -> bool {
-        self.sign.iter().all(|sign| *sign > 0.0)
     }
 
     /// Unknowns: z₀ and two for each harmonic.
@@ -193,5 +207,12 @@ impl Modes {
         }
         matrix.fill_upper_triangle_with_lower_triangle();
         matrix
+    }
+}
+
+/// Entry (i, j) times `factors` i and j.
+pub(super) fn scale_both(matrix: &mut DMatrix<f64>, factors: &[f64]) {
+    for (mut column, factor) in matrix.column_iter_mut().zip(factors) {
+        column.iter_mut().zip(factors).for_each(|(value, other)| *value *= factor * other);
     }
 }
