@@ -178,9 +178,11 @@ pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
         let (unit, scale) = prefixed(span(values, 0.0)[1], unit);
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
         let lines = runs.iter().zip(performances).map(|(run, found)| {
-            let points = found.curve.iter().map(|point| [speed(run, point.speed), value(point) * scale]);
-            // What brakes the rotor is left out.
-            Line::new(run.name, points.filter(|point| point[1] >= 0.0), run.style)
+            // What brakes the rotor is left out; at the end of what drives it the torque is zero but for rounding.
+            let end = found.no_load_speed.map_or(f64::INFINITY, |speed| speed.value);
+            let driven = found.curve.iter().filter(|point| point.speed <= end);
+            let points = driven.map(|point| [speed(run, point.speed), value(point).max(0.0) * scale]);
+            Line::new(run.name, points, run.style)
         });
         Panel::new(title, x, Axis::new(name, unit).including([0.0])).height(36.0).layer(rest(0.0, "")).layers(lines)
     };
