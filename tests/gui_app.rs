@@ -6,7 +6,7 @@ mod window;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::epaint::{Primitive, Shape};
-use eframe::egui::{Key, Modifiers, Vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
@@ -82,6 +82,16 @@ fn play_step_and_scrub_by_key_and_button() {
     assert_eq!(place(&window), 1.0);
     window.press(Key::CloseBracket);
     assert_eq!(window.known().view.tooth, 1);
+    // A tap, within one frame.
+    let at = window.get_by_role_and_label(Role::Slider, "Time in the cycle").rect().center();
+    window.event(Event::PointerMoved(at));
+    window.step();
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        window.input_mut().events.push(Event::PointerButton { pos: at, button, pressed, modifiers });
+    }
+    window.run_steps(3);
+    assert!((place(&window) - 0.5 * frames as f64).abs() < 0.5, "{} of {frames}", place(&window));
     window.press(Key::Space);
     assert!(window.known().view.playing);
 }

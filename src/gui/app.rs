@@ -7,6 +7,7 @@ use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
 use super::ui::modals::glossary::is_searched;
+use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
 use super::update::storage::keep;
@@ -45,6 +46,7 @@ impl App {
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
+        context.egui_ctx.add_plugin(Taps::default());
         mirror(&context.egui_ctx);
         let (state, next) = restored(context.storage, opened, platform.storage.as_deref())?;
         let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;

@@ -17,5 +17,6 @@ pub mod panels;
 pub mod parts;
 pub mod rich;
 pub mod tabs;
+pub mod taps;
 pub mod theme;
 pub mod views;
