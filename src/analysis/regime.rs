@@ -112,6 +112,9 @@ pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
         (_, Outcome::Motor(MotorResult { levitated: true, .. })) => {
             "at the minimum spacing, above which the rotor floats"
         }
+        (Scenario::Motor(Motor { surface, .. }), _) if surface.asperities.is_some() => {
+            "at the mean gap if all teeth carried alike"
+        }
         (Scenario::Motor(_), _) => "at the minimum spacing",
         (Scenario::Plate(_), _) => "at the mean gap",
     };

@@ -200,7 +200,8 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floati
         "fall of the mean load per unit of mean gap",
     ]);
     if found.is_stable() {
-        let of = format!("of the mass whose weight is the load, {} g, on that stiffness alone", shown(mass));
+        let gram = if plate.is_strip() { "g/m" } else { "g" };
+        let of = format!("of the mass whose weight is the load, {} {gram}, on that stiffness alone", shown(mass));
         columns.row(["natural frequency", &format!("{} Hz", found.natural_frequency), &of]);
     }
     let Some(slow) = found.slow else { return };

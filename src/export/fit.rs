@@ -127,10 +127,12 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
     let words = first.what.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
     if let Observable::Torque { .. } = first.what {
-        let mut panel = Panel::new("", Axis::new("speed of the rotor", "rpm"), Axis::new(label, unit).including([0.0]));
+        let speed = |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
+        let [slowest, fastest] = extent(all().map(|(one, ..)| speed(one.what)));
+        let room = 0.04 * (fastest - slowest);
+        let x = Axis::new("speed of the rotor", "rpm").including([slowest - room, fastest + room]);
+        let mut panel = Panel::new("", x, Axis::new(label, unit).including([0.0]));
         for condition in 0..measured.conditions.len() {
-            let speed =
-                |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
             let of_condition = all().filter(|(one, ..)| one.condition == condition);
             let points: Vec<(f64, f64, f64)> =
                 of_condition.map(|(one, row, _)| (speed(one.what), one.value, row.error)).collect();

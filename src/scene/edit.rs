@@ -161,8 +161,10 @@ impl Scene {
     pub fn retitle(&mut self, original: &Self) {
         let shown = |scene: &Self, parameter: &Parameter| match scene.get(parameter.key) {
             None => "none".to_owned(),
-            Some(Value::Number(number)) => parameter.with_unit(Value::Number(rounded(number, DIGITS))),
-            Some(value) => parameter.with_unit(value),
+            Some(value) => {
+                let value = value.as_number().map_or(value, |number| Value::Number(rounded(number, DIGITS)));
+                format!("{value} {}", scene.unit(parameter)).trim_end().to_owned()
+            }
         };
         let changes = self.changed(original).map(|parameter| match parameter.kind {
             ParameterKind::Rows { .. } | ParameterKind::Records { .. } => format!("another {}", parameter.key),

@@ -36,7 +36,7 @@ const LONGEST: usize = 200;
 const DECIMALS: usize = 13;
 
 /// Reads `text` as a number for `parameter`, in its unit. The text may have a decimal point or comma, any unit of the same kind, and sums,
-/// differences, products, quotients and parentheses. A number without a unit is in the unit of the key.
+/// differences, products, quotients and parentheses. A number without a unit is in the unit of the key, unless another unit is in its sum.
 ///
 /// # Errors
 /// The text is not such a number; the message has the key, the text and what is allowed.
@@ -60,7 +60,11 @@ pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
     let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
     let (key, found, accepts) = (parameter.key, show_text(text.trim()), parameter.accepts());
     let sum = text.contains('+') && text.contains(char::is_alphabetic);
-    let sum = if sum && !units.is_empty() { ", where all terms of a sum have a unit or none" } else { "" };
+    let sum = if sum && !units.is_empty() {
+        format!(", where all terms of a sum have a unit if one has another than {}", parameter.unit)
+    } else {
+        String::new()
+    };
     format!("{key} = {found} is not a number: expected {accepts}{units}, or a calculation such as (1 + 2) × 3{sum}")
 }
 
@@ -101,9 +105,9 @@ pub fn number(unit: &str, text: &str) -> Option<f64> {
         return plain.is_finite().then_some(plain);
     }
     let (units, unit) = (kind_of(unit), spelled(unit));
-    let mut reader = Reader { rest: &text, units, with_unit: false, unit: 1.0 };
-    let found = reader.sum()?;
     let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);
+    let mut reader = Reader { rest: &text, units, own: size, another: false, with_unit: false, unit: 1.0 };
+    let found = reader.sum()?;
     let power = i32::from(reader.with_unit);
     let number = if power == 1 { found.number / size } else { found.number };
     let good = reader.rest.is_empty() && found.power == power && number.is_finite();
@@ -121,6 +125,9 @@ struct Term {
 struct Reader<'t> {
     rest: &'t str,
     units: Kind,
+    /// Size of the unit of the key, and whether there was another one.
+    own: f64,
+    another: bool,
     /// Whether any number had a unit.
     with_unit: bool,
     /// Size of the last unit that was read.
@@ -137,7 +144,16 @@ impl Reader<'_> {
     fn sum(&mut self) -> Option<Term> {
         let mut sum = self.product()?;
         while let Some(sign) = ["+", "-"].into_iter().find(|sign| self.takes(sign)) {
-            let next = self.product().filter(|next| next.power == sum.power)?;
+            let mut next = self.product()?;
+            for term in [&mut sum, &mut next] {
+                // "100 + 50 nm" is 150 nm, where nanometres are what is meant anyway.
+                if term.power == 0 && self.with_unit && !self.another {
+                    *term = Term { number: term.number * self.own, power: 1 };
+                }
+            }
+            if next.power != sum.power {
+                return None;
+            }
             sum.number += if sign == "+" { next.number } else { -next.number };
         }
         Some(sum)
@@ -178,6 +194,7 @@ impl Reader<'_> {
         let Some(&(name, size)) = longest else { return Some(term) };
         self.takes(name);
         (self.with_unit, self.unit) = (true, size);
+        self.another |= size != self.own;
         Some(Term { number: term.number * size, power: term.power + 1 })
     }
 
@@ -210,6 +227,8 @@ mod tests {
             ("film.min_spacing_nm", "0.2um", 200.0),
             ("film.min_spacing_nm", "0,25 µm", 250.0),
             ("film.min_spacing_nm", "200 + 50", 250.0),
+            ("film.min_spacing_nm", "200 + 50 nm", 250.0),
+            ("film.min_spacing_nm", "50 nm + 2 * (50 + 50 nm)", 250.0),
             ("film.min_spacing_nm", "2 × (150nm − 0.05 um) ÷ 4", 50.0),
             ("plate.mean_gap_um", "0,3", 0.3),
             ("plate.mean_gap_um", "0.001mm", 1.0),
@@ -247,7 +266,7 @@ mod tests {
             "",
             "wide",
             "250kHz",
-            "250nm + 3",
+            "0.25um + 3",
             "1um*1um",
             "1mm/1um",
             "1/(1mm+4um)",
@@ -268,9 +287,7 @@ mod tests {
             assert!(message.starts_with("film.min_spacing_nm = "), "{message}");
             assert!(message.contains("from 5 to 10000 nm, in nm, µm, mm, cm, m"), "{message}");
         }
-        assert!(
-            of("film.min_spacing_nm", "2*100+50/2 nm").unwrap_err().ends_with("all terms of a sum have a unit or none")
-        );
+        assert!(of("film.min_spacing_nm", "200 + 0.05 um").unwrap_err().ends_with("if one has another than nm"));
         assert!(of("motor.waves", "7 mm").unwrap_err().contains("a whole number from 1 to 100"));
     }
 

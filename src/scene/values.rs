@@ -113,6 +113,14 @@ impl Scene {
         ["plate.load_n", "plate.mass_g"].iter().any(|key| self.is_set(key))
     }
 
+    /// The unit of a key in this scene: load and mass of a strip are those of a metre of its width.
+    pub fn unit(&self, parameter: &Parameter) -> String {
+        let of_metre = ["plate.load_n", "plate.mass_g"].contains(&parameter.key)
+            && self.text("plate.shape").is_ok_and(|shape| shape == "rectangle")
+            && !self.is_set("plate.width_mm");
+        format!("{}{}", parameter.unit, if of_metre { "/m" } else { "" })
+    }
+
     /// Whether `other` is the same motor or plate: equal but for name, description and numerics.
     pub fn same_model(&self, other: &Self) -> bool {
         let [ours, theirs] =

@@ -16,15 +16,19 @@ pub fn number(value: f64) -> String {
     signed(format!("{value:.decimals$}"))
 }
 
-/// The ends of a range, in as many digits as tell them apart: 99.96 and 100.02 are both 100 to three. The same twice, if they differ by less.
+/// The ends of a range, in as many digits as tell them apart: 99.96 and 100.02 are both 100 to three. The same twice, if they are to four.
 pub fn ends(range: [f64; 2]) -> [String; 2] {
     let written = range.map(number);
-    if written[0] == written[1] || trimmed(&written[0]) != trimmed(&written[1]) {
+    let span = range[1] - range[0];
+    if written[0] == written[1] || !(span < NARROW * range[0].abs().max(range[1].abs())) {
         return written;
     }
-    let decimals = written.iter().map(|end| end.len() - trimmed(end).len()).max().unwrap_or(0);
+    let decimals = (-span.log10()).ceil().max(0.0) as usize;
     range.map(|value| signed(format!("{value:.decimals$}")))
 }
+
+/// Length of a range over its greater end below which three digits of its ends say too little of it.
+const NARROW: f64 = 0.02;
 
 /// "×9000", to two digits.
 pub fn times(factor: f64) -> String {
@@ -114,6 +118,7 @@ mod tests {
     fn ends_of_a_range_are_told_apart_where_they_round_to_the_same() {
         assert_eq!(ends([79.5, 541.3]), ["79.5", "541"]);
         assert_eq!(ends([99.96, 100.02]), ["99.96", "100.02"]);
+        assert_eq!(ends([99.88, 100.12]), ["99.9", "100.1"]);
         assert_eq!(ends([9.997, 10.0]), ["9.997", "10.000"]);
         assert_eq!(ends([-100.02, -99.96]), ["−100.02", "−99.96"]);
         assert_eq!(ends([101.325, 101.3251]), ["101", "101"]);

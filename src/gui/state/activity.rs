@@ -31,13 +31,20 @@ impl Running {
         let Progress { level, levels, residual, tolerance, .. } = self.round;
         let fell = |to: f64| (self.first / to.max(f64::MIN_POSITIVE)).ln();
         let here = if fell(tolerance) > 0.0 { (fell(residual) / fell(tolerance)).clamp(0.0, 1.0) } else { 0.0 };
-        ((level as f64 + here) / levels.max(1) as f64) as f32
+        // Each grid takes some four times as long as the one before.
+        let before = |level: usize| 4f64.powi(level as i32) - 1.0;
+        ((before(level) + here * (before(level + 1) - before(level))) / before(levels.max(1))) as f32
     }
 
     /// In words.
     pub fn text(&self) -> String {
-        let Progress { level, levels, iteration, .. } = self.round;
-        format!("solving {}, grid {} of {levels}, round {iteration}", self.fidelity, level + 1)
+        let Progress { level, levels, iteration, residual, tolerance, .. } = self.round;
+        let fidelity = self.fidelity;
+        if level + 1 == levels && residual <= tolerance {
+            // Of a rotor that floats, or nearly, this takes longer than all grids.
+            return format!("solving {fidelity}, looking for other states");
+        }
+        format!("solving {fidelity}, grid {} of {levels}, round {iteration}", level + 1)
     }
 }
 

@@ -191,14 +191,21 @@ impl Document {
         !self.redo.is_empty()
     }
 
-    /// Saves to `path` (a temporary name, then renamed). A preset that was changed no longer claims to be what it was.
+    /// Saves to `path` (a temporary name, then renamed). A preset that was changed no longer claims to be what it was, and its name and
+    /// description say nothing that the next change makes wrong.
     ///
     /// # Errors
     /// If the file cannot be written; nothing changes then.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
-        if self.path.is_none() {
-            scene.retitle(&self.saved);
+        let original = &self.saved;
+        if self.path.is_none() && scene.changed(original).next().is_some() {
+            if scene.about == original.about {
+                scene.about = format!("Made from {}.", original.name);
+            }
+            if scene.name == original.name {
+                scene.name = format!("{}, changed", original.name.split(", changed").next().unwrap_or_default());
+            }
         }
         scene.save(path)?;
         self.saved = scene.clone();
@@ -274,12 +281,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.toml");
         let mut document = Document::fundamental().unwrap();
-        for (spacing, name) in
-            [("150", "Fundamental case, changed: 1 key"), ("140", "Fundamental case, changed: 1 key")]
-        {
+        for spacing in ["150", "140"] {
             document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
             document.save(&path).unwrap();
-            assert_eq!(document.scene().name, name);
+            assert_eq!(document.scene().name, "Fundamental case, changed");
+            assert_eq!(document.scene().about, "Made from Fundamental case.");
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
         // A changed preset that is changed once more is not "changed: 1 key, changed: 1 key".

@@ -184,6 +184,13 @@ impl HoldState {
         !self.scene.same_model(scene)
     }
 
+    /// Whether it has been at its mean gap for as long as the charts show.
+    pub fn is_untouched(&self) -> bool {
+        let at_rest = |gap: f64| gap == self.plate.mean_gap;
+        let was_at_rest = self.trail.iter().all(|snapshot| at_rest(snapshot.reading.gap));
+        at_rest(self.target) && was_at_rest && self.free.is_none() && self.recorded.is_none()
+    }
+
     /// Gaps that it can be held at \[m\].
     pub fn reach(&self) -> [f64; 2] {
         Hold::reach(&self.plate)

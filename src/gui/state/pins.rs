@@ -154,22 +154,11 @@ impl Pins {
         let name = &run.scene.name;
         let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
         let namesake = self.runs.iter().find(|other| other.scene.name == *name);
-        if let Some(other) = namesake.filter(|_| taken(name)) {
-            let differing: Vec<String> = parameters(&[&other.scene, &run.scene])
-                .iter()
-                .filter(|row| row.differs())
-                .map(|row| {
-                    let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
-                    format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
-                })
-                .collect();
-            match &differing[..] {
-                [] => return unique(&format!("{name}, {}", fidelity(run)), taken),
-                [_] | [_, _] => return unique(&format!("{name}, {}", differing.join(", ")), taken),
-                _ => {}
-            }
-        }
-        unique(&run.label, taken)
+        let named = namesake.filter(|_| taken(name)).and_then(|other| {
+            let same = run.scene.changed(&other.scene).next().is_none();
+            if same { Some(format!("{name}, {}", fidelity(run))) } else { told_apart(&run.scene, &other.scene) }
+        });
+        unique(&named.unwrap_or_else(|| run.label.clone()), taken)
     }
 
     /// Waits for `task`, which solves this scene.
@@ -304,6 +293,17 @@ impl Pins {
 /// The fidelity that a run was solved at, in a word.
 pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
+}
+
+/// The name of a scene with the one or two keys that tell it apart from another.
+pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
+    let rows = parameters(&[other, scene]);
+    let differing = rows.iter().filter(|row| row.differs()).map(|row| {
+        let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
+        format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
+    });
+    let differing: Vec<String> = differing.collect();
+    (1..=2).contains(&differing.len()).then(|| format!("{}, {}", scene.name, differing.join(", ")))
 }
 
 /// A run of the window as one to be compared.

@@ -104,6 +104,12 @@ impl SensitivityState {
         self.typed.get(key)?.1.as_deref()
     }
 
+    /// What is wrong with all that was typed for keys of this scene.
+    pub fn all_refused<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = &'a str> {
+        let shown = self.typed.iter().filter(|(key, _)| scene.get(key).is_some());
+        shown.filter_map(|(_, (_, refused))| refused.as_deref())
+    }
+
     /// Finds out which of the typed uncertainties make sense for the scene that was solved.
     fn judge(&mut self) {
         let Some(found) = &self.found else { return };

@@ -24,6 +24,7 @@ use crate::job::SolvedScene;
 use crate::platform::HAS_FILES;
 use crate::problem::Problem;
 use crate::recording::Recording;
+use crate::scene::new_motor::Answers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -77,6 +78,8 @@ pub struct State {
     pub hold: Option<HoldState>,
     /// What could not be done last with a file, opening or saving, and its path, for the next prompt.
     pub failed_path: Option<(Purpose, String)>,
+    /// The answers that a new motor was last made of.
+    pub new_motor: Answers,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.

@@ -3,7 +3,7 @@
 use super::highlight;
 use super::hint::Hint;
 use super::theme::{self, Palette, palette};
-use crate::digits::capitalised;
+use crate::digits::{capitalised, raised};
 use crate::gui::command::Command;
 use crate::gui::derived::format::rough;
 use crate::gui::state::window::State;
@@ -68,7 +68,7 @@ impl<'a> DrawContext<'a> {
         // One that begins with a key keeps it as it is written.
         let begins_with_key = |text: &str| text.split(' ').next().is_some_and(|word| word.contains('.'));
         let text = |text: &String| if begins_with_key(text) { text.clone() } else { capitalised(text) };
-        self.alarm(ui, warnings.iter().map(text));
+        self.alarm(ui, warnings.iter().map(|warning| raised(&text(warning))));
     }
 
     /// Secondary text over as many lines as it takes.

@@ -64,17 +64,22 @@ impl Updater {
     pub(super) fn update_hold(&mut self) {
         let state = &mut self.state;
         let scene = state.document.scene();
-        if state.hold.as_ref().is_some_and(|hold| hold.stale(scene)) {
-            state.hold = None;
-        }
         // A plate that floats has its mean gap from the run, and waits for it.
         let run = state.run.as_ref().filter(|run| run.scene.same_model(scene));
         let problem = run.map(|run| &run.problem).or(state.problem.as_ref());
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
+        let plate = match problem.map(|problem| &problem.scenario) {
+            Some(Scenario::Plate(plate)) if known => Some(plate),
+            _ => None,
+        };
+        // A run on finer grids knows the mean gap better; a plate that has been moved since stays as it is.
+        let known_better = |hold: &HoldState| hold.is_untouched() && plate.is_some_and(|plate| *plate != hold.plate);
+        if state.hold.as_ref().is_some_and(|hold| hold.stale(scene) || known_better(hold)) {
+            state.hold = None;
+        }
         if state.view.tab == Tab::Hold
             && state.hold.is_none()
-            && known
-            && let Some(Scenario::Plate(plate)) = problem.map(|problem| problem.scenario.clone())
+            && let Some(plate) = plate.cloned()
         {
             let wake = self.ctx.clone();
             let slow = slowed(&plate, FIRST_SECONDS);

@@ -2,7 +2,7 @@
 
 use super::updater::Updater;
 use crate::gui::command::PinCommand;
-use crate::gui::state::pins::to_compare;
+use crate::gui::state::pins::{to_compare, told_apart};
 use crate::job::pin::PinWork;
 use crate::scene::presets;
 use std::time::Duration;
@@ -16,7 +16,9 @@ impl Updater {
                     let mut named = run.scene.clone();
                     named.retitle(self.state.document.saved());
                     // It may be called by what tells it from the others, but not described as what it is no longer.
-                    (run.label, run.scene.about) = (named.name, named.about);
+                    let told_apart = told_apart(&run.scene, self.state.document.saved());
+                    run.label = told_apart.filter(|_| named.name != run.scene.name).unwrap_or(named.name);
+                    run.scene.about = named.about;
                     self.state.pins.add(run);
                 }
             }

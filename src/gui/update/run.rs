@@ -13,7 +13,6 @@ use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
 use crate::platform::timed;
-use crate::scene::new_motor::Answers;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -35,11 +34,15 @@ impl Updater {
             Command::Undo => self.step_history(Document::undo),
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),
-            Command::NewMotor => state.modal = Some(Modal::NewMotor(Answers::new())),
-            Command::MakeNewMotor(answers) => match agreeing(&answers, &timed(&Cancel::new(), NEW_MOTOR)) {
-                Ok(motor) => self.proceed(Next::Given(Box::new(Document::made(motor.scene)))),
-                Err(wrong) => state.fail(wrong),
-            },
+            Command::NewMotor => state.modal = Some(Modal::NewMotor(state.new_motor.clone())),
+            Command::MakeNewMotor(answers) => {
+                let made = agreeing(&answers, &timed(&Cancel::new(), NEW_MOTOR));
+                state.new_motor = answers;
+                match made {
+                    Ok(motor) => self.proceed(Next::Given(Box::new(Document::made(motor.scene)))),
+                    Err(wrong) => state.fail(wrong),
+                }
+            }
             Command::AnswerNewMotor(question, answer) => {
                 if let Some(Modal::NewMotor(answers)) = &mut state.modal {
                     answers.insert(question, answer);

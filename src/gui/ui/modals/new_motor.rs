@@ -4,6 +4,7 @@ use super::frame::{Answer, heading};
 use crate::gui::command::Command;
 use crate::gui::derived::words::label;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::theme::outline_fields;
 use crate::scene::Parameter;
 use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
 use eframe::egui::{self, Ui};
@@ -14,6 +15,7 @@ const HEIGHTS: [f32; 2] = [0.5, 0.2];
 /// Asks; the answer is the motor.
 pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answer {
     heading(ui, "A motor from its data sheet");
+    outline_fields(ui);
     let height = ui.ctx().content_rect().height();
     // Beside what is asked, and there whenever something is further down: a bar that fades hides that there is more.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();

@@ -119,7 +119,7 @@ impl Panel<'_> {
 
     /// Makes the column of units as wide as the widest of `parameters`.
     fn measure_units(&mut self, ui: &egui::Ui, parameters: &[&'static Parameter]) {
-        self.units = parameters.iter().map(|parameter| text_width(ui, parameter.unit)).fold(0.0, f32::max);
+        self.units = parameters.iter().map(|parameter| text_width(ui, &self.scene.unit(parameter))).fold(0.0, f32::max);
     }
 
     fn in_group(&self, table: &str) -> Vec<&'static Parameter> {
@@ -247,7 +247,9 @@ impl Panel<'_> {
             let typed = field_name(parameter);
             self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
             ui.add(
-                egui::Label::new(RichText::new(parameter.unit).color(self.cx.colours.quiet)).selectable(false).extend(),
+                egui::Label::new(RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet))
+                    .selectable(false)
+                    .extend(),
             );
         });
     }

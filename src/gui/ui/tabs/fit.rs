@@ -339,8 +339,11 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
 fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
     let Some((residuals, kinds)) = drawn.panels.split_last() else { return };
     for panel in kinds {
-        let (what, word) = (panel.x.label.trim_end_matches(", computed"), "Measured against computed");
-        let name = format!("{word}: {what}");
+        let word = "Measured against computed";
+        let name = match panel.x.label.strip_suffix(", computed") {
+            Some(what) => format!("{word}: {what}"),
+            None => format!("{word}: {}, {}", panel.y.label, panel.y.unit),
+        };
         title(ui, &name, word);
         legend(ui, &[panel]);
         Chart { name: &name, height, panel, words: (Some(word), word) }.show(ui);

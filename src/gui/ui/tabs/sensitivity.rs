@@ -144,6 +144,7 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>
 
 fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let state = &cx.state.sensitivity;
+    cx.alarm(ui, state.all_refused(found.scene()));
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
