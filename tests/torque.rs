@@ -148,6 +148,21 @@ fn a_heavily_pressed_motor_gives_far_less_than_the_bound() {
 }
 
 #[test]
+fn what_is_greatest_is_found_however_slow_the_rotor_is() {
+    let set = [("motor.load_per_wave_n", "100"), ("stator.normal_amplitude_um", "0.3")];
+    let Performance { no_load_speed, max_efficiency, max_power, curve, .. } =
+        solved("fundamental", &set, Fidelity::Draft).merit.with_film;
+    let idle = no_load_speed.unwrap().value;
+    let (efficiency, power) = (max_efficiency.unwrap().value, max_power.value);
+    assert!(efficiency > 0.0);
+    let driven = curve.iter().filter(|point| point.speed < idle);
+    let points = driven.map(|point| (point.efficiency.map_or(0.0, |one| one.value), point.output.value));
+    for (one, output) in points {
+        assert!(one <= efficiency && output <= power, "{one} of {efficiency}, {output} of {power}");
+    }
+}
+
+#[test]
 fn a_solve_has_the_numbers_of_the_curve_also_where_it_keeps_no_fields() {
     for (preset, set) in [("fundamental", &[][..]), ("fundamental", &HEAVY[..]), ("levitating", &[][..])] {
         let problem = scenes::problem(preset, set);

@@ -191,21 +191,21 @@ impl Drive {
 
     /// `loss`: the film's share of the stator's power, in μ_d N V₀.
     fn marks(&self, loss: f64) -> Marks {
-        let step = 1.0 / (SPEEDS - 1) as f64;
+        // Beyond it the rotor is braked.
+        let no_load = self.no_load().unwrap_or(0.0);
+        let step = no_load.max(0.0) / (SPEEDS - 1) as f64;
         let curve: Vec<(f64, f64)> = (0..SPEEDS).map(|i| self.at(i as f64 * step)).collect();
         Marks {
             stall: curve[0].0,
-            no_load: self.no_load().unwrap_or(0.0),
-            output: self.greatest(&curve, |v, (s0, _)| v * s0),
-            efficiency: self.greatest(&curve, |v, at| efficiency(v, at, loss).unwrap_or(0.0)),
+            no_load,
+            output: self.greatest(&curve, step, |v, (s0, _)| v * s0),
+            efficiency: self.greatest(&curve, step, |v, at| efficiency(v, at, loss).unwrap_or(0.0)),
         }
     }
 
-    /// The speed ratio between 0 and 1 at which `value` of v and (s₀, s₁) is greatest, and that value. `curve`: (s₀, s₁) at
-    /// equally spaced ratios.
-    fn greatest(&self, curve: &[(f64, f64)], value: impl Fn(f64, (f64, f64)) -> f64) -> (f64, f64) {
+    /// The speed ratio at which `value` of v and (s₀, s₁) is greatest, and that value. `curve`: (s₀, s₁) at ratios from 0 on, a `step` apart.
+    fn greatest(&self, curve: &[(f64, f64)], step: f64, value: impl Fn(f64, (f64, f64)) -> f64) -> (f64, f64) {
         let at = |v: f64| (v, value(v, self.at(v)));
-        let step = 1.0 / (curve.len() - 1) as f64;
         let known = curve.iter().enumerate().map(|(i, at)| (i as f64 * step, value(i as f64 * step, *at)));
         let best = known.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
         // Golden section between its neighbours.

@@ -10,9 +10,15 @@ use crate::plan::{Grid, Plan};
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{Outcome, Stats, Status};
 
-/// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
+/// Least share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
 /// docs/validation.md).
-pub const WIDTH_SHARE: f64 = 0.15;
+const WIDTH_SHARE: f64 = 0.15;
+/// Share of what the polynomial before it changed below which the last one changed little by chance; and the slowest approach that the error is
+/// taken for.
+const BY_CHANCE: f64 = 0.1;
+const SLOWEST_ACROSS: f64 = 0.6;
+/// Relative error asked for below which the first change has one before it to be compared with.
+const EXACTING: f64 = 4e-3;
 
 /// The state of a scene on one grid.
 pub trait State {
@@ -77,8 +83,10 @@ pub struct Found<L> {
     pub grids: Vec<Grid>,
     /// Whether across them a field is a polynomial.
     pub spectral: bool,
-    /// The coarsest grid with one node less across, and by how much that changed the headline there; `None` with finite volumes.
+    /// The coarsest grid with one node less across, and the error of the headline for want of more; `None` with finite volumes.
     pub narrower: Option<(L, f64)>,
+    /// How much the polynomial before the last changed the headline there; 0 if it is not known.
+    before: f64,
 }
 
 /// A periodic state: the numbers, how they were reached, and the fields.
@@ -90,8 +98,6 @@ pub struct Periodic<R> {
     pub result: R,
     /// The headline on each grid, coarse to fine: α, or a plate's mean load \[N; of a strip N/m\].
     pub headlines: Vec<f64>,
-    /// What the last polynomial across changed of the headline on the coarsest grid; 0 with finite volumes.
-    pub across: f64,
     /// What it cost, all grids.
     pub stats: Stats,
     /// Fields of one cycle on the finest grid.
@@ -105,7 +111,6 @@ impl<R: Default> Periodic<R> {
             status,
             result: R::default(),
             headlines: Vec::new(),
-            across: 0.0,
             stats: Stats::default(),
             recording: Recording::default(),
         }
@@ -119,13 +124,12 @@ impl<L: State> Found<L> {
             level.count(&mut stats);
         }
         let headlines = self.headlines.iter().map(|mean| mean.all).collect();
-        let across = self.narrower.as_ref().map_or(0.0, |(_, change)| *change);
-        Periodic { headlines, across, stats, ..Periodic::ended(self.status) }
+        Periodic { headlines, stats, ..Periodic::ended(self.status) }
     }
 
     /// Estimated error of the headline of a polynomial with so many nodes across, absolute.
     pub fn width_error(&self) -> f64 {
-        self.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change)
+        self.narrower.as_ref().map_or(0.0, |(_, error)| *error)
     }
 
     /// `plan`, which this was found by, on exactly these grids: none is added or left out.
@@ -191,8 +195,8 @@ pub fn climb_once<S: Scene>(
     cancel: &Cancel,
 ) -> Result<Found<S::Level>, S::Error> {
     let (status, spectral) = (Status::Converged, plan.spectral);
-    let mut found =
-        Found { status, levels: Vec::new(), headlines: Vec::new(), grids: Vec::new(), spectral, narrower: None };
+    let (levels, headlines, grids) = (Vec::new(), Vec::new(), Vec::new());
+    let mut found = Found { status, levels, headlines, grids, spectral, narrower: None, before: 0.0 };
     let mut across = plan.grids.first().map_or(0, |grid| grid.across);
     if plan.spectral && plan.grids.len() > 1 {
         let first = last.map_or(across, |last| last.levels[0].across()).max(2);
@@ -291,7 +295,17 @@ pub fn march_cycle<L: State, E>(
     Ok(Marched { recording, change, mean: extrapolate_means(&means), end: extrapolate(&ends).value })
 }
 
-/// Solves the coarsest grid with more and more nodes across, from `first` on, until one less hardly matters; how many that are.
+/// Error of a polynomial across for want of more nodes, from how much the last one `change`d and the one `before` it: that of a geometric series.
+/// Where `before` is not known (0) or the last change is small by chance, a share of the greater one.
+pub fn error_across(change: f64, before: f64) -> f64 {
+    if change < BY_CHANCE * before {
+        return WIDTH_SHARE * before;
+    }
+    let ratio = if before > 0.0 { (change / before).min(SLOWEST_ACROSS) } else { 0.0 };
+    change * WIDTH_SHARE.max(ratio / (1.0 - ratio))
+}
+
+/// Solves the coarsest grid with more and more nodes across, at least `first`, until one less hardly matters; how many that are.
 fn settle_across<S: Scene>(
     scene: &mut S,
     plan: &Plan,
@@ -301,26 +315,39 @@ fn settle_across<S: Scene>(
 ) -> Result<usize, S::Error> {
     let mut across = first;
     let coarsest = plan.grids[0];
-    let start = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
+    let similar = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
+    // Two nodes less, which show whether the next change is small by chance; where that fails, nothing is lost.
+    let mut two_less = None;
+    if plan.target_error < EXACTING && similar.is_none() && across > 2 {
+        let solved = scene.solve(plan, &Grid { across: across - 2, ..coarsest }, None, false, 0);
+        two_less = solved.ok().filter(|(status, _)| *status == Status::Converged).map(|(_, level)| level);
+    }
     let grid = Grid { across: across - 1, ..coarsest };
-    let (mut status, mut narrower) = scene.solve(plan, &grid, start, start.is_some(), 0)?;
+    let start = similar.or(two_less.as_ref());
+    let (mut status, mut narrower) = scene.solve(plan, &grid, start, similar.is_some(), 0)?;
+    let mut before = last.map_or(0.0, |last| last.before);
+    if let Some(level) = two_less {
+        before = (narrower.headline().all - level.headline().all).abs();
+    }
     while status == Status::Converged {
         let similar = last.map(|last| &last.levels[0]).filter(|level| level.across() == across);
         let start = similar.unwrap_or(&narrower);
         let level;
         (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (level.headline().all - narrower.headline().all).abs();
-        let matters = WIDTH_SHARE * change > S::WIDTH_AIM * plan.target_error * level.unit();
+        let error = error_across(change, before);
+        let matters = error > S::WIDTH_AIM * plan.target_error * level.unit();
         if status == Status::Converged && matters && across < plan.most_across {
-            narrower = level;
+            (narrower, before) = (level, change);
             across += 1;
             continue;
         }
+        found.before = before;
         found.status = status;
         found.headlines = vec![level.headline()];
         found.levels = vec![level];
         found.grids = vec![Grid { across, ..coarsest }];
-        found.narrower = Some((narrower, change));
+        found.narrower = Some((narrower, error));
         return Ok(across);
     }
     found.status = status;

@@ -12,7 +12,7 @@
 use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
-use crate::ladder::{TransientCycle, WIDTH_SHARE};
+use crate::ladder::{TransientCycle, error_across};
 use crate::memory::{self, Need};
 use crate::motor;
 use crate::plan::{Decision, Grid, Plan};
@@ -361,14 +361,15 @@ impl<'a> SceneTransient<'a> {
             Ok(cycle.map_or(0.0, |cycle| headline(&cycle.outcome).value))
         };
         let mut across = coarsest.across.max(2);
-        let mut narrower = first(across - 1)?;
+        let (mut narrower, mut before) = (first(across - 1)?, 0.0);
         let error = loop {
             let wider = first(across)?;
-            let error = WIDTH_SHARE * (wider - narrower).abs();
+            let change = (wider - narrower).abs();
+            let error = error_across(change, before);
             if error <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
                 break error;
             }
-            narrower = wider;
+            (narrower, before) = (wider, change);
             across += 1;
         };
         let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();

@@ -2,6 +2,7 @@
 
 use super::quantity::{Numbers, Quantity};
 use crate::control::Cancel;
+use crate::digits::significant;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::new_motor::{Answers, Factors, NewMotor, asked};
@@ -9,14 +10,14 @@ use crate::solution::Status;
 use crate::solve::{Record, Settings, solve};
 
 /// Solves in which friction and amplitude are found. The torque is proportional to friction, the speed nearly to the amplitude.
-const SOLVES: usize = 6;
+const SOLVES: usize = 40;
 /// How close torque and speed have to come, relative.
 const CLOSE: f64 = 2e-3;
 
 /// The motor of `answers`, with the friction and the amplitude at which it has, once solved, the stall torque and the speed without load of the
-/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`].
+/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`], and what is assumed says so.
 pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
-    let least = NewMotor::of(answers)?;
+    let mut least = NewMotor::of(answers)?;
     let wanted = [(Quantity::StallTorque, "stall-torque-nm"), (Quantity::NoLoadSpeed, "no-load-speed-rpm")]
         .map(|(quantity, name)| Some((quantity, asked(answers, name)?)));
     if wanted == [None, None] {
@@ -39,8 +40,21 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
         let Ok(next) = NewMotor::with(answers, factors) else { break };
         motor = next;
     }
+    let has = solved(&least.scene, cancel).and_then(|numbers| {
+        let of = |quantity| numbers.get(quantity).map(|value| significant(value, 3));
+        Some(format!("has {} N·m and {} rpm", of(Quantity::StallTorque)?, of(Quantity::NoLoadSpeed)?))
+    });
+    let has = has.unwrap_or_else(|| "is not driven".to_owned());
+    for found in &mut least.assumed {
+        if [FRICTION, AMPLITUDE].contains(&found.key) {
+            found.why += &format!("; none was found that agrees with the data sheet, and this motor, solved, {has}");
+        }
+    }
     Ok(least)
 }
+
+const FRICTION: &str = "motor.dry_friction";
+const AMPLITUDE: &str = "stator.tangential_amplitude_um";
 
 fn solved(scene: &Scene, cancel: &Cancel) -> Option<Numbers> {
     let problem = Problem::try_from(scene).ok()?;
@@ -69,10 +83,22 @@ mod tests {
         assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
         // Pressed on so lightly that it floats, a motor has no torque.
         let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n", "20".to_owned())]));
-        assert_eq!(agreeing(&light, &Cancel::new()), NewMotor::of(&light));
+        let same_but_told = |answers: &Answers, told: &str| {
+            let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
+            assert_eq!(found.scene, least.scene);
+            let why = found.assumed.into_iter().find(|assumed| assumed.key == FRICTION).unwrap().why;
+            assert!(why.contains("none was found that agrees") && why.ends_with(told), "{why}");
+        };
+        same_but_told(&light, "is not driven");
         // One that would need more friction than there is keeps the least.
         let strong: Answers = [("stall-torque-nm", "8.5")].map(|(name, value)| (name, value.to_owned())).into();
         let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();
-        assert_eq!(agreeing(&strong, &Cancel::new()), NewMotor::of(&strong));
+        same_but_told(&strong, "rpm");
+        // Pressed on so heavily that all teeth touch, torque and speed depend on both.
+        let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];
+        let asked = [("stall-torque-nm", "0.9401"), ("no-load-speed-rpm", "49.29")];
+        let heavy: Answers = heavy.iter().chain(&asked).map(|(name, value)| (*name, (*value).to_owned())).collect();
+        let [torque, speed] = of(&agreeing(&heavy, &Cancel::new()).unwrap());
+        assert!((torque / 0.9401 - 1.0).abs() < CLOSE && (speed / 49.29 - 1.0).abs() < CLOSE, "{torque} {speed}");
     }
 }

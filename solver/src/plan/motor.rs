@@ -96,7 +96,13 @@ impl Plan {
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
         let sharp = 1.0 / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));
-        let irregular = 1.0 + (IRREGULAR - 1.0) * if rotor.dips() { 1.0 } else { sharp };
+        let crown = motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width.powi(2) / (8.0 * radius));
+        let crowned = crown / (crown + 0.1 * motor.min_spacing);
+        let ample = (motor.normal_amplitude / motor.min_spacing / AMPLE[0]).ln() / (AMPLE[1] / AMPLE[0]).ln();
+        let irregular = 1.0
+            + (IRREGULAR - 1.0) * if rotor.dips() { 1.0 } else { sharp }
+            + CROWNED * crowned
+            + OF_AMPLE * ample.clamp(0.0, 1.0);
         Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
@@ -140,6 +146,11 @@ const RIGID: f64 = 1e-5;
 /// (calibrated: docs/validation.md).
 const SHARP: f64 = 2e-3;
 const IRREGULAR: f64 = 3.0;
+/// What the estimate grows by where teeth are crowned, so that contact ends between nodes, and where the amplitude is as many times the minimum
+/// spacing, so that it begins and ends within few instants (calibrated as well).
+const CROWNED: f64 = 0.6;
+const OF_AMPLE: f64 = 0.4;
+const AMPLE: [f64; 2] = [7.0, 12.0];
 
 /// Length \[m\] in the middle of a crowned tooth over which its crown opens the gap by H_m: the film that carries, at the least.
 fn crown_length(motor: &Motor) -> f64 {
