@@ -18,7 +18,7 @@ const WIDTH_SHARE: f64 = 0.15;
 const BY_CHANCE: f64 = 0.1;
 const SLOWEST_ACROSS: f64 = 0.6;
 /// Relative error asked for below which the first change has one before it to be compared with.
-const EXACTING: f64 = 4e-3;
+pub const EXACTING: f64 = 4e-3;
 
 /// The state of a scene on one grid.
 pub trait State {

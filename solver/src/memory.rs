@@ -5,6 +5,7 @@
 
 use crate::budget::Purpose;
 pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
+use crate::ladder::EXACTING;
 use crate::numerics::system::MANY_COLUMNS;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
@@ -90,7 +91,8 @@ const EXTRAPOLATED_MAPS: u64 = 2;
 
 /// All grids of a plan, those included to which it may be refined.
 fn grids(plan: &Plan) -> Vec<Grid> {
-    let grown = |grid: &Grid| if plan.spectral { (grid.across + 1).min(plan.most_across) } else { grid.across };
+    let more = 1 + usize::from(plan.target_error < EXACTING);
+    let grown = |grid: &Grid| if plan.spectral { (grid.across + more).min(plan.most_across) } else { grid.across };
     let mut grids: Vec<Grid> = plan.grids.iter().map(|grid| Grid { across: grown(grid), ..*grid }).collect();
     while let Some(finest) = grids.last().filter(|_| grids.len() < plan.most_grids) {
         grids.push(finest.finer(plan.spectral));
