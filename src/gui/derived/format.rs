@@ -20,7 +20,7 @@ pub fn number(value: f64) -> String {
 pub fn ends(range: [f64; 2]) -> [String; 2] {
     let written = range.map(number);
     let span = range[1] - range[0];
-    if written[0] == written[1] || !(span < NARROW * range[0].abs().max(range[1].abs())) {
+    if written[0] == written[1] || span.is_nan() || span >= NARROW * range[0].abs().max(range[1].abs()) {
         return written;
     }
     let decimals = (-span.log10()).ceil().max(0.0) as usize;
