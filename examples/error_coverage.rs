@@ -1,6 +1,7 @@
 //! Is the stated error of α, or of a plate's mean load ratio, honest? Random motors or plates, each solved at every fidelity, and within a
-//! budget that is spent at once, which gives the first grids of any budget; the true error is taken to be the distance to reference. Measured numbers are in `docs/validation.md`. Of any other result, named
-//! as in `--json`, errors are relative to the value at reference, and scenes that do not have it are left out.
+//! budget that is spent at once, which gives the first grids of any budget; the true error is taken to be the distance to reference.
+//! Measured numbers are in `docs/validation.md`. Of any other result, named as in `--json`, errors are relative to the value at reference,
+//! and scenes that do not have it are left out.
 //!
 //! ```text
 //! cargo run --release --example error_coverage [mild|wide|plates|closing|rough|stiff] [COUNT] [RESULT]

@@ -40,14 +40,17 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
         let Ok(next) = NewMotor::with(answers, factors) else { break };
         motor = next;
     }
-    let has = solved(&least.scene, cancel).and_then(|numbers| {
+    // If the time is up, it is not known.
+    let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
         let of = |quantity| numbers.get(quantity).map(|value| significant(value, 3));
-        Some(format!("has {} N·m and {} rpm", of(Quantity::StallTorque)?, of(Quantity::NoLoadSpeed)?))
+        match [of(Quantity::StallTorque), of(Quantity::NoLoadSpeed)] {
+            [Some(torque), Some(speed)] => format!(", and this motor, solved, has {torque} N·m and {speed} rpm"),
+            _ => ", and this motor, solved, is not driven".to_owned(),
+        }
     });
-    let has = has.unwrap_or_else(|| "is not driven".to_owned());
     for found in &mut least.assumed {
         if [FRICTION, AMPLITUDE].contains(&found.key) {
-            found.why += &format!("; none was found that agrees with the data sheet, and this motor, solved, {has}");
+            found.why += &format!("; none was found that agrees with the data sheet{has}");
         }
     }
     Ok(least)

@@ -36,7 +36,7 @@ const LONGEST: usize = 200;
 const DECIMALS: usize = 13;
 
 /// Reads `text` as a number for `parameter`, in its unit. The text may have a decimal point or comma, any unit of the same kind, and sums,
-/// differences, products, quotients and parentheses. A number without a unit is in the unit of the key, unless another unit is in its sum.
+/// differences, products, quotients and parentheses. A number without a unit is in the unit of the key; in a sum with another unit it is refused.
 ///
 /// # Errors
 /// The text is not such a number; the message has the key, the text and what is allowed.
@@ -145,11 +145,10 @@ impl Reader<'_> {
         let mut sum = self.product()?;
         while let Some(sign) = ["+", "-"].into_iter().find(|sign| self.takes(sign)) {
             let mut next = self.product()?;
-            for term in [&mut sum, &mut next] {
+            if next.power != sum.power {
                 // "100 + 50 nm" is 150 nm, where nanometres are what is meant anyway.
-                if term.power == 0 && self.with_unit && !self.another {
-                    *term = Term { number: term.number * self.own, power: 1 };
-                }
+                let bare = [&mut sum, &mut next].into_iter().find(|term| term.power == 0).filter(|_| !self.another)?;
+                *bare = Term { number: bare.number * self.own, power: 1 };
             }
             if next.power != sum.power {
                 return None;
@@ -229,6 +228,7 @@ mod tests {
             ("film.min_spacing_nm", "200 + 50", 250.0),
             ("film.min_spacing_nm", "200 + 50 nm", 250.0),
             ("film.min_spacing_nm", "50 nm + 2 * (50 + 50 nm)", 250.0),
+            ("film.min_spacing_nm", "50 nm * (2 + 3)", 250.0),
             ("film.min_spacing_nm", "2 × (150nm − 0.05 um) ÷ 4", 50.0),
             ("plate.mean_gap_um", "0,3", 0.3),
             ("plate.mean_gap_um", "0.001mm", 1.0),

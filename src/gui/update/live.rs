@@ -73,7 +73,7 @@ impl Updater {
             _ => None,
         };
         // A run on finer grids knows the mean gap better; a plate that has been moved since stays as it is.
-        let known_better = |hold: &HoldState| hold.is_untouched() && plate.is_some_and(|plate| *plate != hold.plate);
+        let known_better = |hold: &HoldState| plate.is_some_and(|plate| *plate != hold.plate) && hold.is_untouched();
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene) || known_better(hold)) {
             state.hold = None;
         }

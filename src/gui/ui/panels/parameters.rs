@@ -307,7 +307,7 @@ impl Panel<'_> {
             return quiet(
                 ui,
                 self.cx,
-                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end(),
+                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter)).trim_end(),
             );
         }
         // That unset numerics are left to the fidelity need not be said four times.
