@@ -168,7 +168,7 @@ fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
     let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
     let reason = |window: &Window, key: &str| window.known().rejected.of(key).map(str::to_owned);
-    window.state_mut().carry_out(Command::SetText { key: viscosity, text: "0".to_owned() });
+    window.state_mut().carry_out(Command::SetText(viscosity, "0".to_owned()));
     window.type_into("Contact radius in mm", "5");
     window.get_by_label_contains("of the tooth pitch");
     // A little narrower: other numbers in the reason. Much narrower: no reason left.

@@ -44,8 +44,8 @@ impl Edited {
     fn apply(&mut self, command: &Command) {
         let (key, change) = match command.clone() {
             Command::Set { key, value, .. } => (key, Change::Value(value)),
-            Command::SetText { key, text } => (key, Change::Text(text)),
-            Command::Reset { key } => (key, Change::Unset),
+            Command::SetText(key, text) => (key, Change::Text(text)),
+            Command::Reset(key) => (key, Change::Unset),
             other => panic!("{other:?} does not come from this panel"),
         };
         let rejected = &mut self.state.rejected;
@@ -193,7 +193,7 @@ fn a_typed_spacing_is_set() {
     type_into(&mut harness, "Minimum spacing H_m in nm", "120");
     assert_eq!(harness.state().pushed, [], "nothing happens before Enter");
     press(&mut harness, Key::Enter);
-    assert_eq!(harness.state().pushed, [Command::SetText { key: "film.min_spacing_nm", text: "120".into() }]);
+    assert_eq!(harness.state().pushed, [Command::SetText("film.min_spacing_nm", "120".into())]);
     let field = harness.get_by_role_and_label(Role::TextInput, "Minimum spacing H_m in nm");
     assert_eq!(field.value().as_deref(), Some("120"));
 }
@@ -204,7 +204,7 @@ fn leaving_the_field_sets_it_once() {
     type_into(&mut harness, "Tooth width in mm", "1.5");
     press(&mut harness, Key::Tab);
     harness.run_steps(5);
-    assert_eq!(harness.state().pushed, [Command::SetText { key: "stator.tooth_width_mm", text: "1.5".into() }]);
+    assert_eq!(harness.state().pushed, [Command::SetText("stator.tooth_width_mm", "1.5".into())]);
 }
 
 #[test]
@@ -325,7 +325,7 @@ fn an_optional_parameter_is_switched() {
         assert_eq!(harness.state().scene().get("plate.width_mm").is_some(), on);
         assert_eq!(harness.query_by_role_and_label(Role::Slider, "Width").is_some(), on);
     }
-    assert_eq!(harness.state().pushed[1], Command::Reset { key: "plate.width_mm" });
+    assert_eq!(harness.state().pushed[1], Command::Reset("plate.width_mm"));
 }
 
 #[test]

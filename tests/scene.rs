@@ -709,6 +709,7 @@ fn every_preset_is_a_problem_and_saves_equal() {
 
 #[test]
 fn every_published_row_has_its_preset_and_its_change() {
+    assert_eq!(table1::published().len(), 14);
     for row in table1::published() {
         let preset = presets::find(&row.preset).unwrap();
         let mut expected = presets::find("fundamental").unwrap();
@@ -724,6 +725,7 @@ fn every_published_row_has_its_preset_and_its_change() {
         assert_eq!(preset.numerics(), expected.numerics(), "{}", row.row);
         // The description quotes the published numbers as printed in the paper.
         let (load, alpha) = (row.published_load_n, row.published_alpha);
+        assert!((load / 2.45 - alpha).abs() < 1e-3, "{}", row.row);
         assert!(preset.about.contains(&format!("{load:.3} N, share of the load {alpha:.3}")), "{}", preset.about);
     }
 }

@@ -126,6 +126,22 @@ fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_un
 }
 
 #[test]
+fn at_an_end_of_a_range_there_is_one_side() {
+    let slope = |at: &str| {
+        let mut scene = presets::find("plate-crossover").unwrap();
+        scene.set("film.ambient_pressure_kpa", at).unwrap();
+        let column = &sensitivity(&scene, &["film.ambient_pressure_kpa"], Fidelity::Standard).columns[0];
+        (column.sides, column.slopes.as_ref().unwrap()[0])
+    };
+    let [(sides, one_sided), (_, before), (_, earlier)] = ["1000", "960", "920"].map(slope);
+    assert_eq!(sides, Sides::Below);
+    let continued = 2.0 * before.value - earlier.value;
+    let tolerance = one_sided.step_error + (continued - before.value).abs();
+    assert!((one_sided.value - continued).abs() < tolerance, "{one_sided:?} {before:?} {earlier:?}");
+    assert!(one_sided.step_error < 0.05 * one_sided.value.abs(), "{one_sided:?}");
+}
+
+#[test]
 fn where_a_ring_does_not_reach_there_is_one_side() {
     let scene = presets::find("ring-rotor").unwrap();
     let found = sensitivity(&scene, &["rotor.contact_width_mm", "motor.contact_radius_mm"], Fidelity::Draft);

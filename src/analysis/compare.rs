@@ -237,39 +237,7 @@ fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fidelity::Fidelity;
     use crate::scene::presets;
-    use crate::solve::solve;
-
-    fn draft() -> Settings {
-        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
-    }
-
-    #[test]
-    fn every_run_is_the_single_solve_to_the_last_bit() {
-        let scenes = ["fundamental", "min-spacing-100nm", "plate-crossover"].map(|name| presets::find(name).unwrap());
-        let runs = runs(&scenes, &draft(), &Cancel::new(), &|_| ()).unwrap();
-        for (scene, run) in scenes.iter().zip(&runs) {
-            let problem = Problem::try_from(scene).unwrap();
-            let alone = solve(&problem, &draft(), &mut (), &Cancel::new()).unwrap();
-            let solution = run.solved.as_ref().unwrap();
-            assert_eq!(run.numbers(), Numbers::of(&problem, &alone));
-            assert_eq!((solution.outcome, &solution.recording), (alone.outcome, &alone.recording));
-        }
-        let results = results(&runs);
-        let alpha = results.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
-        let [first, second, plate] = &alpha.cells[..] else { panic!("{alpha:?}") };
-        let (one, other, apart) = (first.found.unwrap(), second.found.unwrap(), second.difference_percent.unwrap());
-        assert_eq!((first.difference_percent, apart.value), (None, 100.0 * (other.value / one.value - 1.0)));
-        assert!(apart.error > 100.0 * other.error / one.value);
-        assert_eq!(*plate, ResultCell::default());
-        // A strip's force is per metre: it has a unit of its own, and no difference from a motor's.
-        let load = results.iter().find(|row| row.quantity == Quantity::FilmLoad).unwrap();
-        let [_, second, strip] = &load.cells[..] else { panic!("{load:?}") };
-        assert!(second.difference_percent.is_some() && strip.found.is_some(), "{load:?}");
-        assert_eq!((strip.difference_percent, strip.unit, load.unit), (None, "N/m", None));
-        assert!(results.iter().all(|row| !row.quantity.name().contains("_error")));
-    }
 
     #[test]
     fn only_the_key_that_was_changed_differs() {

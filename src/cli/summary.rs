@@ -349,30 +349,3 @@ fn shown(value: f64) -> String {
 fn found(summary: &Summary, quantity: Quantity) -> Estimate {
     summary.numbers.estimate(quantity).unwrap_or(Estimate::exact(f64::NAN))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::control::Cancel;
-    use crate::scene::presets;
-    use crate::solve::{Settings, solve};
-
-    #[test]
-    fn what_did_not_converge_is_marked_and_still_reported() {
-        let scene = presets::find("plate-viscous").unwrap();
-        let problem = Problem::try_from(&scene).unwrap();
-        let mut solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
-        solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
-        let summary = Summary::new(&problem, &solution, 0.0123, &[]);
-        let object = serde_json::to_value(&summary).unwrap();
-        assert_eq!((&object["converged"], &object["status"]), (&false.into(), &"not converged".into()));
-        let change = [Quantity::Residual, Quantity::Tolerance].map(|quantity| summary.numbers.get(quantity));
-        assert_eq!(change, [Some(2e-3), Some(1e-6)]);
-        let shown = text(&scene, &summary);
-        assert!(
-            shown.starts_with("Plate, viscous: NOT CONVERGED: the last round still changed the result by 0.20 %"),
-            "{shown}"
-        );
-        assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
-    }
-}

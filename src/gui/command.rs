@@ -30,24 +30,11 @@ pub enum Command {
         dragging: bool,
     },
     /// Sets a scene parameter from typed text; refused text becomes a message at the parameter.
-    SetText {
-        /// Dotted key.
-        key: &'static str,
-        /// What was typed.
-        text: String,
-    },
+    SetText(&'static str, String),
     /// Back to the parameter's default (for an optional one: absent).
-    Reset {
-        /// Dotted key.
-        key: &'static str,
-    },
-    /// Solves with these numerics, refined up to this fidelity, from now on: one edit.
-    Use {
-        /// The last fidelity that an edit is solved at.
-        target: Fidelity,
-        /// All of the scene's numerics.
-        numerics: Numerics,
-    },
+    Reset(&'static str),
+    /// Solves edits up to this fidelity, with all of these numerics, from now on: one edit.
+    Use(Fidelity, Numerics),
     /// The most time that a solve may take from now on, if that is limited.
     Budget(Option<Duration>),
     /// Copies a link to what is shown.
@@ -317,7 +304,7 @@ impl Command {
     /// The parameter that it edits.
     pub fn edited(&self) -> Option<&'static str> {
         match self {
-            Self::Set { key, .. } | Self::SetText { key, .. } => Some(key),
+            Self::Set { key, .. } | Self::SetText(key, _) => Some(key),
             _ => None,
         }
     }

@@ -46,7 +46,7 @@ pub fn open(
             app.updater.follow(link);
         }
         if let Some(target) = fidelity {
-            app.carry_out(Command::Use { target, numerics: app.state().document.scene().numerics() });
+            app.carry_out(Command::Use(target, app.state().document.scene().numerics()));
         }
         if budget.is_some() {
             app.carry_out(Command::Budget(budget));

@@ -16,20 +16,3 @@ use super::work::Work;
 
 /// The task that does the work `W`.
 pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
-
-/// All messages of a task and its end, for tests.
-#[cfg(test)]
-pub(super) fn to_the_end<M: Send + 'static, R: Send + 'static>(
-    task: &Task<M, R>,
-) -> (Vec<M>, Result<Option<R>, String>) {
-    let mut seen = Vec::new();
-    for _ in 0..6000 {
-        let News { messages, end } = task.drain();
-        seen.extend(messages);
-        if let Some(end) = end {
-            return (seen, end);
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    panic!("it has not ended: {} messages", seen.len());
-}

@@ -40,38 +40,3 @@ impl Work for TradeoffWork {
         Ok(Some(measure(&self.posed.problem, self.candidates, &self.effort, &clock, cancel, &mut each)))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::task::{Task, TaskOf, to_the_end};
-    use super::super::work::tests::posed;
-    use super::*;
-    use crate::analysis::attempt::RunStatus;
-    use crate::analysis::tradeoff::candidates;
-    use crate::fidelity::Fidelity;
-
-    fn start(fidelity: Fidelity, repeats: usize) -> TaskOf<TradeoffWork> {
-        let posed = posed("fundamental");
-        let mut candidates = candidates(&posed.problem);
-        candidates.retain(|candidate| candidate.name == fidelity.name());
-        let effort = Effort { repeats: Some(repeats), ..Effort::default() };
-        Task::of(TradeoffWork { posed, candidates, effort, now: Instant::now }, |_| ()).unwrap()
-    }
-
-    #[test]
-    fn it_measures_and_says_when_it_has_ended() {
-        let (told, end) = to_the_end(&start(Fidelity::Draft, 3));
-        let runs = end.unwrap().unwrap();
-        assert_eq!((runs[0].times.len(), told.last().unwrap().1), (3, 1.0));
-        assert_eq!(runs[0].status, RunStatus::Converged);
-    }
-
-    #[test]
-    fn cancelling_and_dropping_end_a_long_one() {
-        let measurement = start(Fidelity::Reference, 1000);
-        measurement.cancel();
-        let (told, end) = to_the_end(&measurement);
-        assert!(end.is_ok() && told.last().is_none_or(|(_, share)| *share < 1.0));
-        drop(start(Fidelity::Reference, 1000));
-    }
-}

@@ -147,13 +147,18 @@ impl Scene {
         match self.changed(original).count() {
             keys if keys > 0 && self.name == original.name => {
                 let keys = format!("{keys} {}", if keys == 1 { "key" } else { "keys" });
-                match self.name.split_once(", changed") {
-                    Some((name, _)) => format!("{name}, changed again: {keys}"),
-                    None => format!("{}, changed: {keys}", self.name),
+                match self.unchanged_name() {
+                    name if name != self.name => format!("{name}, changed again: {keys}"),
+                    name => format!("{name}, changed: {keys}"),
                 }
             }
             _ => self.name.clone(),
         }
+    }
+
+    /// Its name without what [`Scene::title`] has added to it.
+    pub fn unchanged_name(&self) -> &str {
+        self.name.split(", changed").next().unwrap_or_default()
     }
 
     /// Gives a scene that was made from `original` its [`Scene::title`] as a name, and a description that lists the changes. A name or a

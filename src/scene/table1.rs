@@ -36,24 +36,3 @@ pub fn published() -> Vec<PublishedRow> {
     let rows = reader.deserialize::<PublishedRow>().filter_map(Result::ok);
     rows.map(|row| PublishedRow { preset: row.row.replace('_', "-"), ..row }).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_rows_are_read() {
-        let rows = published();
-        assert_eq!(rows.len(), TABLE1_CSV.lines().count() - 1);
-        assert_eq!(rows.len(), 14);
-        assert_eq!((rows[0].published_load_n, rows[0].published_alpha), (0.583, 0.238));
-        assert_eq!(rows[5].preset, "tooth-width-2.31mm");
-    }
-
-    #[test]
-    fn alpha_is_load_over_the_axial_load() {
-        for row in published() {
-            assert!((row.published_load_n / 2.45 - row.published_alpha).abs() < 1e-3, "{}", row.row);
-        }
-    }
-}

@@ -91,11 +91,8 @@ impl FromStr for Part {
 mod tests {
     use super::*;
     use crate::analysis::sweep::Sweep;
-    use crate::control::Cancel;
-    use crate::fidelity::Fidelity;
     use crate::scene::presets;
     use crate::solve::Settings;
-    use std::sync::Mutex;
 
     #[test]
     fn parts_cover_every_point_once_and_no_chunk_is_cut() {
@@ -128,35 +125,6 @@ mod tests {
         {
             assert!(of(part).unwrap_err().to_string().starts_with(told), "{part}");
         }
-    }
-
-    #[test]
-    fn a_part_of_a_large_sweep_solves_its_points_alone() {
-        let scene = presets::find("fundamental").unwrap();
-        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
-        let part: Part = "50000/100000".parse().unwrap();
-        let vary =
-            ["motor.load_per_wave_n=1:5:1000", "film.min_spacing_nm=50:500:400"].map(|text| text.parse().unwrap());
-        let large = Sweep::of_part(&scene, &vary, &settings, part).unwrap();
-        let told = Mutex::new(Vec::new());
-        let rows = large.run_part(part, &[], &Cancel::new(), &|row| told.lock().unwrap().push(row.point));
-        assert_eq!((rows.len(), told.into_inner().unwrap()), (4, large.points_of(part).collect()));
-        let list = |key: &str, axis: usize| {
-            let mut values: Vec<String> = rows.iter().map(|row| row.values[axis].to_string()).collect();
-            values.dedup();
-            if axis == 0 {
-                values.push("5".to_owned())
-            }
-            format!("{key}={}", values.join(",")).parse().unwrap()
-        };
-        let small = [list("motor.load_per_wave_n", 0), list("film.min_spacing_nm", 1)];
-        let small = Sweep::new(&scene, &small, &settings).unwrap().run_part(
-            "1/2".parse().unwrap(),
-            &[],
-            &Cancel::new(),
-            &|_| (),
-        );
-        assert!(rows.iter().zip(&small).all(|(one, other)| one.numbers == other.numbers && one.values == other.values));
     }
 
     #[test]

@@ -204,7 +204,7 @@ impl Document {
                 scene.about = format!("Made from {}.", original.name);
             }
             if scene.name == original.name {
-                scene.name = format!("{}, changed", original.name.split(", changed").next().unwrap_or_default());
+                scene.name = format!("{}, changed", original.unchanged_name());
             }
         }
         scene.save(path)?;

@@ -25,9 +25,9 @@ impl Updater {
         let state = &mut self.state;
         match command {
             Command::Set { key, value, dragging } => self.edit(key, dragging, Change::Value(value)),
-            Command::SetText { key, text } => self.edit(key, false, Change::Text(text)),
-            Command::Reset { key } => self.reset(key),
-            Command::Use { target, numerics } => self.use_setting(target, numerics),
+            Command::SetText(key, text) => self.edit(key, false, Change::Text(text)),
+            Command::Reset(key) => self.reset(key),
+            Command::Use(target, numerics) => self.use_setting(target, numerics),
             Command::CopyLink => self.copy_link(),
             Command::About => state.modal = Some(Modal::About),
             Command::CopyCitation => self.ctx.copy_text(citation::bibtex()),

@@ -99,10 +99,23 @@ impl<M, R> Drop for Task<M, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::task::to_the_end;
     use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Duration;
+
+    /// All messages of a task and its end.
+    fn to_the_end<M: Send + 'static, R: Send + 'static>(task: &Task<M, R>) -> (Vec<M>, Result<Option<R>, String>) {
+        let mut seen = Vec::new();
+        for _ in 0..6000 {
+            let News { messages, end } = task.drain();
+            seen.extend(messages);
+            if let Some(end) = end {
+                return (seen, end);
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("it has not ended: {} messages", seen.len());
+    }
 
     #[test]
     fn a_panic_ends_it_with_its_text() {

@@ -139,7 +139,7 @@ impl Field<'_> {
                 let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
                 Command::Set { key: self.key, value: Value::Text(line), dragging: false }
             }
-            _ => Command::SetText { key: self.key, text: text.trim().to_owned() },
+            _ => Command::SetText(self.key, text.trim().to_owned()),
         }
     }
 }

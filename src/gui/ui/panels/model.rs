@@ -168,7 +168,7 @@ impl Row<'_> {
             let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
             let (combo, chosen) = fidelity::choose_target(ui, target, ui.available_width(), self.cx);
             if let Some(target) = chosen {
-                self.cx.push(Command::Use { target, numerics });
+                self.cx.push(Command::Use(target, numerics));
             }
             let hint = "Every edit is solved at draft first, then refined up to this";
             combo.hint_beside(ui, hint).labelled_by(label.id);
@@ -194,7 +194,7 @@ impl Row<'_> {
         }
         let asked = asked(self.document().scene(), parameter.key);
         if asked != AUTO && !asked.is_empty() {
-            let back = Command::Reset { key: parameter.key };
+            let back = Command::Reset(parameter.key);
             self.overruled(ui, decision, back);
         }
     }
@@ -206,7 +206,7 @@ impl Row<'_> {
         self.cx.note(ui, capitalised(&decision::words(decision)));
         if decision.overruled {
             let numerics = without_grid(&self.document().scene().numerics());
-            self.overruled(ui, decision, Command::Use { target: self.document().target(), numerics });
+            self.overruled(ui, decision, Command::Use(self.document().target(), numerics));
         }
     }
 

@@ -300,7 +300,7 @@ impl Panel<'_> {
         if ui.checkbox(&mut on, parameter.switch).hint_beside(ui, &explanation).changed() {
             self.cx.push(match parameter.usual().filter(|_| on) {
                 Some(value) => Command::Set { key: parameter.key, value, dragging: false },
-                None => Command::Reset { key: parameter.key },
+                None => Command::Reset(parameter.key),
             });
         }
         if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {

@@ -178,7 +178,7 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
         cx.on_click(
             &named.hint("One edit, undone like any other"),
-            Command::Use { target: candidate.settings.fidelity, numerics: candidate.numerics },
+            Command::Use(candidate.settings.fidelity, candidate.numerics),
         );
     });
 }
