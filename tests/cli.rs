@@ -1001,7 +1001,7 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
 #[test]
 fn what_would_have_no_effect_or_be_lost_is_told_before_anything_is_solved() {
     let varied = ["sweep", "fundamental", "--vary", "motor.load_per_wave_n=1:2:3", "--set", "motor.load_per_wave_n=1"];
-    refused(&varied, 2, &["--set has no effect on a key that is varied"]);
+    refused(&varied, 2, &["--set has no effect on motor.load_per_wave_n, which is varied"]);
     let folder = tempfile::tempdir().unwrap();
     let nowhere = folder.path().join("none/wave.gif");
     refused(

@@ -204,6 +204,8 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let alpha = |run: usize| texts(&singles[run], "alpha")[0].parse::<f64>().unwrap();
     let difference = compared["runs"][1]["difference_percent"]["alpha"].as_f64().unwrap();
     assert!((difference - 100.0 * (alpha(1) / alpha(0) - 1.0)).abs() < 1e-9);
+    let off = compared["runs"][1]["difference_error_percent"]["alpha"].as_f64().unwrap();
+    assert!(off > 0.0 && off < 5.0, "{off}");
     assert_eq!(compared["differing"].as_array().unwrap().len(), 2);
 
     let mut reader = csv::Reader::from_path(folder.path().join("compare.csv")).unwrap();

@@ -395,6 +395,20 @@ fn a_gas_is_either_named_or_given_and_so_is_its_pressure() {
     assert!(!saved.to_toml().contains("viscosity_upa_s") && !saved.to_toml().contains("ambient_pressure_kpa"));
 }
 
+#[test]
+fn that_the_replaced_key_is_not_given_may_be_said() {
+    for (key, value, replaced) in
+        [("motor.load_n", "20", "motor.load_per_wave_n"), ("stator.tooth_share", "0.5", "stator.tooth_width_mm")]
+    {
+        let (mut said, mut unsaid) = (Scene::motor(), Scene::motor());
+        said.set_all([(key, value), (replaced, "none")]).unwrap();
+        unsaid.set(key, value).unwrap();
+        assert_eq!(said, unsaid);
+        let alone = Scene::motor().set_all([(replaced, "none")]).unwrap_err().to_string();
+        assert!(alone.contains("none is not a number"), "{alone}");
+    }
+}
+
 // ---- measured heights
 
 /// Heights \[nm\] of a face on which ridges lie along y.

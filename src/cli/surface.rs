@@ -108,7 +108,7 @@ fn text(faces: &[Face], pair: &Pair) -> String {
     row("", &|face| lengths(face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
     row(
         "lay  γ",
-        &|face| face.lay().map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
+        &|face| face.lay().map_or_else(|| "unknown, taken to be 1".to_owned(), |lay| significant(lay, 3)),
         "along x over across",
     );
     let mut text = columns.text(&[]);

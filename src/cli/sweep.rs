@@ -100,8 +100,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
     }
-    if arguments.common.scene.changes.iter().any(|(key, _)| varies(key)) {
-        return Err(CliError::usage("--set has no effect on a key that is varied: leave one of the two out"));
+    if let Some((key, _)) = arguments.common.scene.changes.iter().find(|(key, _)| varies(key)) {
+        return Err(CliError::usage(&format!(
+            "--set has no effect on {key}, which is varied: leave one of the two out"
+        )));
     }
     for (vary, axis) in arguments.vary.iter().zip(sweep.axes()) {
         if let Values::Range { count, .. } = vary.values

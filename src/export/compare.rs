@@ -78,8 +78,13 @@ fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
     for (name, value) in estimates::named(Quantity::of(&run.problem), &run.numbers()) {
         object[name] = value;
     }
-    let difference = |row: &ResultRow| Some((row.quantity.name(), row.cells[place].difference_percent?.value));
-    object["difference_percent"] = json!(rows.iter().filter_map(difference).collect::<BTreeMap<_, _>>());
+    let difference = |row: &ResultRow| Some((row.quantity.name(), row.cells[place].difference_percent?));
+    let differences: BTreeMap<_, _> = rows.iter().filter_map(difference).collect();
+    let of = |part: fn(&Estimate) -> f64| {
+        json!(differences.iter().map(|(name, found)| (name, part(found))).collect::<BTreeMap<_, _>>())
+    };
+    object["difference_percent"] = of(|found| found.value);
+    object["difference_error_percent"] = of(|found| found.error);
     let solution = run.solved.as_ref().ok();
     object["why"] = solution.map(|solution| sentences(&solution.model)).into();
     object["validity"] = json!(solution.map(|solution| outside(&run.problem, Some(solution))));

@@ -106,6 +106,9 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
 pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
     let panel = panel(tradeoff, ("chosen", Colour::BLACK, chosen));
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
-    let provenance = Provenance { note: format!("medians of {runs} runs"), ..Provenance::named(preset) };
+    let provenance = Provenance {
+        note: format!("medians of {runs} runs of {} settings", tradeoff.points.len()),
+        ..Provenance::named(preset)
+    };
     Figure { provenance, ..Figure::default() }.panel(panel)
 }

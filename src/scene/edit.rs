@@ -87,6 +87,10 @@ impl Scene {
         let pairs: Vec<_> = pairs.into_iter().collect();
         let mut pairs: Vec<_> =
             pairs.iter().map(Borrow::borrow).map(|(key, text)| (key.as_ref(), text.as_ref())).collect();
+        // That a key is not given says nothing beside the one that takes its place.
+        let set: Vec<_> = pairs.iter().filter(|(_, text)| *text != "none").map(|(key, _)| *key).collect();
+        let replaced = |parameter: &'static Parameter| parameter.alternatives().any(|other| set.contains(&other.key));
+        pairs.retain(|(key, text)| *text != "none" || !Parameter::find(key).is_some_and(replaced));
         pairs.sort_by_key(|(key, _)| Parameter::find(key).map_or(0, Parameter::rank));
         let mut changed = self.clone();
         let mut faults = SceneError::none();

@@ -297,7 +297,7 @@ impl NewMotor {
                     Factors::LEAST => {
                         "stall torque over load and radius: the least that it can be, because the air takes some"
                     }
-                    _ => "the solved motor has the stall torque of the data sheet",
+                    _ => "the solved motor has the stall torque of the data sheet, within 0.2 %",
                 };
                 let much = format!("{why}; {USUAL}: check the stall torque, the load and the diameter");
                 draft.assume("motor.dry_friction", friction, if friction > MUCH_FRICTION { &much } else { why });
@@ -312,7 +312,9 @@ impl NewMotor {
             Some(amplitude) if factors == Factors::LEAST => {
                 (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
             }
-            Some(amplitude) => (amplitude, "the solved motor has the speed without load of the data sheet"),
+            Some(amplitude) => {
+                (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
+            }
             None => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
