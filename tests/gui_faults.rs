@@ -13,6 +13,7 @@ use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
 use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 use window::{Memory, User, Window, begin_export, drop_file, open, reopen, reopen_on, until};
@@ -130,6 +131,27 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     until(&mut window, "the refusal", |app| app.state().activity.failure.is_some());
     assert!(window.query_by_label_contains("✔ Converged").is_none());
     assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
+}
+
+#[test]
+fn what_was_saved_under_another_name_is_pinned_under_it() {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    FOLDER.set(tempfile::tempdir().unwrap()).unwrap();
+    fn ask(_: Purpose, _: &DialogStart) -> Answer {
+        Answer::Path(FOLDER.get().unwrap().path().join("mine.toml"))
+    }
+    let original = presets::find("plate-crossover").unwrap();
+    let mut window = window(ask, (original.clone(), None));
+    window.type_into("Frequency in kHz", "12");
+    until(&mut window, "its run", |app| {
+        app.state().run.as_ref().is_some_and(|run| run.scene.get("plate.frequency_khz") == Some(Value::Number(12.0)))
+    });
+    window.press_with(CTRL | Modifiers::SHIFT, Key::S);
+    until(&mut window, "the file", |app| app.state().document.path().is_some());
+    window.ctrl(Key::D);
+    let pin = &window.known().pins.runs[0];
+    assert_eq!(pin.label, format!("{}, changed", original.name));
+    assert_eq!(pin.scene.about, format!("Made from {}.", original.name));
 }
 
 #[test]

@@ -384,13 +384,13 @@ pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
 /// The section that says how the report is made again.
 pub(super) fn again(page: &mut Page, command: &[String]) {
     page.section("To make this report again");
-    if !command.is_empty() {
+    let repeats = if command.is_empty() {
+        "The window starts each solve from the one before: another run agrees with it within the stated errors."
+    } else {
         page.code(&shell(command));
-    }
-    page.note(&format!(
-        "squeezefilm {}. A run repeats to the last bit, whatever the number of threads; only times differ.",
-        env!("CARGO_PKG_VERSION")
-    ));
+        "A run repeats to the last bit, whatever the number of threads; only times differ."
+    };
+    page.note(&format!("squeezefilm {}. {repeats}", env!("CARGO_PKG_VERSION")));
 }
 
 /// The row of a table of results that names where the model is out of its depth, in each run.

@@ -295,7 +295,7 @@ impl NewMotor {
             Some(friction) => {
                 let why = match factors {
                     Factors::LEAST => {
-                        "stall torque over load and radius: the least that it can be, because the air takes some"
+                        "stall torque over load and radius: the least that it can be, because the air takes some; the solved motor tells how much more it is"
                     }
                     _ => "the solved motor has the stall torque of the data sheet, within 0.2 %",
                 };
@@ -309,9 +309,10 @@ impl NewMotor {
             .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
         let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
         let (tangential, why) = match amplitude {
-            Some(amplitude) if factors == Factors::LEAST => {
-                (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
-            }
+            Some(amplitude) if factors == Factors::LEAST => (
+                amplitude,
+                "the crests of the wave move as fast as the rotor without load: the least that it can be; the solved motor tells how much more it is",
+            ),
             Some(amplitude) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
             }

@@ -27,6 +27,10 @@ const KINDS: &[Kind] = &[
     &[("rpm", 1.0)],
     &[("°C", 1.0)],
     &[("mm/s", 1e-3), ("m/s", 1.0)],
+    // Of answers in lessons.
+    &[("mN*m", 1e-3), ("mNm", 1e-3), ("N*m", 1.0), ("Nm", 1.0), ("kN*m", 1e3), ("kNm", 1e3)],
+    &[("mN*s/m", 1e-3), ("mNs/m", 1e-3), ("N*s/m", 1.0), ("Ns/m", 1.0)],
+    &[("N/m", 1.0), ("kN/m", 1e3), ("N/mm", 1e3), ("N/um", 1e6)],
     &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
 ];
 
@@ -217,6 +221,19 @@ mod tests {
 
     fn of(key: &str, text: &str) -> Result<f64, String> {
         read(Parameter::find(key).unwrap(), text)
+    }
+
+    #[test]
+    fn answers_of_lessons_have_units() {
+        for (unit, text, expected) in [
+            ("N·m", "262 mN·m", Some(0.262)),
+            ("N·m", "262mNm", Some(0.262)),
+            ("N·m", "5 kHz", None),
+            ("mN·s/m", "0.00164 N·s/m", Some(1.64)),
+            ("N/µm", "2000 N/mm", Some(2.0)),
+        ] {
+            assert_eq!(number(unit, text), expected, "{text}");
+        }
     }
 
     #[test]

@@ -29,9 +29,19 @@ impl Updater {
         }
     }
 
-    /// The run on screen; its scene has a name and a description that claim no more than is true of it.
-    fn named(&self) -> Option<SolvedScene> {
+    /// The run on screen; its scene has the name and the description of now: saving may have changed them since it was solved.
+    pub(super) fn shown(&self) -> Option<SolvedScene> {
         let mut run = SolvedScene::clone(self.state.run.as_ref()?);
+        let scene = self.state.document.scene();
+        if run.scene.changed(scene).next().is_none() {
+            run.scene = scene.clone();
+        }
+        Some(run)
+    }
+
+    /// The same with a name and a description that claim no more than is true of it.
+    fn named(&self) -> Option<SolvedScene> {
+        let mut run = self.shown()?;
         run.scene.retitle(self.state.document.saved());
         run.problem.name = run.scene.name.clone();
         Some(run)

@@ -11,8 +11,8 @@ impl Updater {
     pub(super) fn pin(&mut self, command: PinCommand) {
         match command {
             PinCommand::Shown => {
-                if let Some(run) = &self.state.run {
-                    let mut run = to_compare(run);
+                if let Some(run) = self.shown() {
+                    let mut run = to_compare(&run);
                     let mut named = run.scene.clone();
                     named.retitle(self.state.document.saved());
                     // It may be called by what tells it from the others, but not described as what it is no longer.

@@ -108,7 +108,8 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                         _ => 0.0,
                     };
                     let name = ui.label("Your number");
-                    let field = egui::DragValue::new(&mut number).speed(0.01).max_decimals(6);
+                    let field =
+                        egui::DragValue::new(&mut number).speed(0.01).max_decimals(6).update_while_editing(false);
                     let field = field.custom_parser(|text| quantity_text::number(unit, text));
                     let field = ui.add_enabled(!work.committed, field);
                     let predict = LessonCommand::Predict(Prediction::Number(number));
