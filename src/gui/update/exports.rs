@@ -33,7 +33,8 @@ impl Updater {
     pub(super) fn shown(&self) -> Option<SolvedScene> {
         let mut run = SolvedScene::clone(self.state.run.as_ref()?);
         let scene = self.state.document.scene();
-        if run.scene.changed(scene).next().is_none() {
+        // Keys that only one of a motor and a plate has do not tell them apart.
+        if run.scene.scene() == scene.scene() && run.scene.changed(scene).next().is_none() {
             run.scene = scene.clone();
         }
         Some(run)
