@@ -71,7 +71,7 @@ pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
 
 /// As [`check_writable`], of the folder for all files of results: none of its folders may be in the way, with a name such as they have.
 pub fn check_for_results(folder: &Path) -> Result<(), WriteError> {
-    const KINDS: [&str; 8] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html"];
+    const KINDS: [&str; 11] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html", "gif", "vtk", "series"];
     let in_the_way =
         |path: &PathBuf| path.extension().is_some_and(|of| KINDS.iter().any(|kind| of == *kind)) && path.is_dir();
     let mut entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());

@@ -65,8 +65,6 @@ pub struct SolvedScene {
     pub validity: Vec<Excess>,
     /// Wall time of this fidelity's solve \[s\].
     pub wall_s: f64,
-    /// Whether the solve started from the fields of an earlier scene. The effort, but not the result, then depends on that scene.
-    pub warm: bool,
     /// The convergence history: the residual of each round, all grids, in order.
     pub history: Vec<Progress>,
 }
@@ -112,13 +110,13 @@ pub struct Request {
     pub budget: Option<Duration>,
 }
 
-/// A solution, whether the solve started from the fields of an earlier scene, and its wall time \[s\].
-type Timed = (Solution, bool, f64);
+/// A solution, and the wall time of its solve \[s\].
+type Timed = (Solution, f64);
 
 /// In bytes: all but the problem and the limits, which follow from the scene and the solution.
 impl Serialize for SolvedScene {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let timed = (&self.solution, self.warm, self.wall_s);
+        let timed = (&self.solution, self.wall_s);
         (self.number, &self.scene, self.fidelity, timed, &self.history).serialize(to)
     }
 }
@@ -138,7 +136,7 @@ impl SolvedScene {
         scene: Scene,
         problem: &Problem,
         fidelity: Fidelity,
-        (solution, warm, wall_s): Timed,
+        (solution, wall_s): Timed,
         history: Vec<Progress>,
     ) -> Self {
         Self {
@@ -149,7 +147,6 @@ impl SolvedScene {
             validity: outside(problem, Some(&solution)),
             solution,
             wall_s,
-            warm,
             history,
         }
     }
@@ -167,12 +164,12 @@ fn solved(
 ) -> Result<Option<Timed>, String> {
     let settings = Settings { fidelity, ..Settings::default() };
     let limited = budget.map_or(cancel.clone(), |budget| timed(cancel, budget));
-    let (started_warm, started) = (!warm.is_empty(), now());
+    let started = now();
     let found = caught(|| solve_from(warm, problem, &settings, &mut listen, &limited));
     let wall_s = now().duration_since(started).as_secs_f64();
     match found {
         Ok(Ok(solution)) if solution.status == Status::Cancelled => Ok(None),
-        Ok(Ok(solution)) => Ok(Some((solution, started_warm, wall_s))),
+        Ok(Ok(solution)) => Ok(Some((solution, wall_s))),
         Ok(Err(_)) if cancel.is_cancelled() => Ok(None),
         Ok(Err(error)) => Err(error.to_string()),
         Err(panic) => Err(failure(fidelity, &panic)),

@@ -22,26 +22,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Map
-//!
-//! What solves is a crate of its own, `squeezefilm-solver`; its modules are here under the same names: [`numerics`], [`control`],
-//! [`digits`], [`budget`], [`gas`], [`surface`], [`problem`], [`dimensionless`], [`film`], [`rotor`], [`contact`], [`fidelity`], [`plan`],
-//! [`estimate`], [`recording`], [`solution`], [`ladder`], [`drive`], [`memory`], [`motor`], [`plate`], [`mod@paper`], [`mod@solve`],
-//! [`mod@startup`], [`hold`], [`fall`]. Around it, each of these may use those above it in this table, and none below:
-//!
-//! | module | what it holds |
-//! | --- | --- |
-//! | [`platform`] | where the program runs: a process or a page |
-//! | [`atomic`], [`input`] | files that appear complete or not at all, locks between processes; files from outside |
-//! | [`ticks`] | round numbers on axes |
-//! | [`citation`] | the citation of the program |
-//! | [`scene`] | scenes, which a person edits: files, units, ranges, presets |
-//! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
-//! | [`lessons`] | lessons and the glossary: their texts, scenes, questions and checks |
-//! | [`job`] | solves and all other work in the background |
-//! | [`cli`] | the command line |
-//!
-//! The equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
+//! What solves is a crate of its own, `squeezefilm-solver`, whose modules are here under the same names. Where to find what is in
+//! `ARCHITECTURE.md`, the equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
 
 pub mod analysis;
 pub mod atomic;

@@ -185,7 +185,11 @@ fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
 
 #[test]
 fn a_scene_outside_the_limits_of_the_model_says_so() {
-    assert_eq!(solved(&["plate-crossover"])["validity"], Value::Array(Vec::new()));
+    // The default law of slip holds for a mean gap of 1 µm, and not for the least, 0.5 µm.
+    let exact = ["plate-crossover", "--set", "film.slip=fukui-kaneko"];
+    assert_eq!(solved(&exact)["validity"], Value::Array(Vec::new()));
+    let slip = &solved(&["plate-crossover"])["validity"][0];
+    assert_eq!((&slip["name"], &slip["value"]), (&"slip-law".into(), &0.128.into()));
     let far = ["plate-crossover", "--set", "plate.mean_gap_um=500", "--set", "plate.frequency_khz=40"];
     let result = solved(&far);
     let names: Vec<&str> =
@@ -198,7 +202,7 @@ fn a_scene_outside_the_limits_of_the_model_says_so() {
     for words in ["Outside the limits of the model", "gas-inertia: 348, limit 0.1.", "isothermal: 38.5, limit 1."] {
         assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
     }
-    assert!(!out(&run(&["solve", "plate-crossover", "--fidelity", "draft"])).contains("Outside the limits"));
+    assert!(!out(&run(&[&["solve", "--fidelity", "draft"], &exact[..]].concat())).contains("Outside the limits"));
 }
 
 #[test]
@@ -667,6 +671,13 @@ fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     assert!(output.stdout.is_empty());
     assert_eq!(fs::read_to_string(folder.path().join("summary.json")).unwrap(), "older");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    // Of several presets, each in its own folder.
+    let several = folder.path().join("several");
+    fs::create_dir_all(several.join("levitating/film.vtk.series")).unwrap();
+    let several_path = several.to_str().unwrap();
+    let presets = ["solve", "plate-viscous", "levitating", "--fidelity", "draft", "--out", several_path];
+    refused(&presets, 1, &["film.vtk.series: cannot be written: it is a folder"]);
+    assert!(!several.join("plate-viscous").exists());
 }
 
 #[test]

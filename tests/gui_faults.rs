@@ -10,12 +10,14 @@ use egui_kittest::kittest::Queryable;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::tradeoff::TradeoffState;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
+use squeezefilm::job::task::Task;
 use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use window::{Memory, User, Window, begin_export, drop_file, open, reopen, reopen_on, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -325,4 +327,36 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     window.run_steps(2);
     assert!(window.query_by_label("This did not work").is_none());
     assert_eq!(kept(), 3);
+}
+
+#[test]
+fn a_panic_of_a_measurement_ends_it_and_is_told() {
+    let task = Task::start("test", None, |_| (), |_, _| panic!("out of luck")).unwrap();
+    let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
+    for _ in 0..6000 {
+        state.drain();
+        if !state.work.running() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    assert!(!state.work.running());
+    assert_eq!(state.work.failure.as_deref(), Some("it failed: out of luck"));
+}
+
+#[test]
+fn a_file_that_is_dropped_waits_for_the_text_and_does_not_answer_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.toml");
+    presets::find("levitating").unwrap().save(&path).unwrap();
+    let mut window = plate();
+    window.type_over(Role::TextInput, "Mean gap in µm", "1.25");
+    drop_file(&mut window, &path);
+    window.get_by_label_contains("Save the changes");
+    assert_eq!(value(window.state(), "plate.mean_gap_um"), Value::Number(1.25));
+    // Another one while it is asked.
+    drop_file(&mut window, folder.path().join("none.toml"));
+    window.get_by_label_contains("Save the changes");
+    window.click_on("Don't save");
+    assert!(window.state().state().document.scene().name.starts_with("Levitating"));
 }

@@ -7,7 +7,7 @@ mod window;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
-use squeezefilm::export::startup::Row;
+use squeezefilm::analysis::quantity::Numbers;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::hold::HoldState;
@@ -41,9 +41,9 @@ fn cycles(app: &App) -> usize {
 /// times the force of that gas.
 fn agrees(app: &App) {
     let last = starting(app).points.last().unwrap();
-    let ours = last.main();
+    let ours = last.numbers.main();
     let run = app.state().run.as_deref().unwrap();
-    let periodic = Row::of_outcome(&run.problem, &run.solution.outcome).main();
+    let periodic = Numbers::of_outcome(&run.problem, &run.solution.outcome).main();
     let ambient = match &run.problem.scenario {
         Scenario::Motor(motor) => {
             let area = motor.contact_width * motor.tooth_width * motor.teeth as f64;
@@ -67,7 +67,7 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     assert!(window.query_by_label("Pause").is_none());
     window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
-    let first = starting(window.state()).points[0].main().value;
+    let first = starting(window.state()).points[0].numbers.main().value;
     until(&mut window, "it repeats", |app| starting(app).ended.is_some());
     assert_eq!(starting(window.state()).ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
     window.get_by_label_contains("repeats within");
@@ -79,7 +79,7 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let recording = &run.solution.recording;
     assert!(recording.transient);
     assert_eq!(recording.other_pressure.len(), (recording.teeth - 1) * recording.pressure.len());
-    assert!(first < 0.9 * starting(app).points.last().unwrap().main().value);
+    assert!(first < 0.9 * starting(app).points.last().unwrap().numbers.main().value);
     assert_eq!(starting(app).chosen, cycles(app));
 
     // A cycle is looked at by a click, then the cycles are played one after the other.

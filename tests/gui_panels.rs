@@ -1,4 +1,4 @@
-//! The panels of the window, as a user meets them, without a window.
+//! The panels of the window and the views in its middle, as a user meets them, without a window.
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
 
@@ -14,15 +14,17 @@ use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::edits::Change;
+use squeezefilm::gui::state::view::View;
 use squeezefilm::gui::state::window::State;
 use squeezefilm::gui::ui::context::DrawContext;
 use squeezefilm::gui::ui::panels::{parameters, results};
-use squeezefilm::gui::ui::theme;
+use squeezefilm::gui::ui::{theme, views};
 use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
+use squeezefilm::recording::Recording;
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
-use squeezefilm::solve::{Settings, solve};
+use squeezefilm::solve::{Method, Settings, solve};
 use std::time::Instant;
 
 /// A scene that is edited in the panel, with the commands that came of it.
@@ -422,24 +424,19 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
 }
 
 fn run(preset: &str) -> SolvedScene {
-    let scene = presets::find(preset).unwrap();
+    run_with(preset, &[], Method::Auto)
+}
+
+fn run_with(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(set.iter().copied()).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
-    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
     let mut history = Vec::new();
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
-    SolvedScene {
-        number: 1,
-        scene,
-        problem,
-        fidelity: Fidelity::Draft,
-        solution,
-        validity,
-        wall_s: 0.0123,
-        warm: false,
-        history,
-    }
+    SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
 
 fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
@@ -509,7 +506,7 @@ fn levitation_missing_convergence_and_warnings_are_said_plainly() {
 #[test]
 fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
     // First-order slip at Kn = 0.32; inside all limits.
-    for (preset, seen) in [("fundamental", true), ("plate-crossover", false)] {
+    for (preset, seen) in [("fundamental", true), ("floating-disc", false)] {
         let harness = shown(run(preset), 300.0, 1.0);
         assert_eq!(harness.query_by_label("Outside the limits of the model").is_some(), seen, "{preset}");
         assert_eq!(harness.query_by_label("0.320, limit 0.1").is_some(), seen, "{preset}");
@@ -553,4 +550,95 @@ fn results_fit_a_narrow_panel_with_large_text() {
             assert!(rect.left() >= 0.0 && rect.right() <= 260.5, "{:?} in {preset}", node.accesskit_node().value());
         }
     }
+}
+
+/// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
+fn look(run: &SolvedScene, size: egui::Vec2, click: bool) -> (View, Vec<Command>) {
+    let state = State::new(Document::fundamental().unwrap());
+    let mut harness = Harness::builder().with_size(size).build_ui_state(
+        |ui, (state, commands): &mut (State, Vec<Command>)| {
+            theme::install_fonts(ui.ctx());
+            let cx = DrawContext::new(state, Instant::now());
+            views::run::show(ui, run, None, None, &cx);
+            for command in cx.into_commands() {
+                match command {
+                    Command::Hover(x) => state.view.cursor_x = x,
+                    other => commands.push(other),
+                }
+            }
+        },
+        (state, Vec::new()),
+    );
+    for (phase, cursor, tooth) in [(0.0, None, 0), (0.37, Some(0.0), 1), (0.999, Some(2.1e-3), 1000)] {
+        let view = &mut harness.state_mut().0.view;
+        (view.phase, view.cursor_x, view.tooth) = (phase, cursor, tooth);
+        harness.run_steps(2);
+    }
+    if click {
+        let at = egui::pos2(0.4 * size.x, 0.2 * size.y);
+        harness.hover_at(at);
+        harness.run_steps(1);
+        harness.drag_at(at);
+        harness.drop_at(at);
+        harness.run_steps(1);
+        // The pointer is still there.
+        harness.hover_at(at);
+        harness.run_steps(2);
+    }
+    let (state, commands) = harness.state();
+    (state.view.clone(), commands.clone())
+}
+
+#[test]
+fn every_kind_of_run_is_drawn_at_every_size() {
+    let runs = [
+        run("fundamental"),
+        run_with("fundamental", &[], Method::Paper),
+        run("levitating"),
+        run("tooth-radius-3m"),
+        run("plate-crossover"),
+        run_with("plate-trapped", &[("plate.width_mm", "0.3")], Method::Auto),
+    ];
+    for run in &runs {
+        for size in
+            [egui::vec2(20.0, 20.0), egui::vec2(200.0, 180.0), egui::vec2(430.0, 560.0), egui::vec2(1200.0, 800.0)]
+        {
+            look(run, size, false);
+        }
+    }
+}
+
+#[test]
+fn pointing_reads_x_and_clicking_follows_a_tooth() {
+    let (view, commands) = look(&run("fundamental"), egui::vec2(800.0, 700.0), true);
+    assert!(view.cursor_x.is_some_and(|x| x > 8e-3 && x < 16e-3), "{:?}", view.cursor_x);
+    assert!(matches!(commands[..], [Command::FollowTooth(3..=5)]), "{commands:?}");
+}
+
+#[test]
+fn extremes_do_not_disturb_it() {
+    let mut still = run("levitating");
+    let nothing = &mut still.solution.recording;
+    let lines = &mut nothing.lines;
+    for field in [&mut nothing.stator, &mut lines.contact, &mut lines.film, &mut lines.film_thickness] {
+        field.fill(0.0);
+    }
+    nothing.pressure.fill(101_325.0);
+    look(&still, egui::vec2(600.0, 600.0), false);
+    still.number = 2;
+    still.solution.recording = Recording::default();
+    look(&still, egui::vec2(600.0, 600.0), false);
+    for teeth in ["1", "64"] {
+        let few = run_with(
+            "fundamental",
+            &[("stator.teeth_per_wave", teeth), ("stator.tooth_width_mm", "0.3")],
+            Method::Auto,
+        );
+        look(&few, egui::vec2(600.0, 600.0), false);
+    }
+    look(
+        &run_with("fundamental", &[("stator.normal_amplitude_um", "0")], Method::Auto),
+        egui::vec2(600.0, 600.0),
+        false,
+    );
 }

@@ -205,9 +205,12 @@ fn what_needs_too_much_is_refused_before_it_is_allocated() {
 
 #[test]
 fn the_size_of_the_files_is_known_before_they_are_written() {
-    for (preset, set) in
-        [("fundamental", &[][..]), ("plate-trapped", &[]), ("plate-trapped", &[("plate.width_mm", "1")])]
-    {
+    for (preset, set, vtk) in [
+        ("fundamental", &[][..], false),
+        ("fundamental", &[], true),
+        ("plate-trapped", &[], false),
+        ("plate-trapped", &[("plate.width_mm", "1")], true),
+    ] {
         let problem = problem(preset, set);
         let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
@@ -216,10 +219,10 @@ fn the_size_of_the_files_is_known_before_they_are_written() {
         let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
         let folder = tempfile::tempdir().unwrap();
         let control = Control { cancel: &Cancel::new(), drawn: &|_, _| () };
-        let out = Folder { path: folder.path(), command: &[], formats: Vec::new() };
+        let out = Folder { path: folder.path(), command: &[], formats: Vec::new(), vtk };
         let paths = files::solve(&out, &solved, &summary, &control).unwrap();
         let written: u64 = paths.iter().map(|path| path.metadata().unwrap().len()).sum();
-        let ratio = files::expected_size(&problem, &solution.recording) as f64 / written as f64;
+        let ratio = files::expected_size(&out, &problem, &solution.recording) as f64 / written as f64;
         println!("{preset} {set:?}: {written} bytes written, expected {ratio:.3} of them");
         assert!((0.9..1.1).contains(&ratio), "{preset} {set:?}: {ratio}");
     }

@@ -309,7 +309,13 @@ fn text_object_and_files_agree() {
         assert!(output["monte_carlo"]["count"] == 20 && output["error"].as_f64().unwrap() < uncertainty);
     }
     let draws = std::fs::read_to_string(folder.path().join("monte-carlo.csv")).unwrap();
-    assert_eq!(draws.lines().next(), Some("film.min_spacing_nm,alpha,stall_torque_nm,no_load_speed_rpm"));
+    let heads = "film.min_spacing_nm,alpha,alpha_error,stall_torque_nm,stall_torque_error_nm,no_load_speed_rpm,no_load_speed_error_rpm";
+    assert_eq!(draws.lines().next(), Some(heads));
+    let cells =
+        draws.lines().skip(1).flat_map(|row| row.split(',').skip(1).step_by(2).zip(row.split(',').skip(2).step_by(2)));
+    for (value, error) in cells.map(|(value, error)| (value.parse::<f64>().unwrap(), error.parse::<f64>().unwrap())) {
+        assert!(0.0 < error && error < 0.1 * value, "{value} ± {error}");
+    }
     assert_eq!(draws.lines().count(), 21);
     for name in
         ["sensitivity.json", "sensitivity.svg", "sensitivity.png", "monte-carlo.svg", "monte-carlo.png", "scene.toml"]
@@ -349,4 +355,22 @@ fn two_ladders_that_agree_by_chance_are_no_proof() {
     let found = sensitivity(&presets::find("fundamental").unwrap(), &["motor.dry_friction"], Fidelity::Draft);
     let elasticity = found.elasticity(1, 0).unwrap();
     assert!((elasticity.value - 1.0).abs() <= elasticity.error && elasticity.error < 1e-2, "{elasticity:?}");
+}
+
+#[test]
+fn a_plate_that_floats_has_its_stiffness_at_the_gap_where_it_floats_on_one_side_too() {
+    let mut scene = presets::find("floating-disc").unwrap();
+    for (key, value) in [("film.slip", "fukui-kaneko"), ("plate.load_n", "0.41"), ("plate.amplitude_um", "0.62")] {
+        scene.set(key, value).unwrap();
+    }
+    let found = sensitivity(&scene, &["film.accommodation"], Fidelity::Standard);
+    assert_eq!(found.columns[0].sides, Sides::Below);
+    let stiffness = |accommodation: &str| {
+        scene.set("film.accommodation", accommodation).unwrap();
+        sensitivity(&scene, &["plate.load_n"], Fidelity::to(2e-5)).values[1].value
+    };
+    let [far, near, at] = ["0.92", "0.96", "1"].map(stiffness);
+    let exact = (3.0 * at - 4.0 * near + far) / 0.08;
+    let slope = found.columns[0].slopes.as_ref().unwrap()[1];
+    assert!((slope.value - exact).abs() < 0.02 * exact.abs(), "{slope:?} {exact}");
 }

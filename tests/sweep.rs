@@ -18,6 +18,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 const DRAFT: Settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto, record: Record::Everything };
 
@@ -259,6 +260,18 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("line 3: the row was changed after it was saved"), "{said}");
     assert_eq!(fs::read_to_string(&left).unwrap(), changed);
+}
+
+#[test]
+fn rows_of_another_budget_are_not_gone_on_with() {
+    let ours = sweep("fundamental", &["film.min_spacing_nm=100:300:3"]);
+    let mut hasty = ours.clone();
+    hasty.budget = Some(Duration::from_millis(1));
+    let rows = with_threads(2, &ours);
+    let text = saved_text(&hasty, Part::WHOLE, &rows);
+    assert!(saved::read(&ours, Part::WHOLE, &text).unwrap_err().contains("budget"));
+    assert_eq!(saved::read(&hasty, Part::WHOLE, &text).unwrap(), rows);
+    assert_eq!(saved::join(&[("whole".to_owned(), text)]).unwrap().sweep.budget, hasty.budget);
 }
 
 #[test]

@@ -172,12 +172,8 @@ impl Run {
                 history: &inner.history,
                 torque: summary.torque.as_ref(),
             };
-            let (folder, control) = (Path::new(&folder), Control { cancel, drawn: &|_, _| () });
-            let mut paths = files::solve(&Folder { path: folder, command: &[], formats }, &solved, summary, &control)?;
-            if !vtk.is_empty() {
-                paths.extend(files::vtk(folder, &solved, &control)?);
-            }
-            Ok(paths)
+            let folder = Folder { path: Path::new(&folder), command: &[], formats, vtk: !vtk.is_empty() };
+            files::solve(&folder, &solved, summary, &Control { cancel, drawn: &|_, _| () })
         })?;
         let paths = written.map_err(|error| match error {
             ExportError::Write(error) => pyo3::exceptions::PyOSError::new_err(error.to_string()),

@@ -37,6 +37,9 @@ const NARROWED: usize = 19;
 const NEAR: f64 = 0.02;
 /// Share of what the second of three grids changed that is taken as error, at least.
 const EARLIER: f64 = 0.5;
+/// Where every tooth touches at all times, what drives and what brakes nearly cancel: two differences of grids tell half of the error
+/// (calibrated: docs/validation.md).
+const CLOSED: f64 = 2.0;
 /// Over such a difference of speed ratios the error of a curve changes by its own size.
 const VARIES: f64 = 0.05;
 
@@ -292,6 +295,8 @@ pub struct Scaled<'a> {
     others: Vec<Lossy>,
     /// N \[N\].
     load: Estimate,
+    /// What the differences of shapes are multiplied by.
+    doubt: f64,
 }
 
 /// A contact, and the film's share of the stator's power, in μ_d N V₀.
@@ -314,7 +319,9 @@ impl<'a> Scaled<'a> {
             [before, finest] => vec![extrapolated(before), lossy(Drive::as_solved(finest), finest)],
             _ => Vec::new(),
         };
-        Self { motor, drive: extrapolated(&recording.lines), others, load }
+        let closed = recording.teeth_in_contact.iter().all(|touching| *touching >= motor.teeth);
+        let doubt = if closed { CLOSED } else { 1.0 };
+        Self { motor, drive: extrapolated(&recording.lines), others, load, doubt }
     }
 
     /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest.
@@ -329,7 +336,7 @@ impl<'a> Scaled<'a> {
             _ => Vec::new(),
         };
         let drive = lossless(dry.last().map(Drive::new).unwrap_or_default());
-        Self { motor, drive, others, load: Estimate::exact(motor.load) }
+        Self { motor, drive, others, load: Estimate::exact(motor.load), doubt: 1.0 }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
@@ -349,7 +356,7 @@ impl<'a> Scaled<'a> {
 
     /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
-        let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error };
+        let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error * self.doubt };
         let of_unit = if self.drive.0.load() > 0.0 { share.value.abs() } else { most };
         Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }
     }
@@ -417,7 +424,7 @@ impl<'a> Scaled<'a> {
             let v = judged(|marks| marks.no_load)?;
             let force = self.shares(&self.near(v.value), &|_, (s0, _), _| s0);
             let slope = ((force[0].value - force[2].value) / (2.0 * NEAR)).max(f64::MIN_POSITIVE);
-            Some(Estimate { error: v.error.hypot(greatest_error(&force) / slope), ..v } * speed)
+            Some(Estimate { error: self.doubt * v.error.hypot(greatest_error(&force) / slope), ..v } * speed)
         };
         // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
         let place = |mark: fn(&Marks) -> f64, share: Share<'_>| {

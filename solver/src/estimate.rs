@@ -68,14 +68,17 @@ const REST: f64 = 1.3;
 const SLOWEST: f64 = 1.3;
 /// Least share of the change before the last that is taken as error: the last one may be small by chance.
 const BEFORE: f64 = 0.025;
-/// Of a smooth approach: what a third-order term leaves of the spread; share of the spread and of the last correction for the orders
-/// after it, times the spacing; the ratio of changes above which it counts as smooth; least share of the spread where it turns back; and
-/// least shares of what the means on the middle and on the first grid gained by their new instants.
+/// Of a smooth approach, what a term of third order leaves of the spread.
 const THIRD_ORDER: f64 = 1.0 / 7.0;
+/// Share of the spread, and of the last correction, for the orders after the third, times the spacing.
 const HIGHER_ORDERS: f64 = 0.6;
+/// Ratio of changes above which an approach counts as smooth.
 const NEARLY_SECOND_ORDER: f64 = 3.5;
+/// Least share of the spread where the approach turns back.
 const TURNING: f64 = 0.4;
+/// Least share of what the mean on the middle grid gained by its new instants.
 const SAMPLING: f64 = 0.1;
+/// The same of the first grid.
 const FIRST_SAMPLING: f64 = 0.02;
 
 /// A cycle mean on one grid.

@@ -234,6 +234,8 @@ pub struct Stats {
     pub contact_nodes: usize,
     /// Time steps in a cycle.
     pub steps_per_cycle: usize,
+    /// Whether the solve started from the fields of an earlier problem. The cost, but not the result beyond its error, then depends on that.
+    pub warm_start: bool,
 }
 
 impl AddAssign<Cost> for Stats {

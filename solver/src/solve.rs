@@ -197,10 +197,12 @@ pub fn solve_from(
     let cancel = &cancel.started();
     let mut solution = match (&problem.scenario, plan) {
         (Scenario::Motor(motor), Some(plan)) => {
+            let warm_start = !warm.is_empty();
             let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let other = touching(&mut found, motor, &plan, observer, cancel);
             let mut solution = of_motor(found, motor, &plan, cancel);
             solution.warnings.extend(other.as_ref().map(bistable));
+            solution.stats.warm_start = warm_start;
             solution
         }
         (Scenario::Plate(plate), Some(plan)) => {

@@ -203,7 +203,13 @@ fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
 
 /// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
 pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
-    let numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
+    let mut numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
+    // What a solve cost that started from another one's fields says nothing of its scene.
+    for (numbers, run) in numbers.iter_mut().zip(runs) {
+        if run.solved.as_ref().is_ok_and(|solution| solution.stats.warm_start) {
+            Quantity::all().filter(|quantity| quantity.is_count()).for_each(|count| numbers.set(count, f64::NAN));
+        }
+    }
     let row = |quantity: Quantity| {
         let first = numbers.first().and_then(|numbers| numbers.estimate(quantity));
         let units: Vec<&'static str> = runs.iter().map(|run| unit(quantity, run)).collect();

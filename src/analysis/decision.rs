@@ -96,12 +96,14 @@ pub fn words(decision: &Decision) -> String {
             let follow = if follow { ", the shorter the closer the plate is" } else { "" };
             format!("{steps} steps a cycle{follow}; two coarser grids for the error estimate")
         }
-        Choice::Rotor { error, ring, .. } => {
+        Choice::Rotor { error, ring, resonances } => {
             let of =
                 if ring { "a ring of finite elements" } else { "a table of its deflection, turned into harmonics" };
             let (known, effect) = (percent(error), percent(decision.effect));
+            let mass =
+                if ring && resonances.is_none() { "; its natural frequencies are not computed here" } else { "" };
             format!(
-                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect}"
+                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect}{mass}"
             )
         }
         Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),

@@ -239,8 +239,8 @@ impl Numbers {
 
     /// Of a solution of `problem`.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
-        let mut numbers = Self::default();
         let problem = &*settled(problem, &solution.outcome);
+        let mut numbers = Self::of_outcome(problem, &solution.outcome);
         let groups = Dimensionless::of(problem);
         numbers.set(SqueezeNumber, groups.squeeze_number);
         numbers.set(BearingNumber, groups.bearing_number);
@@ -254,18 +254,32 @@ impl Numbers {
         for (quantity, count) in [FilmSteps, Cycles, Rounds, ContactSolves].into_iter().zip(counts) {
             numbers.set(quantity, count as f64);
         }
-        match (&problem.scenario, &solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                numbers.motor(result);
-                if let Some(found) = &solution.performance {
-                    numbers.performance(found, rpm(1.0, motor.contact_radius));
-                }
-            }
+        if let (Scenario::Motor(motor), Some(found)) = (&problem.scenario, &solution.performance) {
+            numbers.performance(found, rpm(1.0, motor.contact_radius));
+        }
+        numbers
+    }
+
+    /// Those of a result of `problem` that are means and extremes over a cycle.
+    pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
+        let mut numbers = Self::default();
+        match (&problem.scenario, outcome) {
+            (Scenario::Motor(_), Outcome::Motor(result)) => numbers.motor(result),
             (Scenario::Plate(plate), Outcome::Plate(result)) => numbers.plate(result, plate),
             // A solver answers in kind.
             _ => {}
         }
         numbers
+    }
+
+    /// The number that says most of a result: α of a motor, the mean load ratio of a plate; not a number if neither is known.
+    pub fn main(&self) -> Estimate {
+        self.known(if self.get(Alpha).is_some() { Alpha } else { LoadRatio })
+    }
+
+    /// One of them with its error; not a number if it is not known.
+    pub fn known(&self, number: Quantity) -> Estimate {
+        self.estimate(number).unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
     }
 
     /// Sets those that are known, with their errors.

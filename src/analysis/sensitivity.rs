@@ -64,6 +64,15 @@ impl Output {
         }
     }
 
+    /// The name of its numerical error.
+    pub fn error_name(self) -> &'static str {
+        match self {
+            Self::Number(quantity) => quantity.error().map_or("", Quantity::name),
+            Self::Stiffness => "stiffness_error_n_per_m",
+            Self::Damping => "damping_error_n_s_per_m",
+        }
+    }
+
     /// What it is, in words.
     pub fn words(self) -> &'static str {
         match self {
@@ -303,9 +312,9 @@ impl Sensitivity {
     }
 }
 
-fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<f64>, String> {
+fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
     let found = told(|| centre.solve(problem, cancel))?.ok_or("it has no periodic state on the grids of the scene")?;
-    Ok(values(problem, &found.fine))
+    Ok(read(problem, &found.fine))
 }
 
 /// In bytes: all but what random scenes are solved from, and what follows from the scene.
@@ -482,8 +491,8 @@ impl Propagated {
 pub struct Draw {
     /// Of the keys, in their units.
     pub values: Vec<f64>,
-    /// In the order of the outputs; not finite where the draw has none.
-    pub results: Vec<f64>,
+    /// In the order of the outputs, with their numerical errors; not finite where the draw has none.
+    pub results: Vec<Estimate>,
 }
 
 /// What random scenes give.
@@ -530,8 +539,13 @@ impl Spread {
 impl MonteCarlo {
     /// Of the outputs at a place; `None` with fewer than two draws.
     pub fn spread(&self, output: usize) -> Option<Spread> {
-        let mut found: Vec<f64> =
-            self.draws.iter().filter_map(|draw| draw.results.get(output)).copied().filter(|v| v.is_finite()).collect();
+        let mut found: Vec<f64> = self
+            .draws
+            .iter()
+            .filter_map(|draw| draw.results.get(output))
+            .map(|found| found.value)
+            .filter(|v| v.is_finite())
+            .collect();
         found.sort_by(f64::total_cmp);
         let (count, last) = (found.len(), found.len().checked_sub(1)?);
         if last == 0 {

@@ -32,6 +32,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::hash::Hasher;
 use std::ops::Range;
+use std::time::Duration;
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,6 +70,8 @@ pub struct Sweep {
     axes: Vec<Axis>,
     /// The first point that can be solved.
     first: Problem,
+    /// Time that each point may take, if it is limited: by the caller, whose flag ends each solve.
+    pub budget: Option<Duration>,
 }
 
 /// In bytes a sweep is what it was made of.
@@ -131,7 +134,7 @@ impl Sweep {
             }
         });
         let first = first.ok_or_else(|| fault.unwrap_or(AnalysisError::Input("vary: no points".to_owned())))?;
-        Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes })
+        Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes, budget: None })
     }
 
     /// The axes; the last varies fastest.
@@ -196,7 +199,7 @@ impl Sweep {
         Quantity::of(self.problem()).collect()
     }
 
-    /// Hash as sixteen hexadecimal digits. It differs if anything differs that the results depend on: scene, axes, settings or
+    /// Hash as sixteen hexadecimal digits. It differs if anything differs that the results depend on: scene, axes, settings, budget or
     /// version.
     pub fn fingerprint(&self) -> String {
         let method = self.settings.method;
@@ -205,6 +208,7 @@ impl Sweep {
         let mut texts =
             vec![env!("CARGO_PKG_VERSION").to_owned(), self.scene.to_toml(), method.name().to_owned(), fidelity];
         texts.push(CHUNK.to_string());
+        texts.extend(self.budget.map(|budget| format!("{budget:?}")));
         for axis in &self.axes {
             texts.push(axis.parameter.key.to_owned());
             texts.extend(axis.values.iter().map(|value| format!("{value:?}")));

@@ -7,12 +7,12 @@
 //! | --- | --- | --- | --- |
 //! | `gas-inertia` | Re = ωρh²/(12μ) | 0.1, or 0.015 σ if less | the flow lags the pressure by 1.2 Re; inertia adds 6.9 Re/σ to the mean load |
 //! | `isothermal` | h/√(2κ/ω) | 1 | there the compressibility of the gas is off by 5 % |
-//! | `slip-law` | Kn = λ_a/h, h closed | 0.01, 0.1, 0.6, 88.6 | within 10 % of the Boltzmann equation's flow; end of the fit |
+//! | `slip-law` | Kn = λ_a/h, h the least gap | 0.01, 0.1, 0.6, 88.6 | within 10 % of the Boltzmann equation's flow; end of the fit |
 //! | `sound` | s over the wavelength of sound | 1; ½ if Re is above its limit | the edges are at ambient pressure; waves stand in the film |
 //! | `sound` | sliding speed over that of sound | 1 | shear heats the gas by 4 % |
 //! | `rotor-resonance` | harmonic's frequency over the lowest natural one of its shape | 0.3 | a rotor with mass yields a tenth more |
 //! | `dense-gas` | highest pressure of the gas | 5 MPa | air is 5 % more viscous than at ambient pressure |
-//! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields |
+//! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields; of a ring, what its face is made of |
 //! | `roughness` | rms roughness over the separation of the mean planes, closed | 2 | Patir and Cheng's factors end there |
 //! | `thinness` | h/s | 0.025 | the gas beyond the edges adds 3 % to s, 10 % to the damping |
 //! | `amplitude` | amplitude/mean gap of a plate | 0.9 | 1 % of the gap is 7 % of the load |
@@ -98,7 +98,7 @@ fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) ->
         sliding(motor),
         dense(highest_pressure(outcome)),
         natural.and_then(|natural| resonance(motor, &natural)),
-        stress(contact / motor.contact_width),
+        stress(motor, contact / motor.contact_width),
         roughness(motor, closed),
         film.thinness(),
     ];
@@ -118,7 +118,7 @@ fn of_plate(plate: &Plate, outcome: Option<&Outcome>) -> Vec<Excess> {
         gas: &plate.gas,
         omega: TAU * plate.frequency,
         gap: plate.mean_gap,
-        closed: plate.mean_gap,
+        closed: plate.mean_gap - plate.amplitude,
         side: plate.width.map_or(plate.section(), |width| width.min(plate.length)),
         amplitude: plate.amplitude,
         body: "plate",

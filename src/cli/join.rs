@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let Joined { sweep, rows, command } = join(&parts).map_err(CliError::Input)?;
     let folder = arguments.output.folder(&command)?;
-    let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
+    let exit = tell(&sweep, &rows, arguments.output.json, &command);
     if let Some(folder) = &folder {
         terminal::wrote(folder.path, &files::swept(folder, &sweep, &rows, primary(&sweep))?);
     }

@@ -247,7 +247,7 @@ impl OutputOptions {
     /// figures in formats that go together. Of a command that has no fields.
     pub(super) fn folder<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
         let folder = self.folder_of_fields(command)?;
-        if folder.is_some() && self.vtk() {
+        if folder.as_ref().is_some_and(|folder| folder.vtk) {
             terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");
         }
         Ok(folder)
@@ -261,12 +261,7 @@ impl OutputOptions {
         let Some(path) = &self.out else { return Ok(None) };
         check_for_results(path)?;
         let formats = Format::ALL.into_iter().filter(|format| self.has(format.name())).collect();
-        Ok(Some(Folder { path, command, formats }))
-    }
-
-    /// Whether the fields are to be written as VTK.
-    pub(super) fn vtk(&self) -> bool {
-        self.has("vtk")
+        Ok(Some(Folder { path, command, formats, vtk: self.has("vtk") }))
     }
 
     fn has(&self, format: &str) -> bool {

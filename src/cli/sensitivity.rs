@@ -30,7 +30,7 @@ Files of --out:
   sensitivity.csv   a row for each result and key: derivative, elasticity, errors, part of the uncertainty
   sensitivity.json  what --json prints
   sensitivity.svg   a tornado chart for each result; and sensitivity.png
-  monte-carlo.csv   with --monte-carlo: a row for each draw; and monte-carlo.svg, a histogram of each result, and .png
+  monte-carlo.csv   with --monte-carlo: a row for each draw, its results with their errors; and monte-carlo.svg, a histogram of each result, and .png
   scene.toml        the scene: a preset again";
 
 /// Tells how much the results depend on each parameter, and how uncertain they are if the parameters are

@@ -7,6 +7,7 @@ use super::{summary, terminal};
 use crate::analysis::compare::unique;
 use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
+use crate::atomic::check_for_results;
 use crate::control::Cancel;
 use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
@@ -18,7 +19,8 @@ use crate::scene::presets::{self, BUILT_IN};
 use crate::solution::{Status, settled};
 use crate::solve::{Method, Settings, check, solve};
 use clap::Args;
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
@@ -72,12 +74,16 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     problems.iter().try_for_each(|problem| check(problem, &settings))?;
 
     let several = scenes.len() > 1;
-    let (mut exits, mut objects, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    for ((preset, scene), problem) in arguments.presets.iter().zip(&scenes).zip(&problems) {
-        let own = |folder: &Folder<'_>| {
-            if several { folder.path.join(own(preset, &mut names)) } else { folder.path.to_owned() }
-        };
-        let path = folder.as_ref().map(own);
+    let mut names = Vec::new();
+    let mut path = |preset: &String| {
+        let name = own(preset, &mut names);
+        let path = folder.as_ref()?.path;
+        Some(if several { path.join(name) } else { path.to_owned() })
+    };
+    let paths: Vec<Option<PathBuf>> = arguments.presets.iter().map(&mut path).collect();
+    paths.iter().flatten().filter(|path| path.is_dir()).try_for_each(|path| check_for_results(path))?;
+    let (mut exits, mut objects) = (Vec::new(), Vec::new());
+    for (((preset, scene), problem), path) in arguments.presets.iter().zip(&scenes).zip(&problems).zip(&paths) {
         let folder = folder.as_ref().zip(path.as_deref()).map(|(folder, path)| Folder { path, ..folder.clone() });
         if several {
             terminal::note(&format!("{preset}:"));
@@ -162,15 +168,14 @@ fn one(
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
         let solved = Solved { scene, problem, solution: &solution, history: &history, torque: result.torque.as_ref() };
-        if let Some(text) = announced(folder.path, files::expected_size(problem, &solution.recording)) {
+        if let Some(text) = announced(folder.path, files::expected_size(folder, problem, &solution.recording)) {
             terminal::note(&text);
         }
         let control = Control { cancel, drawn: &|_, _| () };
-        let vtk = arguments.common.output.vtk();
-        let written_files = files::solve(folder, &solved, &result, &control).and_then(|mut paths| {
+        let written_files = files::solve(folder, &solved, &result, &control).map(|mut paths| {
             // Of many instants their series is named.
-            paths.extend(if vtk { files::vtk(folder.path, &solved, &control)?.pop() } else { None });
-            Ok(paths)
+            paths.retain(|path| path.extension() != Some(OsStr::new("vtk")));
+            paths
         });
         match written_files {
             Err(ExportError::Cancelled) => {

@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut files = Files::new(&folder)?;
         // What was cancelled does not pass for a map.
         let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-        files.add(name, |out| csv::rows(cells.iter().map(cell_object), out))?;
+        files.add(name, |out| csv::rows_of_ours(cells.iter().map(cell_object), out))?;
         if complete {
             files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }

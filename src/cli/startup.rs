@@ -7,7 +7,7 @@ use super::options::{CommonOptions, whole, within};
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
-use crate::analysis::quantity::force_unit;
+use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = Row::of(&problem, &cycle);
-            let main = significant(row.main().value, 4);
+            let main = significant(row.numbers.main().value, 4);
             if row.cycle > rows.len() {
                 bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
             } else {
@@ -112,7 +112,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some(last) = rows.last() {
-            drawn.provenance.error = format!("ends at {}", last.main());
+            drawn.provenance.error = format!("ends at {}", last.numbers.main());
         }
         files.figure("startup", &drawn)?;
         files.text("scene.toml", &scene.to_toml())?;
@@ -163,10 +163,10 @@ fn text(
         columns.row([
             row.cycle.to_string(),
             significant(row.time_us, 4),
-            row.main().to_string(),
-            row.film_load().to_string(),
-            row.thickness().to_string(),
-            row.pressure().to_string(),
+            row.numbers.main().to_string(),
+            row.numbers.text(Quantity::FilmLoad),
+            row.numbers.text(Quantity::MinGap),
+            row.numbers.text(Quantity::MaxPressure),
             format!("{:.1e}", row.change),
         ]);
     }
@@ -174,7 +174,7 @@ fn text(
     if let Some(found) = steady {
         let mut told = format!("The periodic solve, which does not march there: {main} = {found}.");
         let off = |last: Estimate| (last.value - found.value).abs() > last.error + found.error;
-        if rows.last().is_some_and(|row| off(row.main())) {
+        if rows.last().is_some_and(|row| off(row.numbers.main())) {
             told.push_str(" What the last cycle will still change is not in its ±.");
         }
         text.push_str(&paragraph(&told, "\n", ""));

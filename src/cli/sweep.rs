@@ -93,9 +93,9 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
-    let budget = arguments.common.solve.accuracy.budget;
     let part = arguments.part.unwrap_or(Part::WHOLE);
-    let sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;
+    let mut sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;
+    sweep.budget = arguments.common.solve.accuracy.budget;
     let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
@@ -149,11 +149,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
                 let path = folder.save_unfinished(&rows)?;
                 terminal::note(&format!("they are kept in {}; the same command goes on from there", path.display()));
             }
-            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows, budget))),
+            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows))),
         }
         return Ok(Exit::Other);
     }
-    let exit = tell(&sweep, &rows, budget, arguments.common.output.json, command);
+    let exit = tell(&sweep, &rows, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
         terminal::wrote(folder.out.path, &folder.save(&rows, shown)?);
@@ -174,7 +174,7 @@ fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
 }
 
 /// Prints the rows, for people or as JSON. What that leads to.
-pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: bool, command: &[String]) -> Exit {
+pub(super) fn tell(sweep: &Sweep, rows: &[Row], json: bool, command: &[String]) -> Exit {
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
             let place = place(sweep, row);
@@ -182,7 +182,7 @@ pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: 
             terminal::error(&told);
         }
     }
-    terminal::result(json, || json::document(&object(sweep, rows), command), || text(sweep, rows, budget));
+    terminal::result(json, || json::document(&object(sweep, rows), command), || text(sweep, rows));
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 
@@ -265,7 +265,9 @@ impl<'a> Saved<'a> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
-        let paths = files::swept(&self.out, self.sweep, rows, shown)?;
+        // What cannot be written is not lost: the same command goes on from there.
+        let paths =
+            files::swept(&self.out, self.sweep, rows, shown).inspect_err(|_| drop(self.save_unfinished(rows)))?;
         let path = self.out.path.join(unfinished(self.part));
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
@@ -291,9 +293,9 @@ fn place(sweep: &Sweep, row: &Row) -> String {
 }
 
 /// The table for people.
-fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
+fn text(sweep: &Sweep, rows: &[Row]) -> String {
     let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
-    let how = effort(sweep.settings(), budget);
+    let how = effort(sweep.settings(), sweep.budget);
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
     let mut text = heading(&title);
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
@@ -388,8 +390,8 @@ mod tests {
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::NotConverged);
         rows.push(row(2, RunStatus::Failed("no".to_owned())));
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Other);
-        assert!(!text(&sweep, &rows[..2], None).contains("limits exceeded"));
-        let shown = text(&sweep, &rows, None);
+        assert!(!text(&sweep, &rows[..2]).contains("limits exceeded"));
+        let shown = text(&sweep, &rows);
         assert!(shown.contains("limits exceeded"), "{shown}");
         assert!(shown.lines().any(|line| line.contains("100 ") && line.ends_with("  time was up")), "{shown}");
         assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");

@@ -13,6 +13,7 @@ use super::mp4_cycle;
 pub use super::mp4_cycle::LONG_ENOUGH;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
+use crate::digits::rounded;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::show_text;
@@ -179,12 +180,10 @@ fn slow_motion(recording: &Recording, seconds: f64) -> String {
         return String::new();
     }
     // Two digits are enough to know what one sees.
-    let size = 10f64.powf(factor.log10().floor() - 1.0);
-    let rounded = (factor / size).round() * size;
-    match rounded {
-        ..1e4 => format!("slowed down {rounded:.0} times"),
-        ..1e6 => format!("slowed down {:.0} 000 times", rounded / 1e3),
-        _ => format!("slowed down {rounded:.1e} times"),
+    match rounded(factor, 2) {
+        times @ ..1e4 => format!("slowed down {times:.0} times"),
+        times @ ..1e6 => format!("slowed down {:.0} 000 times", times / 1e3),
+        times => format!("slowed down {times:.1e} times"),
     }
 }
 

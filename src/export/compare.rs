@@ -104,7 +104,7 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
         let of_run = |(i, (run, cell)): (usize, (&ComparedRun, &ResultCell))| {
             json!({
                 "run": i + 1,
-                "label": csv_words(&run.label),
+                "label": run.label,
                 "scene": run.scene.scene(),
                 "status": status(run),
                 "validity": run.outside().join(";"),
@@ -259,10 +259,10 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     }
     let Some(Estimate { value, error }) = cell.difference_percent else { return String::new() };
     match value {
-        0.0 => "0 %".to_owned(),
         _ if error.is_finite() && error > 0.0 => {
-            format!("{}{} %", if value >= 0.0 { "+" } else { "" }, with_error(value, error))
+            format!("{}{} %", if value > 0.0 { "+" } else { "" }, with_error(value, error))
         }
+        0.0 => "0 %".to_owned(),
         _ if value.abs() >= 1000.0 => format!("× {}", significant(1.0 + value / 100.0, 3)),
         _ => change(value, if value.abs() < 0.1 { 3 } else { 1 }),
     }

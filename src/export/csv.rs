@@ -97,8 +97,21 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
     table.finish()
 }
 
-/// Writes one row for each object, with the keys of the first as the header; what is null is empty. Numbers are those of JSON.
+/// Writes one row for each object, with the keys of the first as the header; what is null is empty. Numbers are those of JSON, texts [`words`].
 pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
+    rows_with(rows, words, out)
+}
+
+/// The same where all texts are ours, such as options: they are written as they are.
+pub fn rows_of_ours<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
+    rows_with(rows, |text| text.into(), out)
+}
+
+fn rows_with<T: Serialize>(
+    rows: impl IntoIterator<Item = T>,
+    cell: fn(&str) -> Cow<'_, str>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(row) = serde_json::to_value(row)? else { return Err(io::Error::other("a row is no object")) };
@@ -108,7 +121,7 @@ pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write
         writer.write_record(row.values().map(|value| {
             match value {
                 Value::Null => Cow::Borrowed(""),
-                Value::String(text) => Cow::Borrowed(text.as_str()),
+                Value::String(text) => cell(text),
                 other => Cow::Owned(other.to_string()),
             }
             .into_owned()

@@ -69,6 +69,8 @@ pub struct Folder<'a> {
     pub command: &'a [String],
     /// Formats of the figures.
     pub formats: Vec<Format>,
+    /// Whether the fields of a solve are written as VTK too: a file for each instant, and the series of them that ParaView opens.
+    pub vtk: bool,
 }
 
 /// Results on their way into a folder.
@@ -121,13 +123,19 @@ impl<'a> Files<'a> {
 /// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
 const WRITTEN: u64 = 14;
 
-/// About how many bytes [`solve`] will write: fields as text and as an archive; the rest is small beside large ones.
-pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
+/// About how many bytes [`solve`] will write: fields as text, as an archive and as VTK; the rest is small beside large ones.
+pub fn expected_size(folder: &Folder<'_>, problem: &Problem, recording: &Recording) -> u64 {
     let lines = (recording.frames * recording.teeth * recording.x.len()) as u64;
     let map = recording.pressure.len() as u64;
     let (columns, arrays) = if matches!(problem.scenario, Scenario::Motor(_)) { (10, 5) } else { (6, 2) };
     let series = recording.frames as u64;
-    lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8) + series * 8 * (WRITTEN + 8)
+    let mut first = Vec::new();
+    if folder.vtk {
+        // All instants are as long as the first. Writing to memory cannot fail.
+        let _ = vtk::write(problem, recording, 0, &mut first);
+    }
+    let vtk = series * first.len() as u64;
+    lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8) + series * 8 * (WRITTEN + 8) + vtk
 }
 
 /// What `squeezefilm solve --out` writes into a folder.
@@ -149,21 +157,16 @@ pub fn solve(
         files.add("torque.csv", |out| torque::write_csv(curves, out))?;
     }
     add_figures(&mut files, solved, control)?;
+    if folder.vtk {
+        let (names, series) = vtk::series(&solution.recording);
+        for (frame, name) in names.iter().enumerate() {
+            control.check()?;
+            files.add(name, |out| vtk::write(problem, &solution.recording, frame, out))?;
+        }
+        files.text("film.vtk.series", &series)?;
+    }
     control.check()?;
     Ok(files.commit()?)
-}
-
-/// The fields of a solve as files of VTK, one for each instant, and the series of them that ParaView opens.
-pub fn vtk(folder: &Path, solved: &Solved<'_>, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
-    let recording = &solved.solution.recording;
-    let (names, series) = vtk::series(recording);
-    let mut staged = Staged::new(folder)?;
-    for (frame, name) in names.iter().enumerate() {
-        control.check()?;
-        staged.add(name, |out| vtk::write(solved.problem, recording, frame, out))?;
-    }
-    staged.add("film.vtk.series", |out| out.write_all(series.as_bytes()))?;
-    Ok(staged.commit()?)
 }
 
 /// The figures of a solve alone.

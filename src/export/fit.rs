@@ -84,13 +84,7 @@ fn rows(fitted: &Fitted, measured: &Measured) -> Vec<Value> {
 
 /// Writes the measurements beside what is computed.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
-    let in_csv = |mut row: Value| {
-        for name in ["row", "status"] {
-            row[name] = csv::words(row[name].as_str().unwrap_or_default()).into();
-        }
-        row
-    };
-    csv::rows(rows(fitted, measured).into_iter().map(in_csv), out)
+    csv::rows(rows(fitted, measured), out)
 }
 
 /// Most rows that are named in the figure of residuals.

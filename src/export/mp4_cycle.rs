@@ -30,11 +30,11 @@ pub(super) fn write(
         let step = (1000.0 * seconds).round() as u32;
         let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
         let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
-        let video = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
+        let packets = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
         if cancel.is_cancelled() {
             return Err(io::ErrorKind::Interrupted.into());
         }
-        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
+        mp4::write(&packets, &mp4::Timing { timescale, step, cycles }, source, out)
     }
     #[cfg(not(feature = "video"))]
     {

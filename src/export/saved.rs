@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::ops::Range;
+use std::time::Duration;
 
 /// Largest file of rows that is read \[MB\]: more than all points that a sweep can have.
 pub const LARGEST: u64 = 512;
@@ -36,6 +37,7 @@ struct Head {
     /// What is varied, as on the command line.
     vary: Vec<String>,
     settings: Settings,
+    budget: Option<Duration>,
     /// The command line that solves the whole.
     command: Vec<String>,
 }
@@ -49,6 +51,7 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &
         scene_toml: sweep.scene().to_toml(),
         vary: sweep.vary().iter().map(ToString::to_string).collect(),
         settings: *sweep.settings(),
+        budget: sweep.budget,
         command: command.to_vec(),
     };
     writeln!(out, "{} {}", char::from(COMMENT), serde_json::to_string(&head)?)?;
@@ -63,7 +66,7 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &
 }
 
 /// What is said of a file of another sweep.
-const ANOTHER: &str = "it is of another sweep: another scene, range, setting or version";
+const ANOTHER: &str = "it is of another sweep: another scene, range, setting, budget or version";
 
 /// What is said of a damaged file; lines are counted from 1.
 fn damaged(line: u64, fault: impl Display) -> String {
@@ -224,7 +227,9 @@ impl Head {
     fn sweep(&self, part: Part) -> Result<Sweep, AnalysisError> {
         let scene = Scene::from_toml(&self.scene_toml, "the scene of the part")?;
         let vary = self.vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
-        Sweep::of_part(&scene, &vary, &self.settings, part)
+        let mut sweep = Sweep::of_part(&scene, &vary, &self.settings, part)?;
+        sweep.budget = self.budget;
+        Ok(sweep)
     }
 }
 

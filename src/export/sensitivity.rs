@@ -5,6 +5,7 @@ use super::estimates::finite;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::Column;
 use crate::digits::significant;
+use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
 use crate::solution::Status;
 use serde_json::{Value, json};
@@ -132,10 +133,12 @@ impl Found<'_> {
     pub fn write_draws(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         let keys = self.uncertainties.iter().map(|(parameter, ..)| parameter.key);
-        writer.write_record(keys.chain(self.sensitivity.outputs.iter().map(|output| output.name())))?;
+        let outputs = self.sensitivity.outputs.iter().flat_map(|output| [output.name(), output.error_name()]);
+        writer.write_record(keys.chain(outputs))?;
         for draw in self.carlo.iter().flat_map(|carlo| &carlo.draws) {
             let number = |value: &f64| finite(*value).map_or_else(String::new, number);
-            writer.write_record(draw.values.iter().chain(&draw.results).map(number))?;
+            let results = draw.results.iter().flat_map(|Estimate { value, error }| [value, error]);
+            writer.write_record(draw.values.iter().chain(results).map(number))?;
         }
         writer.flush()
     }

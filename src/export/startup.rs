@@ -2,63 +2,67 @@
 
 use super::csv;
 use super::estimates::finite;
-use crate::analysis::quantity::force_unit;
+use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
-use crate::solution::{Accuracy, Outcome, PlateResult, Status};
+use crate::solution::{Accuracy, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// The numbers of a cycle, in their order in files: means and extremes over it.
+const NUMBERS: [Quantity; 17] = [
+    Quantity::Alpha,
+    Quantity::AlphaError,
+    Quantity::LoadRatio,
+    Quantity::LoadRatioError,
+    Quantity::FilmLoad,
+    Quantity::FilmLoadError,
+    Quantity::FilmLoadMin,
+    Quantity::FilmLoadMinError,
+    Quantity::FilmLoadMax,
+    Quantity::FilmLoadMaxError,
+    Quantity::ContactLoad,
+    Quantity::TeethInContact,
+    Quantity::TeethInContactError,
+    Quantity::MinGap,
+    Quantity::MinGapError,
+    Quantity::MaxPressure,
+    Quantity::MaxPressureError,
+];
+
+/// One cycle. Its errors are those that the grids show.
+#[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// From 1.
     pub cycle: usize,
     /// Time at its end.
     pub time_us: f64,
-    /// The film's share of the load.
-    pub alpha: Option<f64>,
-    /// Error that the grids show, absolute.
-    pub alpha_error: Option<f64>,
-    /// Film load over ambient pressure × area (plate).
-    pub load_ratio: Option<f64>,
-    /// Error that the grids show, absolute.
-    pub load_ratio_error: Option<f64>,
-    /// Mean of the film's net gauge force on one wavelength or the plate.
-    pub film_load_n: f64,
-    /// Error that the grids show, absolute, as of all that follow.
-    pub film_load_error_n: Option<f64>,
-    /// Its least value.
-    pub film_load_min_n: f64,
-    /// Error of that.
-    pub film_load_min_error_n: Option<f64>,
-    /// Its greatest value.
-    pub film_load_max_n: f64,
-    /// Error of that.
-    pub film_load_max_error_n: Option<f64>,
-    /// Mean of the contact force on one wavelength; its error is that of the film load.
-    pub contact_load_n: Option<f64>,
-    /// Mean of the number of teeth that touch.
-    pub teeth_in_contact: Option<f64>,
-    /// Error of that.
-    pub teeth_in_contact_error: Option<f64>,
-    /// Least film thickness.
-    pub min_gap_nm: f64,
-    /// Error of that.
-    pub min_gap_error_nm: Option<f64>,
-    /// Greatest absolute pressure.
-    pub max_pressure_kpa: f64,
-    /// Error of that.
-    pub max_pressure_error_kpa: Option<f64>,
+    /// Its means and extremes.
+    pub numbers: Numbers,
     /// Largest change of ln Z over the cycle.
     pub change: f64,
-    /// By how much ln Z may still change; null while nothing is known.
+    /// By how much ln Z may still change; `None` while nothing is known.
     pub remaining: Option<f64>,
+}
+
+/// The numbers under the names that they have elsewhere, but for `load_ratio`; what its scene does not have is null.
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut row = to.serialize_map(None)?;
+        row.serialize_entry("cycle", &self.cycle)?;
+        row.serialize_entry("time_us", &self.time_us)?;
+        for number in NUMBERS {
+            row.serialize_entry(number.name().trim_start_matches("mean_"), &self.numbers.get(number))?;
+        }
+        row.serialize_entry("change", &self.change)?;
+        row.serialize_entry("remaining", &self.remaining)?;
+        row.end()
+    }
 }
 
 impl Row {
@@ -67,58 +71,10 @@ impl Row {
         Self {
             cycle: cycle.number,
             time_us: cycle.number as f64 * cycle.recording.period * 1e6,
+            numbers: Numbers::of_outcome(problem, &cycle.outcome),
             change: cycle.change,
             remaining: finite(cycle.remaining),
-            ..Self::of_outcome(problem, &cycle.outcome)
         }
-    }
-
-    /// The means and extremes of a result.
-    pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
-        let mut row = Self::default();
-        let parts = |found: Estimate| [found.value, found.error].map(finite);
-        let (loads, thickness, pressure) = match outcome {
-            Outcome::Motor(r) => {
-                [row.alpha, row.alpha_error] = parts(r.alpha);
-                row.contact_load_n = finite(r.contact_load.value);
-                [row.teeth_in_contact, row.teeth_in_contact_error] = parts(r.teeth_in_contact);
-                ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
-            }
-            Outcome::Plate(r) => {
-                if let Scenario::Plate(plate) = &problem.scenario {
-                    [row.load_ratio, row.load_ratio_error] = parts(r.film_load * PlateResult::ratio(1.0, plate));
-                }
-                ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
-            }
-        };
-        let (thickness, pressure) = (thickness * 1e9, pressure * 1e-3);
-        [row.film_load_n, row.film_load_min_n, row.film_load_max_n] = loads.map(|load| load.value);
-        [row.film_load_error_n, row.film_load_min_error_n, row.film_load_max_error_n] =
-            loads.map(|load| finite(load.error));
-        [row.min_gap_nm, row.max_pressure_kpa] = [thickness.value, pressure.value];
-        [row.min_gap_error_nm, row.max_pressure_error_kpa] = [thickness.error, pressure.error].map(finite);
-        row
-    }
-
-    /// What rises to the steady state: α, or the load ratio.
-    pub fn main(&self) -> Estimate {
-        let value = self.alpha.or(self.load_ratio).unwrap_or(f64::NAN);
-        estimate(value, self.alpha_error.or(self.load_ratio_error))
-    }
-
-    /// Mean film load \[N; of a strip N/m\].
-    pub fn film_load(&self) -> Estimate {
-        estimate(self.film_load_n, self.film_load_error_n)
-    }
-
-    /// Least film thickness \[nm\].
-    pub fn thickness(&self) -> Estimate {
-        estimate(self.min_gap_nm, self.min_gap_error_nm)
-    }
-
-    /// Highest pressure \[kPa\].
-    pub fn pressure(&self) -> Estimate {
-        estimate(self.max_pressure_kpa, self.max_pressure_error_kpa)
     }
 
     /// How much of the way is done, 0 to 1, as ln of what remains.
@@ -127,10 +83,6 @@ impl Row {
         let by_change = self.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
         by_cycles.max(by_change)
     }
-}
-
-fn estimate(value: f64, error: Option<f64>) -> Estimate {
-    Estimate { value, error: error.unwrap_or(f64::NAN) }
 }
 
 /// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
@@ -228,7 +180,7 @@ pub(super) fn periodic(value: f64) -> Mark {
 pub fn figure(problem: &Problem, rows: &[Row], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
     let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
-    let at = |row: &Row| (row.cycle as f64, row.main());
+    let at = |row: &Row| (row.cycle as f64, row.numbers.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
     let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))

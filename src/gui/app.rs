@@ -135,9 +135,11 @@ impl eframe::App for App {
         let (waiting, at_once): (Vec<_>, Vec<_>) =
             pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
         commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
-        commands.extend(dropped(ctx).into_iter().map(|path| Command::Chosen(Purpose::Open, path)));
         commands.into_iter().for_each(|command| self.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
+        // A question is answered first.
+        let dropped = dropped(ctx).into_iter().filter(|_| self.state().modal.is_none());
+        waiting.extend(dropped.map(|path| Command::Chosen(Purpose::Open, path)));
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;
         if closing && (ctx.text_edit_focused() || self.updater.quitting_loses()) {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);

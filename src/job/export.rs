@@ -193,7 +193,7 @@ fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) ->
 
 /// A folder for what the window writes, with figures in these formats.
 fn folder<'a>(path: &'a Path, formats: &[Format]) -> Folder<'a> {
-    Folder { path, command: &[], formats: formats.to_vec() }
+    Folder { path, command: &[], formats: formats.to_vec(), vtk: false }
 }
 
 /// Settings of runs, as a report names them: at the coarsest of their fidelities.
@@ -245,7 +245,7 @@ mod tests {
     fn files_of_a_run_that_are_made_elsewhere_are_the_same() {
         let posed = posed("floating-disc");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
-        let timed = (solution, false, 0.5);
+        let timed = (solution, 0.5);
         let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
         assert!(made_twice("run", &|| Content::Run(OfRun::Data, Box::new(run.clone()))) > 8);
         let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(Arc::new(run.solution)))];

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// Points that the search starts from.
 const STARTS: usize = 16;
 
-/// What was found.
+/// What a fit to measurements, or the search for an optimum, ends with.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Found {
     /// A fit, and the measurements that were fitted.

@@ -2,7 +2,7 @@
 //! plate compared with exact results. The window, or [`super::trial`], fills them in.
 
 use crate::analysis::exact::{self, Harmonic};
-use crate::analysis::quantity::numbers;
+use crate::analysis::quantity::{Quantity, numbers};
 use crate::analysis::torque::TorqueCurves;
 use crate::export::startup::Row;
 use crate::problem::{Plate, Scenario};
@@ -74,8 +74,9 @@ impl Readings {
     pub fn read_cycle(&mut self, row: &Row) {
         self.set(Live::Cycles, row.cycle as f64);
         self.set(Live::Remaining, row.remaining.unwrap_or(f64::INFINITY));
-        row.alpha.into_iter().for_each(|alpha| self.set(Live::StartAlpha, alpha));
-        row.load_ratio.into_iter().for_each(|ratio| self.set(Live::StartLoadRatio, ratio));
+        for (live, number) in [(Live::StartAlpha, Quantity::Alpha), (Live::StartLoadRatio, Quantity::LoadRatio)] {
+            self.set(live, row.numbers.get(number).unwrap_or(f64::NAN));
+        }
     }
 
     /// Takes the numbers of a motor's curves over speed.

@@ -41,6 +41,13 @@ pub enum Scale {
     Log,
 }
 
+impl Scale {
+    /// Where a value is on an axis: on a logarithmic one equal ratios are equal steps.
+    pub fn place(self, value: f64) -> f64 {
+        if self == Self::Log { value.log10() } else { value }
+    }
+}
+
 /// The type of a key's value, with the range and the default.
 #[derive(Clone, Copy, Debug)]
 pub enum ParameterKind {

@@ -33,23 +33,11 @@ const SHORTEST: usize = 16;
 /// The figure's, for what is added at the right and below.
 const BACKGROUND: [u8; 3] = [255; 3];
 
-/// One cycle, encoded.
-pub struct Video {
-    /// Pixels across, an even number.
-    pub width: usize,
-    /// Pixels down, an even number.
-    pub height: usize,
-    /// The `seq_level_idx` of AV1.
-    pub level: u8,
-    /// Of each frame the OBUs. The first can be decoded alone, and the first of each later part of a long cycle; all others refer to those
-    /// before.
-    pub packets: Vec<Vec<u8>>,
-}
-
 /// A frame by its number, from 0: red, green, blue, a byte each, row by row from the top. Called from several threads.
 pub type Picture<'a> = dyn Fn(usize) -> io::Result<Cow<'a, [u8]>> + Sync + 'a;
 
-/// Encodes `count` frames of `size` pixels (across, down), each shown for `step` \[s\], a fraction. `done` is called after each; once `cancelled` says
+/// Encodes `count` frames of `size` pixels (across, down), each shown for `step` \[s\], a fraction: of each the OBUs. The first can be decoded
+/// alone, and the first of each later part of a long cycle; all others refer to those before. `done` is called after each; once `cancelled` says
 /// so, no other is encoded.
 ///
 /// # Errors
@@ -61,7 +49,7 @@ pub fn encode(
     step: [u32; 2],
     done: &dyn Fn(),
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> io::Result<Video> {
+) -> io::Result<Vec<Vec<u8>>> {
     let source = size.map(|length| length as usize);
     let [width, height] = source.map(|length| length.next_multiple_of(2).max(SHORTEST));
     let level = level([width, height], f64::from(step[1]) / f64::from(step[0].max(1)));
@@ -110,8 +98,7 @@ pub fn encode(
         };
         workers.into_iter().map(|worker| worker.and_then(end)).collect()
     });
-    let packets = encoded.into_iter().collect::<io::Result<Vec<_>>>()?.concat();
-    Ok(Video { width, height, level, packets })
+    Ok(encoded.into_iter().collect::<io::Result<Vec<_>>>()?.concat())
 }
 
 /// The packets of some frames, the first a key frame. `told` gets a message for each.

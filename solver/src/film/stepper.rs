@@ -137,7 +137,7 @@ pub struct Film {
     divergence: Vec<f64>,
     /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
     pub(super) jacobian: Coupling,
-    /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
+    /// Centre of Newton's matrix: the Jacobian's, the film's inertia, and the damping of a careful step.
     pivots: Vec<f64>,
     solver: RowSolver,
     /// Faces before and after the row being assembled.

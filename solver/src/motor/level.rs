@@ -163,6 +163,12 @@ impl MotorLevel {
         self.contact_load.iter().all(|load| *load == 0.0)
     }
 
+    /// Least contact load at any node and instant, over the mean; 0 if one does not touch.
+    pub(super) fn least_contact(&self) -> f64 {
+        let mean = self.contact_load.iter().sum::<f64>() / self.contact_load.len() as f64;
+        self.contact_load.iter().copied().fold(mean, f64::min) / mean.max(f64::MIN_POSITIVE)
+    }
+
     fn instants(&self) -> usize {
         self.shapes.len()
     }

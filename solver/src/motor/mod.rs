@@ -259,6 +259,10 @@ impl Scene for Search<'_> {
     }
 
     fn settled(&self, plan: &Plan, found: &Found<MotorLevel>) -> bool {
+        // Over asperities there is contact everywhere, however little.
+        if self.motor.surface.asperities.is_none() && may_open(found) {
+            return false;
+        }
         let whole = stated(plan, found);
         let grids = of_grids(plan, found).error;
         whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
@@ -323,6 +327,16 @@ impl<'a> MotorTransient<'a> {
 
 /// Error of the load at an instant over that of its mean, where contact begins and ends (calibrated: docs/validation.md).
 const UNEVEN: f64 = 1.25;
+
+/// Where the least contact load falls from one grid to the next by more than this part of what is left, finer ones may open.
+const OPENING: f64 = 0.5;
+
+/// Whether every node touches at every instant on the finest grid, and the contact load in between may vanish. Such grids agree, α being 0 on
+/// all of them, and only finer ones tell what the film does where faces part.
+fn may_open(found: &Found<MotorLevel>) -> bool {
+    let least: Vec<f64> = found.levels.iter().map(MotorLevel::least_contact).collect();
+    matches!(least[..], [.., before, now] if now > 0.0 && before - now > OPENING * now)
+}
 
 /// α with what the grids tell of its error.
 fn of_grids(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {

@@ -291,6 +291,9 @@ impl Way<'_> {
         let ratio = self.load / (self.plate.gas.ambient_pressure * self.plate.area());
         // No film could carry it with less.
         let mut low = (0.5 * spacing * ratio * (2.0 + ratio)).max(self.plate.amplitude);
+        if low > LARGEST_AMPLITUDE - spacing {
+            return Ok(None);
+        }
         let mut of_low = if low > self.plate.amplitude { carried(self, low)? } else { share };
         let mut high = low;
         while of_low < 1.0 {

@@ -81,9 +81,31 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
     solution
 }
 
-/// Solves at a gap near that of the centre until the film carries the load, if there is one: by a stiffness that is off by a share e, the gap of
-/// the last is off by e² of its change.
+/// Solves at gaps near that of the centre until the film carries the load: by a stiffness that is off by a share e, the gap of the last is off
+/// by e² of its change.
 const NEWTON: usize = 3;
+
+/// A plate as it was solved, at the gap at which it floats, and the plan with the grids that were used.
+struct Floated {
+    solved: Nested<plate::Periodic>,
+    plate: Plate,
+    plan: Plan,
+}
+
+/// Solves the plate by this plan; one under a load where the film of this plan carries it.
+fn float(plate: &Plate, plan: &Plan, floating: Option<&Afloat>, cancel: &Cancel) -> Result<Floated, SolveError> {
+    let mut plate = plate.clone();
+    let mut solves = 1;
+    loop {
+        let (solved, used) = plate::periodic_near(&plate, plan, cancel)?;
+        let near = settled(solved.fine.status) && alike(plan, &used);
+        match floating.filter(|_| near && solves < NEWTON) {
+            Some(afloat) => plate.mean_gap = afloat.next(&plate, plate.mean_gap, solved.fine.result.film_load.value),
+            None => return Ok(Floated { solved, plate, plan: used }),
+        }
+        solves += 1;
+    }
+}
 
 impl Centre {
     /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect; `last` is one to start from.
@@ -125,15 +147,16 @@ impl Centre {
                 let plate = &Afloat::at(plate, floating.as_ref().map(|afloat| afloat.gap));
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
-                let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel)?;
-                if settled(found.fine.status) {
-                    let (again, exact) = plate::periodic_near(plate, &tight(&plan), cancel)?;
-                    if settled(again.fine.status) && alike(&plan, &exact) {
-                        (found, plan) = (again, exact);
+                let mut found = float(plate, &plan, floating.as_ref(), cancel)?;
+                if settled(found.solved.fine.status) {
+                    let exact = float(plate, &tight(&found.plan), floating.as_ref(), cancel)?;
+                    if settled(exact.solved.fine.status) && alike(&found.plan, &exact.plan) {
+                        found = exact;
                     }
                 }
-                let of = |found| told(found, floating.as_ref(), plate, &plan, cancel);
-                let solved = found.map(of);
+                let Floated { solved, plate, plan } = found;
+                let of = |found| told(found, floating.as_ref(), &plate, &plan, cancel);
+                let solved = solved.map(of);
                 Ok(Self { plan, warm: cold, problem: problem.clone(), solved, floating })
             }
         }
@@ -170,22 +193,12 @@ impl Centre {
                 Ok(near.then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
             }
             Scenario::Plate(plate) => {
-                let mut plate = Afloat::at(plate, self.floating.map(|afloat| afloat.gap));
+                let plate = Afloat::at(plate, self.floating.map(|afloat| afloat.gap));
                 let _taken = memory::take(memory::plate(&plate, &self.plan), cancel)?;
-                let mut solves = 1;
-                loop {
-                    let (found, used) = plate::periodic_near(&plate, &self.plan, cancel)?;
-                    if !(settled(found.fine.status) && alike(&self.plan, &used)) {
-                        return Ok(None);
-                    }
-                    if let (Some(afloat), true) = (&self.floating, solves < NEWTON) {
-                        solves += 1;
-                        plate.mean_gap = afloat.next(&plate, plate.mean_gap, found.fine.result.film_load.value);
-                        continue;
-                    }
-                    let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);
-                    return Ok(Some(found.map(of)));
-                }
+                let Floated { solved, plate, plan } = float(&plate, &self.plan, self.floating.as_ref(), cancel)?;
+                let near = settled(solved.fine.status) && alike(&self.plan, &plan);
+                let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);
+                Ok(near.then(|| solved.map(of)))
             }
         }
     }

@@ -72,7 +72,7 @@ impl std::fmt::Display for Limit {
     }
 }
 
-/// What is sought.
+/// A number that is to be made as great or as small as it can be, within limits on others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// The number.
@@ -338,7 +338,7 @@ fn describe(
         return Err(no_start("the optimum could not be solved again"));
     };
     let sign = if goal.greatest { 1.0 } else { -1.0 };
-    let mut lines = Vec::new();
+    let (mut lines, mut warnings) = (Vec::new(), Vec::new());
     let mut better: Option<(String, f64)> = None;
     for (k, places) in places.iter().enumerate() {
         let unknown = model.unknowns[k].clone();
@@ -364,11 +364,17 @@ fn describe(
             .map(|(place, computed)| (unknown.value(*place), value(computed).map(|found| found.value)))
             .collect();
         let middle = places.iter().position(|place| *place == x[k]).unwrap_or(0);
+        for beside in [middle.checked_sub(1), Some(middle + 1)].into_iter().flatten() {
+            let Some((place, Some(Err(reason)))) = numbers.get(beside).map(|(at, found)| (at, found.first())) else {
+                continue;
+            };
+            let (parameter, at) = (unknown.parameter, short(unknown.value(*place), 4));
+            warnings.push(format!("{} = {} cannot be computed: {reason}", parameter.key, parameter.with_unit(at)));
+        }
         let flat = (edge(&points, middle, best.value, false), edge(&points, middle, best.value, true));
         lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, kept, flat });
     }
     let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
-    let mut warnings = Vec::new();
     for line in &lines {
         let Some(bound) = line.at else { continue };
         let name = goal.quantity.name();

@@ -96,7 +96,7 @@ impl Tradeoff {
         Self { points, reference: reference.map(|(i, _)| i), judged }
     }
 
-    /// What errors are those of, in a word or two.
+    /// Name of the number whose errors the curve shows, in a word or two.
     pub fn of_what(&self) -> &'static str {
         match self.judged {
             Quantity::Alpha => "α",

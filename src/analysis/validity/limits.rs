@@ -2,7 +2,7 @@
 
 use crate::digits::brief;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
-use crate::problem::{Gas, Motor, Plate, Slip};
+use crate::problem::{Gas, Motor, Plate, RotorCompliance, Slip};
 use crate::surface::flow::LEAST_RATIO;
 use std::f64::consts::TAU;
 
@@ -250,13 +250,21 @@ pub(super) fn dense(pressure: f64) -> Option<Excess> {
 }
 
 /// `pressure`: the greatest contact pressure \[Pa\].
-pub(super) fn stress(pressure: f64) -> Option<Excess> {
+pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
     let value = pressure * 1e-6;
+    // Of a ring the face is that of its lowest part.
+    let lowest = match &motor.rotor {
+        RotorCompliance::Ring(section) => section.parts().iter().min_by(|a, b| a.bottom.total_cmp(&b.bottom)),
+        _ => None,
+    };
+    let (what, limit) = lowest.map_or(("a rotor of aluminium 6061-T6", YIELD_MPA), |part| {
+        (part.material.name, part.material.yield_stress * 1e-6)
+    });
     let text = format!(
-        "Contact presses with up to {} MPa; a rotor of aluminium 6061-T6 yields at {YIELD_MPA} MPa, and the model is elastic.",
+        "Contact presses with up to {} MPa; {what} yields at {limit} MPa, and the model is elastic.",
         brief(value)
     );
-    excess("contact-stress", value, YIELD_MPA, "MPa", text)
+    excess("contact-stress", value, limit, "MPa", text)
 }
 
 /// `closed`: the least film thickness \[m\].

@@ -156,7 +156,9 @@ fn up_to_their_limits_slip_laws_are_within_a_tenth_of_the_boltzmann_equation() {
 #[test]
 fn sound() {
     // 343.2 m/s over 100 kHz: 3.432 mm. Viscous at 1 µm: Re = 0.0035.
-    let at = |length: &str| plate(&[("plate.frequency_khz", "100"), ("plate.length_mm", length)]);
+    let at = |length: &str| {
+        plate(&[("film.slip", "fukui-kaneko"), ("plate.frequency_khz", "100"), ("plate.length_mm", length)])
+    };
     assert_eq!(names(&at("3.4")), Vec::<&str>::new());
     let found = at("34.32");
     assert_eq!(names(&found), ["sound"]);
@@ -242,8 +244,9 @@ fn thinness() {
 
 #[test]
 fn an_amplitude_near_the_gap() {
-    assert!(plate(&[("plate.amplitude_um", "0.899")]).is_empty());
-    let found = plate(&[("plate.amplitude_um", "0.99")]);
+    let at = |amplitude: &str| plate(&[("film.slip", "fukui-kaneko"), ("plate.amplitude_um", amplitude)]);
+    assert!(at("0.899").is_empty());
+    let found = at("0.99");
     assert_eq!(names(&found), ["amplitude"]);
     check(&found, "amplitude", 0.99, 0.9);
     assert!(found[0].text.contains("within 10 nm"), "{found:?}");
@@ -263,14 +266,17 @@ fn a_floating_rotor_is_judged_where_it_floats() {
     assert_eq!(names(&outside(&problem, Some(&solution(f64::NAN)))), ["slip-law"]);
 }
 
-/// First-order slip, the paper's, is outside its range in every motor of the paper; nothing else is.
+/// First-order slip, the paper's, is outside its range in every motor of the paper, and under the plates that come within 500 nm; nothing else is.
 #[test]
 fn built_in_presets_show_what_they_should() {
     for preset in presets::BUILT_IN {
         let (name, problem) = (preset.name, Problem::try_from(&preset.scene().unwrap()).unwrap());
-        // The published plate is one without slip, at Kn = 0.013; the law of Fukui and Kaneko holds at every spacing of a motor.
-        let paper = |motor: &crate::problem::Motor| motor.gas.slip == Slip::FirstOrder;
-        let slips = matches!(&problem.scenario, Scenario::Motor(motor) if paper(motor)) || name == "plate-mems";
+        // The published plate is one without slip, at Kn = 0.013; the law of Fukui and Kaneko holds at every spacing of a motor. Plates that
+        // float are micrometres away.
+        let slips = match &problem.scenario {
+            Scenario::Motor(motor) => motor.gas.slip == Slip::FirstOrder,
+            Scenario::Plate(plate) => plate.load.is_none(),
+        };
         let closed: &[&str] = if slips { &["slip-law"] } else { &[] };
         assert_eq!(names(&outside(&problem, None)), closed, "{name}, unsolved");
         // A rotor that floats 0.74 µm high never closes the film.

@@ -3,17 +3,17 @@
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
 
-/// None.
+/// Always [`FigureError::NotBuilt`].
 pub(super) fn pixels(_: &Drawing, _: &str, _: f64, _: [f64; 2]) -> Result<Pixels, FigureError> {
     Err(FigureError::NotBuilt)
 }
 
-/// None.
+/// Always [`FigureError::NotBuilt`].
 pub(super) fn pdf(_: &Drawing, _: &str, _: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }
 
-/// None.
+/// Always [`FigureError::NotBuilt`].
 pub(super) fn svg_pages(_: &str, _: [f64; 2], _: &[String]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }

@@ -1,7 +1,7 @@
 //! Numbers and words as the window writes them.
 
-use crate::digits::signed;
 pub use crate::digits::{power_of_ten, raised};
+use crate::digits::{rounded, signed};
 use crate::estimate::Estimate;
 
 /// Share of its error below which a value is shown as 0.
@@ -35,8 +35,7 @@ pub fn times(factor: f64) -> String {
     if !(factor.is_finite() && factor > 0.0) {
         return "×1".to_owned();
     }
-    let power = 10f64.powf(factor.log10().floor() - 1.0);
-    let rounded = (factor / power).round() * power;
+    let rounded = rounded(factor, 2);
     let decimals = if rounded < 10.0 { 1 } else { 0 };
     format!("×{rounded:.decimals$}")
 }
@@ -45,15 +44,6 @@ pub fn times(factor: f64) -> String {
 pub fn uncertain(found: Estimate) -> String {
     let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
     raised(&Estimate { value, ..found }.to_string())
-}
-
-/// Without zeros after the decimal point that say nothing.
-pub fn trimmed(number: &str) -> &str {
-    if number.contains('.') && !number.contains('e') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
 }
 
 /// A time in the unit that suits it.

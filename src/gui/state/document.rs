@@ -14,9 +14,7 @@ const TARGET: Fidelity = Fidelity::Fine;
 pub enum Next {
     /// A built-in preset.
     Preset(&'static str),
-    /// The preset in a file.
-    File(PathBuf),
-    /// A scene that is there already: a motor made of answers, that of a link, or the one that the window is to open.
+    /// A scene that is there already: that of a file or a link, a motor made of answers, or the one that the window is to open.
     Given(Box<Document>),
     /// The window closes.
     Quit,

@@ -11,7 +11,7 @@ use crate::job::SolvedScene;
 use crate::lessons::check::Reading;
 use crate::lessons::record::{self, Record};
 use crate::lessons::work::{Progress, Stage, StepWork};
-use crate::lessons::{self, Act, Lesson, LessonError, Step, WindowNames};
+use crate::lessons::{self, Act, Answer, Lesson, LessonError, Step, WindowNames};
 use crate::platform::Instant;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
@@ -49,9 +49,12 @@ pub struct Highlights {
     names: Vec<String>,
     /// Whether highlighted parameters are scrolled to, and their group opened.
     pub reveal: bool,
-    /// A parameter whose field takes the keyboard, once it is drawn.
-    pub enter: Option<&'static str>,
+    /// What takes the keyboard once it is drawn: a parameter, a part of the window, or [`NUMBER`].
+    pub enter: Option<String>,
 }
+
+/// The field for the number that a question asks for.
+pub const NUMBER: &str = "your number";
 
 impl Highlights {
     /// Whether `name` is highlighted.
@@ -211,6 +214,13 @@ impl LessonState {
         Some(running.work.get(running.step)?.stage(step))
     }
 
+    /// Whether the step on screen asks for a number, and none was given, or one that was refused.
+    pub fn lacks_number(&self) -> bool {
+        let (Some((_, step)), Some(running)) = (self.step(), &self.running) else { return false };
+        let asked = step.question.as_ref().is_some_and(|question| matches!(question.answer, Answer::Number { .. }));
+        asked && running.work.get(running.step).is_some_and(|work| work.prediction.is_none() || work.refused)
+    }
+
     /// The run that a step began with, to be compared with the one on screen: while something is done to another scene.
     pub fn compared(&self, scene: &Scene) -> Option<&Arc<SolvedScene>> {
         let running = self.running.as_ref()?;
@@ -355,6 +365,7 @@ impl LessonState {
     /// being scrolled to, which takes some frames.
     pub fn observe(&mut self, document: &Document, seen: OnScreen<'_>) -> bool {
         self.highlights = Highlights::default();
+        let asks = self.stage() == Some(Stage::Question);
         if let Some((_, step)) = self.step() {
             let keys = step.light.iter().map(|parameter| parameter.key.to_owned());
             self.highlights.names = keys.chain(step.look.iter().cloned()).collect();
@@ -368,9 +379,8 @@ impl LessonState {
         running.reveal = running.reveal.saturating_sub(1);
         // Once its group has opened.
         let enter = running.reveal == 0 && std::mem::take(&mut running.enter);
-        let step = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step));
-        let marked = step.and_then(|step| step.light.first().copied());
-        self.highlights.enter = marked.filter(|_| enter).map(|parameter| parameter.key);
+        let marked = || self.highlights.names.first().cloned();
+        self.highlights.enter = if asks { Some(NUMBER.to_owned()) } else { marked() }.filter(|_| enter);
         if let Some(lesson) = self.lessons.get(running.lesson) {
             running.judge(lesson, document, seen);
         }

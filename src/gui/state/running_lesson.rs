@@ -58,14 +58,14 @@ pub struct RunningLesson {
     /// What is read off the tabs.
     pub tabs: OffTabs,
     pub(super) reveal: u8,
-    /// Whether the marked parameter takes the keyboard.
+    /// Whether what is marked, or the field for an answer, takes the keyboard.
     pub(super) enter: bool,
     /// When a key last answered what was seen: what is told then has to be read before Enter leads on.
     pub answered: Option<Instant>,
 }
 
 impl RunningLesson {
-    /// Lets the marked parameter take the keyboard.
+    /// Lets what is marked, or the field for an answer, take the keyboard.
     pub fn enter_marked(&mut self) {
         (self.enter, self.reveal) = (true, REVEALED);
     }

@@ -179,7 +179,7 @@ pub fn as_solved(
         recording,
     };
     let (validity, history) = (Vec::new(), Vec::new());
-    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, warm: false, history }
+    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }
 }
 
 #[cfg(test)]

@@ -80,21 +80,6 @@ mod tests {
     use crate::problem::Problem;
 
     #[test]
-    fn a_panic_of_the_measurement_ends_it_and_is_told() {
-        let task = Task::start("test", None, |_| (), |_, _| panic!("out of luck")).unwrap();
-        let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
-        for _ in 0..6000 {
-            state.drain();
-            if !state.work.running() {
-                break;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(10));
-        }
-        assert!(!state.work.running());
-        assert_eq!(state.work.failure.as_deref(), Some("it failed: out of luck"));
-    }
-
-    #[test]
     fn the_present_setting_is_always_measured() {
         let problem = Problem::try_from(&Scene::motor()).unwrap();
         let mut all = candidates(&problem);

@@ -124,7 +124,7 @@ impl<'n> Chart<'n> {
         let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
         let columns = f64::from((whole.width() / (COLUMN_EVERY * em)).max(1.0));
         let ends = ends(panel);
-        let bounds = [ends[0].map(|end| on_axis(x, end)), ends[1].map(|end| on_axis(y, end))];
+        let bounds = [ends[0].map(|end| x.scale.place(end)), ends[1].map(|end| y.scale.place(end))];
         // One zero is enough for both axes.
         let zeros = ends[0][0] == 0.0 && ends[1][0] == 0.0;
         let named = y.names.iter().map(|(_, name)| text_width(ui, name) + 0.8 * em).fold(NUMBERS * em, f32::max);
@@ -163,11 +163,6 @@ impl<'n> Chart<'n> {
     }
 }
 
-/// Where a value is on an axis: on a logarithmic one, its logarithm.
-fn on_axis(axis: &Axis, value: f64) -> f64 {
-    if axis.scale == Scale::Log { value.log10() } else { value }
-}
-
 /// Marks of an axis, at most about `most` where they are numbers.
 fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
@@ -196,7 +191,7 @@ fn written(axis: &Axis, value: f64, step_size: f64) -> String {
 }
 
 fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) {
-    let at = |[x, y]: [f64; 2]| [on_axis(&panel.x, x), on_axis(&panel.y, y)];
+    let at = |[x, y]: [f64; 2]| [panel.x.scale.place(x), panel.y.scale.place(y)];
     let colour = |of: Colour| on_screen(of, visuals);
     match layer {
         Layer::Line(figure::Line { name, points, style, .. }) => {
@@ -210,8 +205,8 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
             }
         }
         Layer::Band(band) => {
-            let y = |value: f64| on_axis(&panel.y, value);
-            let columns = band.points.iter().map(|[x, low, high]| [on_axis(&panel.x, *x), y(*low), y(*high)]);
+            let y = |value: f64| panel.y.scale.place(value);
+            let columns = band.points.iter().map(|[x, low, high]| [panel.x.scale.place(*x), y(*low), y(*high)]);
             for piece in pieces(columns) {
                 plot.add(between(&piece, colour(band.colour).gamma_multiply(band.opacity as f32)));
             }
@@ -228,8 +223,8 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
         Layer::Mark(Mark { direction, at: value, style, .. }) => {
             let (colour, width, dash) = (colour(style.colour), 1.5 * style.width as f32, dashes(style.dash));
             match direction {
-                Direction::Horizontal => plot.hline(level(on_axis(&panel.y, *value), colour, width).style(dash)),
-                Direction::Vertical => plot.vline(upright(on_axis(&panel.x, *value), colour, width).style(dash)),
+                Direction::Horizontal => plot.hline(level(panel.y.scale.place(*value), colour, width).style(dash)),
+                Direction::Vertical => plot.vline(upright(panel.x.scale.place(*value), colour, width).style(dash)),
             }
         }
         Layer::Map(_) | Layer::Categories(_) | Layer::Text(_) => {}
@@ -249,7 +244,7 @@ fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
     let mut taken: Vec<Rect> = Vec::new();
     for layer in &panel.layers {
         let Layer::Text(figure::Text { at: [x, y], text }) = layer else { continue };
-        let place = at.position_from_point(&PlotPoint::new(on_axis(&panel.x, *x), on_axis(&panel.y, *y)));
+        let place = at.position_from_point(&PlotPoint::new(panel.x.scale.place(*x), panel.y.scale.place(*y)));
         let font = TextStyle::Body.resolve(ui.style());
         let galley = painter.layout_no_wrap(text.clone(), font, ui.visuals().text_color());
         let mut rect = Rect::from_min_size(place + vec2(5.0, 3.0), galley.size());
@@ -558,7 +553,7 @@ mod tests {
         let history = [round(0, 1, 1e-2), round(0, 2, 0.0), round(1, 1, 1e-4), round(1, 1, 1e-5)];
         let panel = &convergence(&history).panels[0];
         let drawn = panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Line(line) => Some(pieces(line.points.iter().map(|[x, y]| [*x, on_axis(&panel.y, *y)]))),
+            Layer::Line(line) => Some(pieces(line.points.iter().map(|[x, y]| [*x, panel.y.scale.place(*y)]))),
             _ => None,
         });
         assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0]]], [vec![[1.0, -5.0]]]]);
@@ -567,7 +562,7 @@ mod tests {
     #[test]
     fn marks_of_equal_ratios_are_round_whatever_the_range() {
         let texts = |axis: &Axis, bounds: [f64; 2], most: f64| {
-            let bounds = bounds.map(|end| on_axis(axis, end));
+            let bounds = bounds.map(|end| axis.scale.place(end));
             let input = GridInput { bounds: (bounds[0], bounds[1]), base_step_size: 1.0 };
             axis_marks(axis, &input, most)
                 .into_iter()

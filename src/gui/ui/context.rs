@@ -9,7 +9,7 @@ use crate::gui::derived::format::rough;
 use crate::gui::state::window::State;
 use crate::job::SolvedScene;
 use crate::platform::Instant;
-use eframe::egui::{self, Color32, Rect, Response, RichText, Ui};
+use eframe::egui::{self, Color32, Id, Rect, Response, RichText, Ui};
 use std::cell::{Cell, RefCell};
 use std::time::Duration;
 
@@ -145,5 +145,12 @@ impl<'a> DrawContext<'a> {
     /// The same of a plot, whose ring stays within it, clear of the title above.
     pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
         self.mark(ui, name, plot.shrink(theme::highlight::GAP + 0.5 * theme::highlight::GLOW));
+    }
+
+    /// Gives the keyboard to the `widget` called `name`, if a lesson leads there.
+    pub fn lead_to(&self, ui: &Ui, name: &str, widget: Id) {
+        if self.state.lessons.highlights.enter.as_deref() == Some(name) {
+            ui.memory_mut(|memory| memory.request_focus(widget));
+        }
     }
 }

@@ -108,7 +108,7 @@ impl AxisRow<'_> {
             ui.label(RichText::new(unit).color(cx.colours.quiet));
         }
         if let Some(name) = count {
-            field(ui, (name, "How many values, both ends counted"), (&mut axis.count, ""), 3.2);
+            field(ui, (name, "How many values, both ends counted"), (&mut axis.count, ""), 4.0);
             ui.label("values");
         }
         ui.checkbox(&mut axis.log, "log").hint(log.1).accessible_name(log.0);

@@ -115,8 +115,10 @@ impl Updater {
             return;
         }
         match self.state.lessons.stage() {
-            Some(Stage::Question) => self.teach(LessonCommand::Commit),
-            Some(Stage::Task) => self.state.lessons.running.iter_mut().for_each(RunningLesson::enter_marked),
+            Some(Stage::Question) if !self.state.lessons.lacks_number() => self.teach(LessonCommand::Commit),
+            Some(Stage::Question | Stage::Task) => {
+                self.state.lessons.running.iter_mut().for_each(RunningLesson::enter_marked);
+            }
             Some(Stage::Observation) => {}
             // An answer is followed by Enter out of habit.
             Some(Stage::Told) if self.state.lessons.has_just_answered(self.now()) => {}

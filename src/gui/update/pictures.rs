@@ -39,7 +39,7 @@ impl Updater {
     pub(super) fn write_picture(&mut self, picture: Picture, path: &Path) {
         let path = match dialogs::complete(path.to_owned(), "picture of the window", &["png"]) {
             Ok(path) => path,
-            Err(reason) => return self.state.fail(reason),
+            Err(reason) => return self.fail_at(Purpose::Picture(picture), path, reason),
         };
         let work = Files { path, content: Content::Picture(picture) };
         let task = self.start_work("The picture cannot be written", work, Duration::ZERO);

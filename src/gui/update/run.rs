@@ -52,8 +52,9 @@ impl Updater {
             Command::Chosen(purpose, path) => self.chosen(purpose, path),
             Command::OpenPathPrompt => {
                 let purposes = vec![Purpose::Open, Purpose::Save(None)];
-                let path =
-                    state.failed_path.take().map_or_else(|| state.suggested_path(&purposes[1]), |(_, path)| path);
+                let like = |failed: &Purpose| purposes.iter().any(|purpose| failed.is_like(purpose));
+                let failed = state.failed_path.take_if(|(failed, _)| like(failed));
+                let path = failed.map_or_else(|| state.suggested_path(&purposes[1]), |(_, path)| path);
                 state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: false, fresh: true }));
             }
             Command::Save(then) => self.save(then),
@@ -196,7 +197,7 @@ impl Updater {
     fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
         let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         match purpose {
-            Purpose::Open if !table => self.proceed(Next::File(path)),
+            Purpose::Open if !table => self.open_file(path),
             Purpose::Open | Purpose::Measurements => self.load_measurements(path),
             Purpose::Heights => self.load_face(path),
             Purpose::Lessons => self.load_lessons(&path),

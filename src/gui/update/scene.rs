@@ -8,7 +8,7 @@ use crate::gui::state::edits::Change;
 use crate::gui::state::modal::Modal;
 use crate::gui::state::window::State;
 use crate::problem::Numerics;
-use crate::scene::{Parameter, ParameterKind, Scene, SceneError, presets};
+use crate::scene::{Parameter, ParameterKind, Scene, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 
@@ -82,20 +82,24 @@ impl Updater {
 
     /// The same although work goes on.
     pub(super) fn proceed_with_document(&mut self, next: Next) {
-        // A file that cannot be opened takes nothing away, and a lesson goes on.
-        let loses = match &next {
-            Next::Preset(_) | Next::Given(_) | Next::Quit => true,
-            Next::File(path) => Scene::load(path).is_ok(),
-        };
-        if loses {
-            self.leave_lesson();
-            if self.state.document.is_dirty() && !self.state.quitting {
-                let name = self.state.document.scene().name.clone();
-                self.state.modal = Some(Modal::Unsaved { name, next });
-                return;
-            }
+        let State { document, lessons, .. } = &self.state;
+        let student = lessons.student_document(document);
+        if student.is_dirty() && !self.state.quitting {
+            // A lesson goes on if this is not answered.
+            let name = student.scene().name.clone();
+            self.state.modal = Some(Modal::Unsaved { name, next });
+            return;
         }
+        self.leave_lesson();
         self.proceed_now(next);
+    }
+
+    /// Opens the preset in a file. One that cannot be opened takes nothing away, and a lesson goes on.
+    pub(super) fn open_file(&mut self, path: PathBuf) {
+        match Scene::load(&path) {
+            Ok(scene) => self.proceed(Next::Given(Box::new(Document::opened(scene, Some(path))))),
+            Err(error) => self.fail_at(Purpose::Open, &path, error),
+        }
     }
 
     /// Whether something would be lost if the window closed now.
@@ -107,9 +111,12 @@ impl Updater {
     /// The same without a question.
     pub(super) fn proceed_now(&mut self, next: Next) {
         match next {
-            Next::Preset(name) => self.open(presets::find(name), None),
-            Next::File(path) => self.open(Scene::load(&path), Some(path)),
+            Next::Preset(name) => match presets::find(name) {
+                Ok(scene) => self.proceed_now(Next::Given(Box::new(Document::opened(scene, None)))),
+                Err(error) => self.state.fail(error),
+            },
             Next::Given(document) => {
+                document.path().into_iter().for_each(|path| self.state.remember(path));
                 self.state.document = document.with_target(self.state.document.target());
                 self.state.view.opened += 1;
                 self.scene_replaced();
@@ -121,38 +128,20 @@ impl Updater {
         }
     }
 
-    fn open(&mut self, loaded: Result<Scene, SceneError>, path: Option<PathBuf>) {
-        match loaded {
-            Ok(scene) => {
-                if let Some(path) = &path {
-                    self.state.remember(path);
-                }
-                self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
-                self.state.view.opened += 1;
-                self.scene_replaced();
-            }
-            Err(error) => match path {
-                Some(path) => self.fail_at(Purpose::Open, &path, error),
-                None => self.state.fail(error),
-            },
-        }
-    }
-
     /// Saves to the scene's file, or asks for one.
     pub(super) fn save(&mut self, then: Option<Next>) {
+        if then.is_some() {
+            self.leave_lesson();
+        }
         match self.state.document.path().map(Path::to_path_buf) {
             Some(path) => self.save_to(&path, then),
             None => self.ask(Purpose::Save(then)),
         }
     }
 
-    /// Saves to a file that was chosen; what has no extension becomes a `.toml`.
+    /// Saves to a file that was chosen; what has no extension becomes a `.toml`, and another one is refused.
     pub(super) fn save_as(&mut self, path: PathBuf, then: Option<Next>) {
-        let named = match path.extension() {
-            Some(_) => Ok(path.clone()),
-            None => complete(path.clone(), "preset", &["toml"]),
-        };
-        match named {
+        match complete(path.clone(), "preset", &["toml"]) {
             Ok(path) => self.save_to(&path, then),
             Err(reason) => self.fail_at(Purpose::Save(None), &path, reason),
         }
@@ -173,8 +162,9 @@ impl Updater {
 
     /// Gives unsaved changes up, then goes on.
     pub(super) fn discard_then(&mut self, next: Next) {
+        self.leave_lesson();
         if next == Next::Quit {
-            // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
+            // The next window begins with what is saved.
             let document = &self.state.document;
             let (saved, path) = (document.saved().clone(), document.path().map(Path::to_path_buf));
             self.state.document = Document::opened(saved, path).with_target(document.target());

@@ -1,6 +1,7 @@
 //! The file in which a window keeps what the next one begins with. Each window that is open at the same time has its own, so
 //! that none replaces what another one wrote; and what cannot be read is kept before it is replaced.
 
+use std::cmp::Reverse;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,15 +19,18 @@ pub struct StorageFile {
 }
 
 impl StorageFile {
-    /// The first file in `folder` that no window has, and nothing but a file is in the place of. One that was never used begins as a copy of the first.
+    /// Of the files in `folder` that no window has, the one that was written last: there is what a window left that crashed or was closed last. If
+    /// all are taken, a new one, which begins as a copy of that.
     ///
     /// # Errors
     /// If the folder cannot be made, or no file can be locked.
     pub fn claim(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
-        let first = folder.join("app.ron");
-        for number in 1..=MOST {
-            let path = if number == 1 { first.clone() } else { folder.join(format!("app-{number}.ron")) };
+        let name = |number| if number == 1 { "app.ron".to_owned() } else { format!("app-{number}.ron") };
+        let mut paths: Vec<PathBuf> = (1..=MOST).map(|number| folder.join(name(number))).collect();
+        paths.sort_by_key(|path| Reverse(path.metadata().and_then(|of| of.modified()).ok()));
+        let last = paths.iter().find(|path| path.is_file()).cloned();
+        for path in paths {
             // What is no file, such as a pipe, would block.
             if [&path, &path.with_extension("lock")].iter().any(|path| path.exists() && !path.is_file()) {
                 continue;
@@ -34,8 +38,8 @@ impl StorageFile {
             let lock = File::options().create(true).append(true).open(path.with_extension("lock"))?;
             match lock.try_lock() {
                 Ok(()) => {
-                    if !path.exists() && first.is_file() {
-                        fs::copy(&first, &path)?;
+                    if let (false, Some(last)) = (path.exists(), last) {
+                        fs::copy(last, &path)?;
                     }
                     return Ok(Self { path, _lock: lock });
                 }
@@ -74,9 +78,15 @@ mod tests {
         let other = StorageFile::claim(folder.path()).unwrap();
         assert_eq!(one.path, folder.path().join("app.ron"));
         assert_ne!(one.path, other.path);
-        assert_eq!(fs::read_to_string(other.path).unwrap(), "first");
+        assert_eq!(fs::read_to_string(&other.path).unwrap(), "first");
         drop(one);
         assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.ron"));
+        // What the second one left last is there first, though its window is gone.
+        let left = File::options().append(true).open(&other.path).unwrap();
+        left.set_modified(std::time::SystemTime::now() + std::time::Duration::from_secs(10)).unwrap();
+        let second = other.path.clone();
+        drop(other);
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, second);
     }
 
     #[test]

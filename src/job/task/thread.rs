@@ -33,7 +33,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
 
     /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it is given; where
     /// `ahead` is given, it waits while so many of its messages have not been taken.
-    pub(crate) fn start(
+    pub fn start(
         name: &str,
         ahead: Option<usize>,
         wake: impl Wake,

@@ -361,7 +361,7 @@ mod tests {
     use crate::rotor::ring::section::{MATERIALS, Material, Part, Support};
 
     fn rubbery(name: &'static str, youngs_modulus: f64, poisson_ratio: f64) -> Material {
-        Material { name, youngs_modulus, poisson_ratio, density: 1000.0 }
+        Material { name, youngs_modulus, poisson_ratio, density: 1000.0, yield_stress: 1e6 }
     }
 
     /// Out-of-plane bending of a thin ring of square section under q cos mθ, which twists it as well: with bending

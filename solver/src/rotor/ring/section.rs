@@ -17,17 +17,19 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Density ρ \[kg/m³\], positive.
     pub density: f64,
+    /// Yield stress in tension \[Pa\].
+    pub yield_stress: f64,
 }
 
 /// Typical values at 20 °C. Sources, in this order: 6061-T6, typical properties of the Aluminum Association (as in
-/// ASM Handbook 2); structural steel, EN 1993-1-1, 3.2.6, and EN 1991-1-1, table A.4; free-cutting brass C36000,
-/// Copper Development Association; PEEK 450G without filler, data sheet of Victrex (E by ISO 527, ρ by ISO 1183) and
+/// ASM Handbook 2); structural steel S235, EN 1993-1-1, 3.2.6, EN 1991-1-1, table A.4, and EN 10025-2; free-cutting brass C36000,
+/// half-hard, Copper Development Association; PEEK 450G without filler, data sheet of Victrex (E and yield by ISO 527, ρ by ISO 1183) and
 /// its properties guide (ν).
 pub const MATERIALS: &[Material] = &[
-    Material { name: "aluminium", youngs_modulus: 68.9e9, poisson_ratio: 0.33, density: 2700.0 },
-    Material { name: "steel", youngs_modulus: 210e9, poisson_ratio: 0.30, density: 7850.0 },
-    Material { name: "brass", youngs_modulus: 97e9, poisson_ratio: 0.31, density: 8490.0 },
-    Material { name: "peek", youngs_modulus: 4.0e9, poisson_ratio: 0.40, density: 1300.0 },
+    Material { name: "aluminium", youngs_modulus: 68.9e9, poisson_ratio: 0.33, density: 2700.0, yield_stress: 276e6 },
+    Material { name: "steel", youngs_modulus: 210e9, poisson_ratio: 0.30, density: 7850.0, yield_stress: 235e6 },
+    Material { name: "brass", youngs_modulus: 97e9, poisson_ratio: 0.31, density: 8490.0, yield_stress: 310e6 },
+    Material { name: "peek", youngs_modulus: 4.0e9, poisson_ratio: 0.40, density: 1300.0, yield_stress: 98e6 },
 ];
 
 /// In bytes a material is its name.

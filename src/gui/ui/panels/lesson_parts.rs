@@ -1,6 +1,7 @@
 //! What a step of a lesson asks, has one do, and explains, in tinted boxes.
 
 use crate::gui::command::LessonCommand;
+use crate::gui::state::lessons::NUMBER;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
@@ -111,6 +112,8 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                     let field =
                         egui::DragValue::new(&mut number).speed(0.01).max_decimals(6).update_while_editing(false);
                     let field = field.custom_parser(|text| quantity_text::number(unit, text));
+                    // Before it is drawn, so that all of it is selected.
+                    cx.lead_to(ui, NUMBER, ui.next_auto_id());
                     let field = ui.add_enabled(!work.committed, field);
                     let predict = LessonCommand::Predict(Prediction::Number(number));
                     cx.on_change(&field.labelled_by(name.id), predict);

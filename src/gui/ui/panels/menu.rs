@@ -129,7 +129,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 ui.weak("Nothing opened yet");
             }
             for path in &cx.state.recent {
-                item(ui, &path.display().to_string(), true, Command::Proceed(Next::File(path.clone())), cx);
+                item(ui, &path.display().to_string(), true, Command::Chosen(Purpose::Open, path.clone()), cx);
             }
         });
     }

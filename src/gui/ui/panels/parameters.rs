@@ -77,7 +77,8 @@ impl Panel<'_> {
             self.row(ui, parameter);
         }
         ui.add_space(4.0);
-        let scene = self.scene;
+        let (scene, opened) = (self.scene, self.cx.state.document.saved());
+        let changed = if scene.about == opened.about { scene.changed(opened).count() } else { 0 };
         let main = MAIN.iter().filter_map(|key| Parameter::find(key));
         let main: Vec<_> = main
             .filter(|p| is_main(scene, p) && (scene.get(p.key).is_some() || scene.following(p.key).is_some()))
@@ -86,7 +87,16 @@ impl Panel<'_> {
         let line = ui.visuals().widgets.noninteractive.bg_stroke;
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
-            ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false));
+            ui.horizontal(|ui| {
+                ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false));
+                // Beside it, so that nothing moves under a slider that is dragged.
+                let changed = match changed {
+                    0 => return,
+                    1 => "1 value changed since it was described".to_owned(),
+                    _ => format!("{changed} values changed since it was described"),
+                };
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| quiet(ui, self.cx, &changed));
+            });
             ui.add_space(2.0);
             for parameter in main {
                 self.row(ui, parameter);
@@ -171,7 +181,9 @@ impl Panel<'_> {
             if highlights.reveal {
                 ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
             }
-            if let (true, Some(value)) = (highlights.enter == Some(parameter.key), self.scene.get(parameter.key)) {
+            let typed = !matches!(parameter.kind, ParameterKind::Choice { .. });
+            let enters = typed && highlights.enter.as_deref() == Some(parameter.key);
+            if let Some(value) = self.scene.get(parameter.key).filter(|_| enters) {
                 field::enter(ui, parameter.key, &value);
             }
         }
@@ -330,7 +342,8 @@ impl Panel<'_> {
     fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
         let named = self.label_row(ui, parameter);
         let width = ui.available_width();
-        choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
+        let list = choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
+        self.cx.lead_to(ui, parameter.key, list.id);
     }
 
     fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {

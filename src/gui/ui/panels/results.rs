@@ -213,11 +213,14 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     } else {
         number(ui, cx, "Rounds", &stats.cycles.to_string(), "");
     }
-    number(ui, cx, "Film steps", &format!("{}{}", stats.film_steps, if run.warm { ", warm start" } else { "" }), "");
+    number(ui, cx, "Film steps", &stats.film_steps.to_string(), "");
     number(ui, cx, "Film nodes, finest grid", &stats.film_nodes.to_string(), "");
     number(ui, cx, "Steps in a cycle", &stats.steps_per_cycle.to_string(), "");
     let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };
     number(ui, cx, "Time", &significant(time, 3), unit);
+    if stats.warm_start {
+        cx.note(ui, "Warm start, from the fields of the scene before: counts and time depend on it");
+    }
     if !run.history.is_empty() {
         ui.add_space(6.0);
         cx.note(ui, "Change in each round, one line for each grid; dashed, where it may stop");

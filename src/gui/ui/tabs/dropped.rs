@@ -25,6 +25,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         None => {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
             cx.mark(ui, "start", button.rect);
+            cx.lead_to(ui, "start", button.id);
             cx.on_click(&button, StartupCommand::Start);
         }
     });

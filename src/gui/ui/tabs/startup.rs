@@ -54,6 +54,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
                 let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
                 cx.mark(ui, "start", button.rect);
+                cx.lead_to(ui, "start", button.id);
                 cx.on_click(&button, StartupCommand::Start);
             }
         }

@@ -7,7 +7,6 @@ use crate::digits::{self, capitalised, short};
 use crate::export::figure::{Dash, Line, Mark, Style};
 use crate::export::tradeoff::{panel, words};
 use crate::gui::command::Command;
-use crate::gui::derived::format::trimmed;
 use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
 use crate::gui::ui::chart::{Chart, legend, title};
@@ -23,8 +22,6 @@ use egui_plot::HoverPosition;
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
 const LEAST_LINES: f32 = 12.0;
-/// Between a number and its unit, which stay on one line.
-const NO_BREAK: char = '\u{a0}';
 /// What can be asked for: per cent, and ms.
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
@@ -219,33 +216,15 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     });
 }
 
-/// A time in the unit that suits it, three digits.
+/// A number and its unit on one line.
+fn joined(text: &str) -> String {
+    text.replace(' ', "\u{a0}")
+}
+
 fn duration(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s < 0.9995e-3 => (1e6 * s, "µs"),
-        s if s < 0.9995 => (1e3 * s, "ms"),
-        s if s < 99.5 => (s, "s"),
-        s => (s / 60.0, "min"),
-    };
-    format!("{}{NO_BREAK}{unit}", short(value, 3))
+    joined(&digits::duration(seconds))
 }
 
-/// A share in per cent, two digits, written out however small.
 fn percent(share: f64) -> String {
-    format!("{}{NO_BREAK}%", trimmed(digits::percent(share).trim_end_matches(" %")))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_the_unit_that_suits_them() {
-        for (seconds, text) in [(1e-4, "100 µs"), (1e-3, "1 ms"), (0.0161, "16.1 ms"), (1.0, "1 s"), (150.0, "2.5 min")]
-        {
-            assert_eq!(duration(seconds), text.replace(' ', "\u{a0}"));
-        }
-        let percents = [percent(0.01), percent(0.0213), percent(1e-6)];
-        assert_eq!(percents, ["1\u{a0}%", "2.1\u{a0}%", "0.0001\u{a0}%"]);
-    }
+    joined(&digits::percent(share))
 }

@@ -1,5 +1,6 @@
 //! A start-up's numbers against the number of the cycle, with the periodic solve's that they converge to.
 
+use crate::analysis::quantity::{Numbers, Quantity};
 use crate::estimate::Estimate;
 use crate::export::startup::Row;
 use crate::gui::command::StartupCommand;
@@ -18,54 +19,54 @@ const FEWEST: usize = 8;
 /// Error bands are drawn up to this many times the range of the values: the first ones may be known badly.
 const WIDEST_BAND: f64 = 0.5;
 
-/// What a plot shows of a cycle: the value, and its error if one is known.
-struct Quantity {
+/// What a plot shows of a cycle: a number, times a factor.
+struct Curve {
     /// Long to short.
     titles: [&'static str; 3],
     /// What the glossary explains it under.
     word: &'static str,
-    of: fn(&Row) -> Estimate,
+    of: (Quantity, f64),
 }
 
-const ALPHA: Quantity = Quantity {
+const ALPHA: Curve = Curve {
     titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
     word: "α",
-    of: Row::main,
+    of: (Quantity::Alpha, 1.0),
 };
-const RATIO: Quantity = Quantity {
+const RATIO: Curve = Curve {
     titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle", "Load ratio"],
     word: "Load ratio",
-    ..ALPHA
+    of: (Quantity::LoadRatio, 1.0),
 };
-const THICKNESS: Quantity = Quantity {
+const THICKNESS: Curve = Curve {
     titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
     word: "Least film thickness",
-    of: |row| row.thickness() * 1e-3,
+    of: (Quantity::MinGap, 1e-3),
 };
-const PRESSURE: Quantity = Quantity {
+const PRESSURE: Curve = Curve {
     titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
     word: "Highest pressure",
-    of: Row::pressure,
+    of: (Quantity::MaxPressure, 1.0),
 };
-const OF_MOTOR: &[(Quantity, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
+const OF_MOTOR: &[(Curve, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
 /// Without room for three: what is left out is in the words above.
-const OF_MOTOR_NARROW: &[(Quantity, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
+const OF_MOTOR_NARROW: &[(Curve, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
 const NARROW: f32 = 36.0;
 /// The gap of a plate is given.
-const OF_PLATE: &[(Quantity, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
+const OF_PLATE: &[(Curve, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 
 /// Draws the start-up's numbers into the next `height` of `ui`; a click looks at the cycle there. `periodic`: the periodic
 /// solve of the same scene.
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let quantities = match startup.problem.scenario {
+    let curves = match startup.problem.scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
         Scenario::Plate(_) => OF_PLATE,
     };
     let mut left = area.left();
-    for (quantity, share) in quantities {
+    for (curve, share) in curves {
         let right = left + share * area.width();
         let rect = Rect::from_min_max(
             pos2(left + style.gutter, area.top() + style.title),
@@ -73,7 +74,7 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
         );
         left = right;
         if rect.width() > 20.0 && rect.height() > 10.0 {
-            plot(ui, &style, rect, quantity, startup, periodic, cx);
+            plot(ui, &style, rect, curve, startup, periodic, cx);
         }
     }
     style.explain(ui);
@@ -84,25 +85,26 @@ fn plot(
     ui: &mut Ui,
     style: &PlotStyle,
     rect: Rect,
-    quantity: &Quantity,
+    curve: &Curve,
     startup: &StartupState,
     periodic: Option<&SolvedScene>,
     cx: &DrawContext<'_>,
 ) {
     let points = &startup.points;
-    let aim = periodic.map(|run| (quantity.of)(&Row::of_outcome(&startup.problem, &run.solution.outcome)));
-    let found: Vec<Estimate> = points.iter().map(quantity.of).collect();
+    let of = |numbers: &Numbers| numbers.known(curve.of.0) * curve.of.1;
+    let aim = periodic.map(|run| of(&Numbers::of_outcome(&startup.problem, &run.solution.outcome)));
+    let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
     let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
     let margin = 0.12 * (high - low);
     let (film, good) = (style.palette.film, style.palette.good);
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", good)];
     let legend = if aim.is_some() { &both[..] } else { &[] };
-    style.title(rect, quantity.word, &quantity.titles, legend);
+    style.title(rect, curve.word, &curve.titles, legend);
 
     let cap = WIDEST_BAND * (high - low);
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };
-    let name = format!("{}: click to look at a cycle", quantity.titles[0]);
+    let name = format!("{}: click to look at a cycle", curve.titles[0]);
     let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], [low - margin, high + margin]];
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let present = startup.chosen as f64;
@@ -112,15 +114,15 @@ fn plot(
             plot.span(band.fill(good.gamma_multiply(0.25)));
             plot.hline(level(aim, good, 1.5));
         }
-        let curve: Vec<[f64; 2]> = points.iter().zip(&found).map(|(row, of)| [row.cycle as f64, of.value]).collect();
+        let means: Vec<[f64; 2]> = points.iter().zip(&found).map(|(row, of)| [row.cycle as f64, of.value]).collect();
         let band = |([x, y], of): (&[f64; 2], &Estimate)| [*x, y + reach(of.error), y - reach(of.error)];
-        let bands: Vec<_> = curve.iter().zip(&found).map(band).collect();
+        let bands: Vec<_> = means.iter().zip(&found).map(band).collect();
         plot.add(between(&bands, film.gamma_multiply(0.25)));
-        plot.line(line(&curve, film, 1.6, LineStyle::Solid));
+        plot.line(line(&means, film, 1.6, LineStyle::Solid));
         // A dot where the cycle can be looked at.
-        let kept = startup.kept().filter_map(|kept| curve.get(kept.wrapping_sub(1)).copied());
+        let kept = startup.kept().filter_map(|kept| means.get(kept.wrapping_sub(1)).copied());
         plot.points(dots("", kept.collect(), film, 2.0));
-        if let Some(at) = curve.get(startup.chosen.wrapping_sub(1)) {
+        if let Some(at) = means.get(startup.chosen.wrapping_sub(1)) {
             plot.vline(upright(present, style.palette.accent, 1.0));
             plot.points(dots("", vec![*at], style.palette.accent, 4.5));
             plot.points(dots("", vec![*at], film, 3.0));
@@ -140,11 +142,11 @@ fn plot(
 
 /// A cycle's numbers in words.
 pub fn words(row: &Row) -> String {
-    let Estimate { value, error } = row.main();
-    let (name, thickness) = match row.alpha {
-        Some(_) => ("α", format!(", least film thickness {} µm", row.thickness() * 1e-3)),
+    let Estimate { value, error } = row.numbers.main();
+    let (name, thickness) = match row.numbers.get(Quantity::Alpha) {
+        Some(_) => ("α", format!(", least film thickness {} µm", row.numbers.known(Quantity::MinGap) * 1e-3)),
         None => ("load ratio", String::new()),
     };
-    let (cycle, pressure) = (row.cycle, row.pressure());
+    let (cycle, pressure) = (row.cycle, row.numbers.text(Quantity::MaxPressure));
     format!("cycle {cycle}: {name} {value:.4} ± {error:.1e}{thickness}, highest pressure {pressure} kPa absolute")
 }

@@ -104,11 +104,6 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
     });
 }
 
-/// Where a value of an axis is: equal ratios are equal steps of the logarithm.
-fn place(axis: &Axis, value: f64) -> f64 {
-    if axis.scale == Scale::Log { value.log10() } else { value }
-}
-
 /// What is varied, explained where it is named.
 fn about(axis: &Axis) -> String {
     format!("{}\n{}", axis.parameter.about, axis.parameter.key)
@@ -126,7 +121,7 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
         panel = panel.layer(Mark { style, ..Mark::vertical(values[0], "present") });
     }
     if axis.words.is_empty() {
-        let [from, to] = span(axis.values.iter().map(|value| place(axis, *value)));
+        let [from, to] = span(axis.values.iter().map(|value| axis.scale.place(*value)));
         let side = 0.02 * (to - from);
         let value = |place: f64| if axis.scale == Scale::Log { 10f64.powf(place) } else { place };
         panel.x = panel.x.fixed(value(from - side), value(to + side));
@@ -148,7 +143,7 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
     let pointed = shown.response.hover_pos().and_then(|pointer| {
         let shown_at = |row: &Row| {
             let value = row.numbers.get(quantity).unwrap_or(bottom);
-            transform.position_from_point(&PlotPoint::new(place(axis, row.values[0]), value))
+            transform.position_from_point(&PlotPoint::new(axis.scale.place(row.values[0]), value))
         };
         let far = |row: &&Row| (shown_at(row).x - pointer.x).abs();
         let row = swept.rows.iter().min_by(|a, b| far(a).total_cmp(&far(b))).filter(|row| far(row) < NEAR)?;
@@ -193,7 +188,7 @@ fn chart<'p>(
 
 /// Ascending places, and the edges of the cells round them.
 fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
-    let mut places: Vec<f64> = axis.values.iter().map(|value| place(axis, *value)).collect();
+    let mut places: Vec<f64> = axis.values.iter().map(|value| axis.scale.place(*value)).collect();
     places.sort_by(f64::total_cmp);
     let mut edges: Vec<f64> = places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
     if let ([first, second, ..], [.., before, last]) = (&places[..], &places[..]) {
@@ -276,19 +271,19 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
     let at = |[x, y]: [f64; 2]| transform.position_from_point(&PlotPoint::new(x, y));
     // On any colour.
     for point in &swept.published {
-        let at = at([place(x, point.values[0]), place(y, point.values[1])]);
+        let at = at([x.scale.place(point.values[0]), y.scale.place(point.values[1])]);
         for (size, width, colour) in [(9.0, 1.8, Color32::BLACK), (12.0, 1.0, Color32::WHITE)] {
             let square = Rect::from_center_size(at, vec2(size, size));
             painter.rect_stroke(square, 0.0, Stroke::new(width, colour), StrokeKind::Middle);
         }
     }
-    for at in here.into_iter().map(|[px, py]| at([place(x, px), place(y, py)])) {
+    for at in here.into_iter().map(|[px, py]| at([x.scale.place(px), y.scale.place(py)])) {
         painter.circle_stroke(at, RING, Stroke::new(3.5, Color32::BLACK));
         painter.circle_stroke(at, RING, Stroke::new(1.8, Color32::WHITE));
     }
     let area_of = |row: &Row| {
         let cell = |edges: &[f64], at: f64| edges.partition_point(|edge| *edge < at).clamp(1, edges.len() - 1) - 1;
-        let [i, j] = [(0, x), (1, y)].map(|(k, axis)| cell(&drawn.edges[k], place(axis, row.values[k])));
+        let [i, j] = [(0, x), (1, y)].map(|(k, axis)| cell(&drawn.edges[k], axis.scale.place(row.values[k])));
         let [low, high] = drawn.cell(i, j).map(at);
         Rect::from_two_pos(low, high)
     };
