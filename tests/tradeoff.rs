@@ -148,3 +148,19 @@ fn a_wish_that_is_none_has_status_2_and_one_that_nothing_fulfils_1() {
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stdout).contains("none of these"));
 }
+
+#[cfg(feature = "gui")]
+#[test]
+fn the_present_setting_of_the_window_is_always_measured() {
+    use squeezefilm::fidelity::Fidelity;
+    use squeezefilm::gui::state::tradeoff::{is_present, with_present};
+    use squeezefilm::problem::Numerics;
+    let problem = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap();
+    let mut all = candidates(&problem);
+    let count = all.len();
+    with_present(&mut all, Fidelity::Fine, Numerics::default());
+    assert_eq!(all.len(), count, "a fidelity is there already");
+    let own = Numerics { steps_per_cycle: Some(48), ..Numerics::default() };
+    with_present(&mut all, Fidelity::Draft, own);
+    assert!(all.len() == count + 1 && is_present(&all[count], Fidelity::Draft, own));
+}

@@ -13,7 +13,7 @@ macro_rules! numbers {
     ($(#[$about:meta])* $Enum:ident, $(#[$all:meta])* $Known:ident: $More:ty;
      $($variant:ident $name:literal $words:literal $unit:literal $belongs:ident $($more:expr)?;)*) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $Enum {
             $(#[doc = $words] $variant,)*
         }

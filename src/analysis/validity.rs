@@ -1,23 +1,6 @@
 //! Where the model is out of its depth: what it leaves out, as a number beside the limit up to which that is right.
 //!
-//! With h the gap in which the gas moves: the mean gap of a plate; of a motor, the least film thickness and the amplitude, which
-//! is the mean gap under a rotor that rides on the crests. And with s the shorter side of plate or tooth top, over which the gas leaves:
-//!
-//! | name | number | limit | because |
-//! | --- | --- | --- | --- |
-//! | `gas-inertia` | Re = ωρh²/(12μ) | 0.1, or 0.015 σ if less | the flow lags the pressure by 1.2 Re; inertia adds 6.9 Re/σ to the mean load |
-//! | `isothermal` | h/√(2κ/ω) | 1 | there the compressibility of the gas is off by 5 % |
-//! | `slip-law` | Kn = λ_a/h, h the least gap | 0.01, 0.1, 0.6, 88.6 | within 10 % of the Boltzmann equation's flow; end of the fit |
-//! | `sound` | s over the wavelength of sound | 1; ½ if Re is above its limit | the edges are at ambient pressure; waves stand in the film |
-//! | `sound` | sliding speed over that of sound | 1 | shear heats the gas by 4 % |
-//! | `rotor-resonance` | harmonic's frequency over the lowest natural one of its shape | 0.3 | a rotor with mass yields a tenth more |
-//! | `dense-gas` | highest pressure of the gas | 5 MPa | air is 5 % more viscous than at ambient pressure |
-//! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields; of a ring, what its face is made of |
-//! | `roughness` | rms roughness over the separation of the mean planes, closed | 2 | Patir and Cheng's factors end there |
-//! | `thinness` | h/s | 0.025 | the gas beyond the edges adds 3 % to s, 10 % to the damping |
-//! | `amplitude` | amplitude/mean gap of a plate | 0.9 | 1 % of the gap is 7 % of the load |
-//!
-//! Derivations and sources are in `docs/theory.md`, section 9. `rotor-resonance` is judged of a ring that has been
+//! Numbers, limits, derivations and sources are listed in `docs/theory.md`, section 9. `rotor-resonance` is judged of a ring that has been
 //! solved: a beam or a table has no mass.
 //!
 //! Density, heat and sound are those of the gas that the scene names. **One that is given by viscosity and mean free path is taken to

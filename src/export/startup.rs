@@ -15,25 +15,18 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// The numbers of a cycle, in their order in files: means and extremes over it.
-const NUMBERS: [Quantity; 17] = [
-    Quantity::Alpha,
-    Quantity::AlphaError,
-    Quantity::LoadRatio,
-    Quantity::LoadRatioError,
-    Quantity::FilmLoad,
-    Quantity::FilmLoadError,
-    Quantity::FilmLoadMin,
-    Quantity::FilmLoadMinError,
-    Quantity::FilmLoadMax,
-    Quantity::FilmLoadMaxError,
-    Quantity::ContactLoad,
-    Quantity::TeethInContact,
-    Quantity::TeethInContactError,
-    Quantity::MinGap,
-    Quantity::MinGapError,
-    Quantity::MaxPressure,
-    Quantity::MaxPressureError,
-];
+fn numbers() -> impl Iterator<Item = Quantity> {
+    use Quantity::{
+        Alpha, ContactLoad, LoadRatio, LoadRatioError, MaxPressureError, MinGap, TeethInContact, TeethInContactError,
+    };
+    let ranges = [
+        Alpha..=ContactLoad,
+        TeethInContact..=TeethInContactError,
+        LoadRatio..=LoadRatioError,
+        MinGap..=MaxPressureError,
+    ];
+    Quantity::all().filter(move |number| ranges.iter().any(|range| range.contains(number)))
+}
 
 /// One cycle. Its errors are those that the grids show.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +49,7 @@ impl Serialize for Row {
         let mut row = to.serialize_map(None)?;
         row.serialize_entry("cycle", &self.cycle)?;
         row.serialize_entry("time_us", &self.time_us)?;
-        for number in NUMBERS {
+        for number in numbers() {
             row.serialize_entry(number.name().trim_start_matches("mean_"), &self.numbers.get(number))?;
         }
         row.serialize_entry("change", &self.change)?;

@@ -72,22 +72,3 @@ pub fn with_present(candidates: &mut Vec<Candidate>, target: Fidelity, numerics:
         candidates.push(Candidate::new(PRESENT.to_owned(), Family::Grid, settings, numerics, &numerics));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::tradeoff::candidates;
-    use crate::problem::Problem;
-
-    #[test]
-    fn the_present_setting_is_always_measured() {
-        let problem = Problem::try_from(&Scene::motor()).unwrap();
-        let mut all = candidates(&problem);
-        let count = all.len();
-        with_present(&mut all, Fidelity::Fine, Numerics::default());
-        assert_eq!(all.len(), count, "a fidelity is there already");
-        let own = Numerics { steps_per_cycle: Some(48), ..Numerics::default() };
-        with_present(&mut all, Fidelity::Draft, own);
-        assert!(all.len() == count + 1 && is_present(&all[count], Fidelity::Draft, own));
-    }
-}

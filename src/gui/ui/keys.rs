@@ -109,7 +109,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         &[
             Idle.on(NONE, Key::PageDown, "Next step", || Command::Lesson(LessonCommand::Next)),
             Idle.on(NONE, Key::PageUp, "Previous step", || Command::Lesson(LessonCommand::Back)),
-            Idle.on(NONE, Key::Enter, "Confirm the answer, go to the marked parameter, or go on", || GO_ON),
+            Idle.on(NONE, Key::Enter, "Confirm the answer, go to what is marked, or go on", || GO_ON),
             Idle.on(NONE, Key::Num1, "First answer", || choose(0)),
             Idle.on(NONE, Key::Num2, "Second answer", || choose(1)),
             Idle.on(NONE, Key::Num3, "Third answer", || choose(2)),
