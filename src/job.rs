@@ -12,6 +12,7 @@ pub mod fit;
 pub mod hold;
 #[cfg(target_arch = "wasm32")]
 mod line;
+pub mod new_motor;
 #[cfg(target_arch = "wasm32")]
 mod page;
 pub mod pin;

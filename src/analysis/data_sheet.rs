@@ -74,7 +74,8 @@ mod tests {
     fn a_motor_has_the_torque_and_the_speed_of_its_data_sheet() {
         let sheet = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "160")];
         let asked = [("stall-torque-nm", "1"), ("no-load-speed-rpm", "150")];
-        let answers: Answers = sheet.iter().chain(&asked).map(|(name, value)| (*name, (*value).to_owned())).collect();
+        let answers: Answers =
+            sheet.iter().chain(&asked).map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
         let of = |motor: &NewMotor| {
             let numbers = solved(&motor.scene, &Cancel::new()).unwrap();
             [Quantity::StallTorque, Quantity::NoLoadSpeed].map(|quantity| numbers.get(quantity).unwrap())
@@ -85,7 +86,7 @@ mod tests {
         let [torque, speed] = of(&motor);
         assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
         // Pressed on so lightly that it floats, a motor has no torque.
-        let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n", "20".to_owned())]));
+        let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n".to_owned(), "20".to_owned())]));
         let same_but_told = |answers: &Answers, told: &str| {
             let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
             assert_eq!(found.scene, least.scene);
@@ -94,13 +95,15 @@ mod tests {
         };
         same_but_told(&light, "is not driven");
         // One that would need more friction than there is keeps the least.
-        let strong: Answers = [("stall-torque-nm", "8.5")].map(|(name, value)| (name, value.to_owned())).into();
+        let strong: Answers =
+            [("stall-torque-nm", "8.5")].map(|(name, value)| (name.to_owned(), value.to_owned())).into();
         let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();
         same_but_told(&strong, "rpm");
         // Pressed on so heavily that all teeth touch, torque and speed depend on both.
         let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];
         let asked = [("stall-torque-nm", "0.9401"), ("no-load-speed-rpm", "49.29")];
-        let heavy: Answers = heavy.iter().chain(&asked).map(|(name, value)| (*name, (*value).to_owned())).collect();
+        let heavy: Answers =
+            heavy.iter().chain(&asked).map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
         let [torque, speed] = of(&agreeing(&heavy, &Cancel::new()).unwrap());
         assert!((torque / 0.9401 - 1.0).abs() < CLOSE && (speed / 49.29 - 1.0).abs() < CLOSE, "{torque} {speed}");
     }

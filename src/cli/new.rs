@@ -63,7 +63,8 @@ impl Args for Given {
 
 impl FromArgMatches for Given {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let answer = |question: &Question| Some((question.name, matches.get_one::<String>(question.name)?.clone()));
+        let answer =
+            |question: &Question| Some((question.name.to_owned(), matches.get_one::<String>(question.name)?.clone()));
         Ok(Self(QUESTIONS.iter().filter_map(answer).collect()))
     }
 
@@ -131,7 +132,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                     terminal::note(&wrong);
                     continue;
                 }
-                Ok(()) => drop(answers.insert(question.name, answer)),
+                Ok(()) => drop(answers.insert(question.name.to_owned(), answer)),
             }
             break;
         }

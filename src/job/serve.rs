@@ -5,6 +5,7 @@ use super::export::Files;
 use super::face::FaceWork;
 use super::fit::FitWork;
 use super::line::{end, message};
+use super::new_motor::NewMotorWork;
 use super::page::Step;
 use super::pin::PinWork;
 use super::rotor::RotorWork;
@@ -47,6 +48,7 @@ const WORKS: &[(&str, Serve)] = &[
     (Draws::NAME, run::<Draws>),
     (Files::NAME, run::<Files>),
     (FaceWork::NAME, run::<FaceWork>),
+    (NewMotorWork::NAME, run::<NewMotorWork>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

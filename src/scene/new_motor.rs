@@ -179,7 +179,7 @@ impl Factors {
 }
 
 /// The answers so far, by the name of the question; a missing or blank one counts as not answered.
-pub type Answers = BTreeMap<&'static str, String>;
+pub type Answers = BTreeMap<String, String>;
 
 /// The answer to the question `name`, without the spaces around it.
 fn answer<'a>(answers: &'a Answers, name: &str) -> Option<&'a str> {
@@ -372,8 +372,8 @@ mod tests {
     use super::*;
     use crate::problem::{Problem, Scenario};
 
-    fn answers(pairs: &[(&'static str, &str)]) -> Answers {
-        pairs.iter().map(|(name, answer)| (*name, (*answer).to_owned())).collect()
+    fn answers(pairs: &[(&str, &str)]) -> Answers {
+        pairs.iter().map(|(name, answer)| ((*name).to_owned(), (*answer).to_owned())).collect()
     }
 
     const NEEDED: [(&str, &str); 3] = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "150")];

@@ -1,6 +1,7 @@
 //! The state of the whole window.
 
 use super::activity::Activity;
+use super::background::Background;
 use super::dialogs::{Export, PICTURE, Purpose};
 use super::document::{Document, absolute, solved_alike};
 use super::dropped::Dropped;
@@ -24,6 +25,7 @@ use crate::job::SolvedScene;
 use crate::platform::HAS_FILES;
 use crate::problem::Problem;
 use crate::recording::Recording;
+use crate::scene::Scene;
 use crate::scene::new_motor::Answers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -80,6 +82,8 @@ pub struct State {
     pub failed_path: Option<(Purpose, String)>,
     /// The answers that a new motor was last made of.
     pub new_motor: Answers,
+    /// What makes a motor of them.
+    pub making: Background<(), Scene>,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
@@ -114,6 +118,11 @@ impl State {
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(RECENT);
+    }
+
+    /// A motor that was made of answers since the last time, or why it was not.
+    pub fn made(&mut self) -> Option<Result<Scene, String>> {
+        self.making.news().end?.transpose()
     }
 
     /// The plate in the hand, while it is what moves in the middle.

@@ -1,23 +1,19 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
 use super::updater::{LECTURE_ZOOM, Updater};
-use crate::analysis::data_sheet::agreeing;
 use crate::analysis::tradeoff::Target;
 use crate::citation;
-use crate::control::Cancel;
 use crate::gui::command::Command;
+use crate::gui::state::background::Background;
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
-use crate::platform::timed;
+use crate::job::new_motor::NewMotorWork;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// How long each of the few solves of a new motor may take: the window waits for them. Usual are some milliseconds.
-const NEW_MOTOR: Duration = Duration::from_millis(100);
 
 impl Updater {
     /// Changes the state as `command` says.
@@ -36,16 +32,13 @@ impl Updater {
             Command::Proceed(next) => self.proceed(next),
             Command::NewMotor => state.modal = Some(Modal::NewMotor(state.new_motor.clone())),
             Command::MakeNewMotor(answers) => {
-                let made = agreeing(&answers, &timed(&Cancel::new(), NEW_MOTOR));
-                state.new_motor = answers;
-                match made {
-                    Ok(motor) => self.proceed(Next::Given(Box::new(Document::made(motor.scene)))),
-                    Err(wrong) => state.fail(wrong),
-                }
+                state.new_motor = answers.clone();
+                let task = self.start_work("The motor cannot be made", NewMotorWork(answers), Duration::ZERO);
+                self.state.making = task.map(Background::from).unwrap_or_default();
             }
             Command::AnswerNewMotor(question, answer) => {
                 if let Some(Modal::NewMotor(answers)) = &mut state.modal {
-                    answers.insert(question, answer);
+                    answers.insert(question.to_owned(), answer);
                 }
             }
             Command::Ask(purpose) => self.ask(purpose),
@@ -189,6 +182,11 @@ impl Updater {
         state.startup.iter_mut().for_each(|startup| startup.drain(scene));
         state.dropped.iter_mut().for_each(|dropped| dropped.drain(scene));
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
+        match self.state.made() {
+            Some(Ok(scene)) => self.proceed(Next::Given(Box::new(Document::made(scene)))),
+            Some(Err(why)) => self.state.fail(why),
+            None => {}
+        }
         self.receive_pictures();
         self.update_hold();
     }
