@@ -673,6 +673,22 @@ fn the_keyboard_alone_walks_the_first_lesson() {
 }
 
 #[test]
+fn enter_leads_to_a_list_and_to_a_button_that_are_marked() {
+    for (lesson, number, role, name) in
+        [(5, 3, Role::ComboBox, "Slip at the walls"), (4, 4, Role::Button, "Start from rest")]
+    {
+        let mut window = window("fundamental");
+        window.state_mut().updater.follow(Link::Lesson { lesson, step: number });
+        solved(&mut window);
+        let (_, step) = step(&window);
+        predict(&mut window, &step);
+        window.press(Key::Enter);
+        window.run_steps(20);
+        assert!(window.get_by_role_and_label(role, name).is_focused(), "{}", step.title);
+    }
+}
+
+#[test]
 fn the_answer_button_is_in_sight_in_lecture_size() {
     let mut window = window::preset("fundamental", 768.0, platform());
     window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 3 });
