@@ -78,7 +78,7 @@ fn status(summary: &Summary) -> String {
 }
 
 fn motor_rows(columns: &mut Columns, motor: &Motor, result: &MotorResult, summary: &Summary) {
-    let alpha = found(summary, Quantity::Alpha);
+    let alpha = summary.numbers.known(Quantity::Alpha);
     let dry = motor.friction_torque(motor.load);
     let negative = regime::sucks(alpha);
     let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
@@ -96,7 +96,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, result: &MotorResult, summar
     film_load(columns, summary);
     columns.row([
         "contact load",
-        &format!("{} N", found(summary, Quantity::ContactLoad)),
+        &format!("{} N", summary.numbers.known(Quantity::ContactLoad)),
         "mean over the cycle, the rest of the load",
     ]);
     columns.row([
@@ -106,12 +106,12 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, result: &MotorResult, summar
     ]);
     columns.row([
         "maximum operating torque",
-        &format!("{} N·m", found(summary, Quantity::MaxTorque)),
+        &format!("{} N·m", summary.numbers.known(Quantity::MaxTorque)),
         &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m without film", shown(dry)),
     ]);
     columns.row([
         "teeth in contact",
-        &format!("{} of {}", found(summary, Quantity::TeethInContact), motor.teeth),
+        &format!("{} of {}", summary.numbers.known(Quantity::TeethInContact), motor.teeth),
         "mean over the cycle",
     ]);
     columns.row(match result.levitated {
@@ -164,8 +164,8 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, result: &PlateResult, summar
         floating_rows(columns, plate, load, &floating, force_unit(&summary.problem));
     }
     film_load(columns, summary);
-    columns.row(["load ratio", &found(summary, Quantity::LoadRatio).to_string(), area]);
-    let range = Estimate::range([Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| found(summary, end)));
+    columns.row(["load ratio", &summary.numbers.known(Quantity::LoadRatio).to_string(), area]);
+    let range = Estimate::range([Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| summary.numbers.known(end)));
     columns.row(["", &range, "least and greatest in the cycle"]);
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, plate);
@@ -260,14 +260,14 @@ fn in_unit(found: Option<Estimate>, factor: f64, unit: &str) -> String {
 
 fn film_load(columns: &mut Columns, summary: &Summary) {
     let unit = force_unit(&summary.problem);
-    columns.row(["film load", &format!("{} {unit}", found(summary, Quantity::FilmLoad)), "mean over the cycle"]);
-    let range = Estimate::range([Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| found(summary, end)));
+    columns.row(["film load", &format!("{} {unit}", summary.numbers.known(Quantity::FilmLoad)), "mean over the cycle"]);
+    let range = Estimate::range([Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| summary.numbers.known(end)));
     columns.row(["", &format!("{range} {unit}"), "least and greatest in the cycle"]);
 }
 
 fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
-    columns.row(["least film thickness", &format!("{} nm", found(summary, Quantity::MinGap)), thickness]);
-    let pressure = found(summary, Quantity::MaxPressure);
+    columns.row(["least film thickness", &format!("{} nm", summary.numbers.known(Quantity::MinGap)), thickness]);
+    let pressure = summary.numbers.known(Quantity::MaxPressure);
     columns.row([
         "highest pressure",
         &format!("{pressure} kPa"),
@@ -334,7 +334,8 @@ fn cost(summary: &Summary) -> String {
             StoppedBy::Limit => "; no finer grid was tried",
         };
         // Of a smaller share α the accuracy is that of a hundredth of the load.
-        let of = if found(summary, Quantity::Alpha).value.abs() < 0.01 { " of a hundredth of the load" } else { "" };
+        let of =
+            if summary.numbers.known(Quantity::Alpha).value.abs() < 0.01 { " of a hundredth of the load" } else { "" };
         parts.push(format!("stated error {}{of} ({} asked for{why})", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
@@ -343,9 +344,4 @@ fn cost(summary: &Summary) -> String {
 
 fn shown(value: f64) -> String {
     significant(value, DIGITS)
-}
-
-/// A number of the summary with its error; what is null in the object is unknown here.
-fn found(summary: &Summary, quantity: Quantity) -> Estimate {
-    summary.numbers.estimate(quantity).unwrap_or(Estimate::exact(f64::NAN))
 }

@@ -334,8 +334,9 @@ const OPENING: f64 = 0.5;
 /// Whether every node touches at every instant on the finest grid, and the contact load in between may vanish. Such grids agree, α being 0 on
 /// all of them, and only finer ones tell what the film does where faces part.
 fn may_open(found: &Found<MotorLevel>) -> bool {
-    let least: Vec<f64> = found.levels.iter().map(MotorLevel::least_contact).collect();
-    matches!(least[..], [.., before, now] if now > 0.0 && before - now > OPENING * now)
+    let [.., before, now] = &found.levels[..] else { return false };
+    let now = now.least_contact();
+    now > 0.0 && before.least_contact() - now > OPENING * now
 }
 
 /// α with what the grids tell of its error.

@@ -379,8 +379,9 @@ impl LessonState {
         running.reveal = running.reveal.saturating_sub(1);
         // Once its group has opened.
         let enter = running.reveal == 0 && std::mem::take(&mut running.enter);
-        let marked = || self.highlights.names.first().cloned();
-        self.highlights.enter = if asks { Some(NUMBER.to_owned()) } else { marked() }.filter(|_| enter);
+        if enter {
+            self.highlights.enter = if asks { Some(NUMBER.to_owned()) } else { self.highlights.names.first().cloned() };
+        }
         if let Some(lesson) = self.lessons.get(running.lesson) {
             running.judge(lesson, document, seen);
         }

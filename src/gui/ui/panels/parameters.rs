@@ -88,15 +88,14 @@ impl Panel<'_> {
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
             let heading = ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false)).rect;
-            let changed = match changed {
-                0 => String::new(),
-                1 => "1 value changed since it was described".to_owned(),
-                _ => format!("{changed} values changed since it was described"),
-            };
-            // Beside it, so that nothing moves under a slider that is dragged.
-            let area = heading.with_max_x(ui.max_rect().right());
-            let layout = egui::Layout::right_to_left(egui::Align::Center);
-            quiet(&mut ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout)), self.cx, &changed);
+            if changed > 0 {
+                // Beside it, so that nothing moves under a slider that is dragged.
+                let area = heading.with_max_x(ui.max_rect().right());
+                let layout = egui::Layout::right_to_left(egui::Align::Center);
+                let values = if changed == 1 { "1 value".to_owned() } else { format!("{changed} values") };
+                let text = format!("{values} changed since it was described");
+                quiet(&mut ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout)), self.cx, &text);
+            }
             ui.add_space(2.0);
             for parameter in main {
                 self.row(ui, parameter);
