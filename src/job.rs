@@ -56,7 +56,7 @@ pub struct SolvedScene {
     pub number: u64,
     /// The scene that was solved.
     pub scene: Scene,
-    /// The same, checked and in SI units; a plate that floats is at the gap that was found.
+    /// The problem that it poses, checked and in SI units; a floating plate is at the gap that was found.
     pub problem: Problem,
     /// The fidelity it was solved at.
     pub fidelity: Fidelity,
@@ -70,7 +70,7 @@ pub struct SolvedScene {
     pub history: Vec<Progress>,
 }
 
-/// What the background solver sends.
+/// An event sent by the background solver.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A round of the running solve is done.
@@ -103,7 +103,7 @@ pub enum Event {
 pub struct Request {
     /// The scene, carried into the results.
     pub scene: Scene,
-    /// The same, checked.
+    /// The problem that it poses, checked.
     pub problem: Problem,
     /// Fidelities, coarse to fine.
     pub fidelities: Vec<Fidelity>,
@@ -114,7 +114,7 @@ pub struct Request {
 /// A solution, and the wall time of its solve \[s\].
 type Timed = (Solution, f64);
 
-/// In bytes: all but the problem and the limits, which follow from the scene and the solution.
+/// Serialised without the problem and the limits, which follow from the scene and the solution.
 impl Serialize for SolvedScene {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let timed = (&self.solution, self.wall_s);

@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What solves is a crate of its own, `squeezefilm-solver`, whose modules are here under the same names. Where to find what is in
+//! The solver is a crate of its own, `squeezefilm-solver`, whose modules are here under the same names. The layout of the code is described in
 //! `ARCHITECTURE.md`, the equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
 
 pub mod analysis;

@@ -1,4 +1,4 @@
-//! What all solves of this process may take of memory at the same time.
+//! The memory budget that all solves of the process share.
 //!
 //! Every solve first takes its share of the one budget ([`take`]): one that needs more than all of it is refused, one that needs more than
 //! is left waits for others to end, so that the results of a sweep do not depend on how many threads share the budget. It is a quarter of the
@@ -18,7 +18,7 @@ const UNKNOWN: u64 = 1_000_000_000;
 /// How often a solve that waits looks whether it is cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What a solve needs.
+/// Memory that a solve needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need {
     /// For what.
@@ -27,7 +27,7 @@ pub struct Need {
     pub bytes: u64,
 }
 
-/// What memory is needed for.
+/// Purpose of the memory, with the sizes that it follows from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The film.
@@ -51,9 +51,9 @@ pub enum Purpose {
 /// More memory than is allowed. The message names the keys that it follows from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Excess {
-    /// What is needed.
+    /// The memory needed.
     pub need: Need,
-    /// What is allowed \[bytes\].
+    /// Memory allowed for all solves together \[bytes\].
     pub allowed: u64,
 }
 
@@ -90,7 +90,7 @@ pub fn size(bytes: u64) -> String {
     if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
 }
 
-/// What is left of a budget.
+/// A budget, and how much of it is taken.
 #[derive(Debug)]
 struct Pool {
     /// Allowed, once it is known, and taken \[bytes\].
@@ -100,7 +100,7 @@ struct Pool {
 
 static POOL: Pool = Pool::new(None);
 
-/// What a solve has taken of the budget; given back on drop.
+/// A solve's share of the budget; given back on drop.
 #[derive(Debug)]
 pub struct Taken<'a> {
     pool: &'a Pool,

@@ -1,4 +1,4 @@
-//! What a caller holds over a running solve: cancellation and progress. No clock, no terminal.
+//! A caller's control over a running solve: cancellation and progress. No clock, no terminal.
 
 use serde::{Deserialize, Serialize};
 
@@ -97,7 +97,7 @@ pub struct Progress {
     pub iteration: usize,
     /// Change in this round, relative.
     pub residual: f64,
-    /// What the change has to fall below.
+    /// Relative change below which the iteration ends.
     pub tolerance: f64,
     /// Film load on this grid so far \[N; of a strip N/m\].
     pub film_load: f64,

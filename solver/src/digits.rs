@@ -132,7 +132,7 @@ pub fn with_error(value: f64, error: f64) -> String {
     format!("{} ± {error:.places$}", signed(format!("{value:.places$}")))
 }
 
-/// What stands for a number that is not one.
+/// Placeholder for a number that is not finite.
 const UNKNOWN: &str = "unknown";
 
 /// Decimal places at which `size`, positive, shows `digits` significant digits once it is rounded.

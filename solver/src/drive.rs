@@ -57,7 +57,7 @@ struct Frames {
     lines: Vec<Line>,
     /// Cycle mean of the contact load on one wavelength \[N\].
     load: f64,
-    /// The same of c cos 2πφ \[N\].
+    /// Likewise for c cos 2πφ \[N\].
     forward: f64,
 }
 
@@ -69,7 +69,7 @@ struct Line {
     steps: Vec<Step>,
     /// ∫ c Δx dt/T over the cycle \[N\].
     sum: f64,
-    /// The same of c cos 2πφ \[N\].
+    /// Likewise for c cos 2πφ \[N\].
     forward: f64,
 }
 
@@ -78,15 +78,15 @@ struct Line {
 struct Step {
     /// c Δx at the frame, times how many teeth it stands for \[N\].
     load: f64,
-    /// What it grows by to the next frame \[N\].
+    /// Increase of `load` to the next frame \[N\].
     rise: f64,
     /// ∫ c Δx dt/T from the first frame to this one \[N\].
     sum: f64,
-    /// The same of c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
+    /// Likewise for c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
     forward: f64,
 }
 
-/// What is read off the curves of one grid, without units. Speeds are ratios to V₀.
+/// Characteristic points of the curves of one grid, dimensionless. Speeds are ratios to V₀.
 struct Marks {
     /// s₀ at rest.
     stall: f64,
@@ -94,7 +94,7 @@ struct Marks {
     no_load: f64,
     /// Speed ratio at which v s₀ is greatest, and v s₀ there.
     output: (f64, f64),
-    /// The same of the efficiency.
+    /// Speed ratio at which the efficiency is greatest, and the efficiency there.
     efficiency: (f64, f64),
 }
 
@@ -141,7 +141,7 @@ impl Drive {
         Self { coarse, ..Self::as_solved(cycle) }
     }
 
-    /// The same without what is extrapolated from every other frame.
+    /// Without the extrapolation from every other frame.
     fn as_solved(cycle: &LineLoads) -> Self {
         Self { frames: Frames::new(cycle, 1), coarse: None }
     }
@@ -291,11 +291,11 @@ impl Step {
 pub struct Scaled<'a> {
     motor: &'a Motor,
     drive: Lossy,
-    /// What it is judged by ([`judged`]).
+    /// The same from the recording's yardsticks, by which its error is estimated ([`judged`]).
     others: Vec<Lossy>,
     /// N \[N\].
     load: Estimate,
-    /// What the differences of shapes are multiplied by.
+    /// Safety factor on the differences of shapes.
     doubt: f64,
 }
 
@@ -349,7 +349,7 @@ impl<'a> Scaled<'a> {
         self.load * self.motor.friction_torque(1.0)
     }
 
-    /// What efficiencies are shares of: the film's loss is a share of N, whose error moves them by at most its own relative size.
+    /// Unit of efficiencies, with its error: the film's loss is a share of N, whose error moves them by at most its own relative size.
     fn loss_scale(&self) -> Estimate {
         Estimate { value: 1.0, error: if self.drive.1 > 0.0 { self.load.error / self.load.value } else { 0.0 } }
     }

@@ -78,7 +78,7 @@ const NEARLY_SECOND_ORDER: f64 = 3.5;
 const TURNING: f64 = 0.4;
 /// Least share of what the mean on the middle grid gained by its new instants.
 const SAMPLING: f64 = 0.1;
-/// The same of the first grid.
+/// Likewise for the first grid.
 const FIRST_SAMPLING: f64 = 0.02;
 
 /// A cycle mean on one grid.
@@ -167,8 +167,8 @@ struct Changes {
     change: f64,
     /// By how much the extrapolated mean differs from what the two coarser grids give.
     spread: f64,
-    /// What the second mean gains by the instants that the first grid has not, and the first by every other of its own: where a plate
-    /// nearly touches, the steps of the first grid may be as long as that lasts.
+    /// Change of the second mean due to the instants that the first grid lacks, and of the first mean due to every other of its own: where a
+    /// plate nearly touches, the steps of the first grid may be as long as that lasts.
     sampling: f64,
     first_sampling: f64,
 }
@@ -183,7 +183,7 @@ impl Changes {
         if self.change == 0.0 { f64::INFINITY } else { self.earlier / self.change }
     }
 
-    /// What an approach of this ratio leaves.
+    /// Error left by the correction if the mean keeps converging at the observed ratio.
     fn slow_rest(&self) -> f64 {
         (self.change / (self.ratio().max(SLOWEST) - 1.0) - self.correction()).abs()
     }

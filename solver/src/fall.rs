@@ -56,7 +56,7 @@ pub struct Fall {
     pub cycles: usize,
     /// Mean gap at which the plate floats by the periodic solve \[m\]; `Err` with the reason in words if it does not float.
     pub floats: Result<Estimate, String>,
-    /// What the periodic solve gives; `None` if it does not float.
+    /// Result of the periodic solve; `None` if the plate does not float.
     pub outcome: Option<Outcome>,
 }
 

@@ -1,5 +1,5 @@
-//! What an accuracy means, and draft, standard, fine and reference, which are names of four: where the grids begin, and how exactly
-//! the cycle has to repeat.
+//! Accuracy levels: from which grids a solve starts, and how exactly the cycle has to repeat. Four have names: draft, standard, fine and
+//! reference.
 //!
 //! A scene is solved on three nested grids, every one with half the intervals and steps of the next; the results are extrapolated to
 //! zero spacing (the scheme is of second order in both), and how they come closer is the error estimate. Finer grids follow until that
@@ -27,7 +27,7 @@ pub enum Fidelity {
     To(u32),
 }
 
-/// What a fidelity asks of the finest grid of its plan; `ladder` may refine further.
+/// Requirements of a fidelity on the finest grid of its plan; `ladder` may refine further.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
     /// Intervals along a tooth of ordinary width.
@@ -56,7 +56,7 @@ pub struct Spec {
     pub plate_edge_fraction: f64,
     /// Relative error in α at which the level aims: terms of the model with a smaller effect are left out.
     pub target_error: f64,
-    /// What the error that a motor's grids tell is multiplied by, at the least.
+    /// Least safety factor on the error estimated from a motor's grids.
     pub least_factor: f64,
 }
 
@@ -98,7 +98,7 @@ impl Fidelity {
         if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().target_error }
     }
 
-    /// What the level means. Between the named ones, grids and tolerances are theirs, in proportion to the logarithm of the error.
+    /// Grids and tolerances of the level. Between the named levels they are interpolated in the logarithm of the error.
     pub fn spec(self) -> Spec {
         match self {
             Self::Draft => Spec {
@@ -203,7 +203,7 @@ impl Spec {
         }
     }
 
-    /// The same aim from coarse grids on, so that there soon is a result to be made better.
+    /// The same target error, but starting from coarse grids, so that there soon is a result that can be refined.
     pub fn from_coarse(&self) -> Self {
         let Self { across, tolerance, plate_tolerance, plate_edge_fraction, target_error, .. } = *self;
         let least_factor = EARLY;
@@ -219,8 +219,8 @@ impl Spec {
     }
 }
 
-/// What the error that grids tell is multiplied by if time may be up on the first of them: at a named level, an error that they tell too small
-/// is often covered by what else is part of it (calibrated: docs/validation.md).
+/// Safety factor on the error estimated from the grids if time may be up on the first of them. At a named level, other parts of the stated
+/// error often make up for an estimate that is too small (calibrated: docs/validation.md).
 const EARLY: f64 = 2.0;
 
 impl Ord for Fidelity {

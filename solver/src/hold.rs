@@ -43,7 +43,7 @@ const RAMP: f64 = 4.0;
 /// First zero of the Bessel function J₀.
 const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
 
-/// What is read off a held plate.
+/// Instantaneous state of a held plate, as shown to the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Time of the film since it was at rest \[s\].
@@ -128,7 +128,7 @@ impl Hold {
         }
     }
 
-    /// The same with steps that are so many times shorter.
+    /// Makes the steps so many times shorter.
     pub fn finer(self, times: f64) -> Self {
         Self { finer: times, ..self }
     }
@@ -294,7 +294,7 @@ impl Hold {
         self.gap
     }
 
-    /// What is read off now.
+    /// Reading of the present state.
     pub fn reading(&self) -> Reading {
         let ambient = self.plate.gas.ambient_pressure;
         let force = extrapolate(&[&self.coarse, &self.fine].map(|level| level.force(self.gap, ambient)));
@@ -319,7 +319,7 @@ impl Hold {
         self.at_nodes(|unknown| self.fine.state.trapped[unknown] / self.gap)
     }
 
-    /// The same, mean over the last [`Self::fall`].
+    /// Absolute pressure at the same nodes \[Pa\], mean over the last [`Self::fall`].
     pub fn mean_pressure(&self) -> impl Iterator<Item = f64> {
         self.at_nodes(|unknown| self.mean_ratio[unknown])
     }

@@ -28,7 +28,7 @@ pub trait State {
     /// The headline at instant 0: the present, between two cycles of a transient.
     fn now(&self) -> f64;
 
-    /// What the accuracy asked for is relative to.
+    /// Reference for the relative error that is asked for.
     fn unit(&self) -> f64;
 
     /// Time steps in a cycle.
@@ -70,16 +70,16 @@ pub trait Scene {
     fn settled(&self, plan: &Plan, found: &Found<Self::Level>) -> bool;
 }
 
-/// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
+/// Course of a solve: the grids that converged, coarse to fine, and how the last one ended.
 #[derive(Debug)]
 pub struct Found<L> {
     /// How the last grid ended.
     pub status: Status,
-    /// The states.
+    /// States on the grids that converged.
     pub levels: Vec<L>,
     /// The headline on each.
     pub headlines: Vec<Mean>,
-    /// Those grids.
+    /// The grids that converged.
     pub grids: Vec<Grid>,
     /// Whether across them a field is a polynomial.
     pub spectral: bool,
@@ -98,7 +98,7 @@ pub struct Periodic<R> {
     pub result: R,
     /// The headline on each grid, coarse to fine: α, or a plate's mean load \[N; of a strip N/m\].
     pub headlines: Vec<f64>,
-    /// What it cost, all grids.
+    /// Cost on all grids.
     pub stats: Stats,
     /// Fields of one cycle on the finest grid.
     pub recording: Recording,
@@ -139,7 +139,7 @@ impl<L: State> Found<L> {
         Plan { grids: self.grids.clone(), most_grids, most_across, ..plan }
     }
 
-    /// What all grids give, as `given` says, and what all but the finest.
+    /// The value of `given` from all grids, and from all but the finest.
     pub fn nested<T>(&mut self, given: impl Fn(&Self) -> T) -> Nested<T> {
         let fine = given(self);
         if self.levels.len() < 2 {
@@ -154,7 +154,7 @@ impl<L: State> Found<L> {
     }
 }
 
-/// What a solve by all of its grids gives, and what it would without the finest: the less these differ, the more accurate are both.
+/// A result from all grids of a solve, and the same without the finest: the less these differ, the more accurate are both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nested<T> {
     /// By all grids.
@@ -164,7 +164,7 @@ pub struct Nested<T> {
 }
 
 impl<T> Nested<T> {
-    /// The same of what `made` makes of each.
+    /// Applies `made` to each.
     pub fn map<U>(self, mut made: impl FnMut(T) -> U) -> Nested<U> {
         Nested { fine: made(self.fine), coarse: self.coarse.map(made) }
     }
@@ -258,7 +258,7 @@ pub struct TransientCycle {
     pub unsettled: Option<(f64, f64)>,
 }
 
-/// What one cycle of a transient comes to on grids coarse to fine.
+/// Result of one cycle of a transient on grids coarse to fine.
 pub struct Marched {
     /// Fields of the finest grid.
     pub recording: Recording,

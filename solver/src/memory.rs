@@ -83,7 +83,7 @@ fn accelerated(depth: u64) -> u64 {
 /// errors come from, and all of them while they are extrapolated.
 const KEPT_LINES: u64 = 10;
 const EXTRAPOLATED_LINES: u64 = 16;
-/// What does not grow with the grid, and the coarsest grid with one node less across.
+/// Numbers that do not grow with the grid, and those of the coarsest grid with one node less across.
 const FIXED: u64 = 8192;
 /// As `EXTRAPOLATED_LINES`, of a motor: its torque is integrated from the contact, and its errors from that on other grids (`drive`).
 const MOTOR_LINES: u64 = 40;

@@ -56,7 +56,7 @@ pub struct Gas {
     pub slip: Slip,
     /// Share of the molecules that the walls reflect diffusely, in the law of Fukui and Kaneko; the others are reflected specularly.
     pub accommodation: f64,
-    /// What density, heat and sound follow from.
+    /// Ideal gas from which density, heat capacity and speed of sound follow.
     pub ideal: IdealGas,
 }
 
@@ -74,8 +74,8 @@ impl Default for Gas {
     }
 }
 
-/// What the rotor's normal compliance follows from, displacement amplitude = C(k) × line-load amplitude. Solvers take what [`crate::rotor`]
-/// makes of it.
+/// Model of the rotor's normal compliance, displacement amplitude = C(k) × line-load amplitude. Solvers use the compliances that
+/// [`crate::rotor`] computes from it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorCompliance {
     /// A beam on an elastic foundation in series with a local (Winkler) compliance,
@@ -409,7 +409,7 @@ pub struct Numerics {
     pub time: Time,
 }
 
-/// What is to be solved.
+/// The scene to solve.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each scene, not one for each node")]
 pub enum Scenario {
@@ -424,7 +424,7 @@ pub enum Scenario {
 pub struct Problem {
     /// The preset's name, carried into every result.
     pub name: String,
-    /// What is to be solved.
+    /// The scene to solve.
     pub scenario: Scenario,
     /// Explicit numerics, if the preset gives any.
     pub numerics: Numerics,

@@ -1,4 +1,4 @@
-//! What a solve returns: plain data, in SI units, that the command line, the window and the exports read.
+//! The result of a solve: plain data, in SI units, that the command line, the window and the exports read.
 
 use crate::estimate::Estimate;
 use crate::film::stepper::Cost;
@@ -18,7 +18,7 @@ pub enum Status {
     NotConverged {
         /// The change of the last iteration, relative.
         residual: f64,
-        /// What it had to fall below.
+        /// Relative change below which the iteration would have ended.
         tolerance: f64,
     },
     /// The cycle repeats, but the headline's stated error is as large as the headline: these grids do not tell it.
@@ -182,8 +182,8 @@ pub struct PlateResult {
     pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: Estimate,
-    /// What grids along and in time do not show of the error of the load's first harmonic \[N; of a strip N/m\], in phase with the approach and
-    /// with its speed: nodes across, and the gap of a plate that floats.
+    /// Error of the load's first harmonic that refinement along and in time does not show \[N; of a strip N/m\], in phase with the approach and
+    /// with its speed: it is due to the nodes across, and to the gap of a plate that floats.
     pub harmonic_error: [f64; 2],
     /// How it floats; `None` if its mean gap is given.
     pub floating: Option<Floating>,
@@ -192,9 +192,9 @@ pub struct PlateResult {
 /// The result of either scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// Of a motor.
+    /// Result of a motor.
     Motor(MotorResult),
-    /// Of a plate.
+    /// Result of a plate.
     Plate(PlateResult),
 }
 
@@ -209,7 +209,7 @@ pub fn settled<'a>(problem: &'a Problem, outcome: &Outcome) -> Cow<'a, Problem> 
     }
 }
 
-/// What the solve cost, counted; no clock in here.
+/// Cost of a solve as counts of steps, iterations and nodes; no time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stats {
     /// Time steps of one tooth's film.
@@ -246,7 +246,7 @@ impl AddAssign<Cost> for Stats {
     }
 }
 
-/// What was modelled, in words for the user.
+/// The model that was solved, in words for the user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// `draft`, `standard`, … or `paper mesh`.
@@ -259,7 +259,7 @@ pub struct Model {
     pub half_width: bool,
     /// Whether the wedge term was solved.
     pub shear: bool,
-    /// What the paper's method has to say of itself, in sentences.
+    /// Remarks of the paper's method on its own result, in sentences.
     pub remarks: Vec<String>,
     /// The decisions of our own method; `analysis::decision` of the crate `squeezefilm` says them in words.
     pub decisions: Vec<Decision>,
@@ -275,13 +275,13 @@ pub struct Solution {
     /// Torque, power and efficiency of a motor with its film, without the curve; `None` of a plate, and where no cycle was
     /// reached.
     pub performance: Option<Performance>,
-    /// What it cost.
+    /// Cost of the solve.
     pub stats: Stats,
-    /// What was modelled.
+    /// The model that was solved.
     pub model: Model,
     /// How exact the headline is.
     pub accuracy: Accuracy,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Fields of one cycle.
     pub recording: Recording,

@@ -40,7 +40,7 @@ impl Method {
     }
 }
 
-/// What of the fields is kept.
+/// Which fields are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Record {
     /// All of them.
@@ -50,14 +50,14 @@ pub enum Record {
     Numbers,
 }
 
-/// What a caller chooses.
+/// Settings of a solve: accuracy, algorithm and what is recorded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Accuracy of `Method::Auto`.
     pub fidelity: Fidelity,
     /// Algorithm.
     pub method: Method,
-    /// What is kept.
+    /// Which fields are kept.
     pub record: Record,
 }
 

@@ -49,7 +49,7 @@ pub struct Settings {
     pub fidelity: Fidelity,
     /// Cycles at most.
     pub cycles: usize,
-    /// What [`Cycle::remaining`] has to fall below.
+    /// The start-up ends once [`Cycle::remaining`] is below this.
     pub tolerance: f64,
     /// Cycles that the caller keeps at a time: the estimate of memory counts them.
     pub kept: usize,
@@ -68,19 +68,19 @@ pub struct Startup {
     pub status: Status,
     /// Cycles completed.
     pub cycles: usize,
-    /// Of the last cycle; zeros if there is none.
+    /// Result of the last cycle; zeros if there is none.
     pub outcome: Outcome,
-    /// Of the last cycle.
+    /// [`Cycle::remaining`] of the last cycle.
     pub remaining: f64,
-    /// Of the cycle that is known the least exactly.
+    /// Accuracy of the cycle that is known the least exactly.
     pub accuracy: Accuracy,
     /// The headline of the periodic solve, α or a plate's mean load \[N or N/m\]: where it should end. `None` if that did not converge.
     pub steady: Option<Estimate>,
-    /// What it cost, all grids, without the periodic solve.
+    /// Cost on all grids, without the periodic solve.
     pub stats: Stats,
-    /// What was modelled.
+    /// The decisions about the parts of the model.
     pub decisions: Vec<Decision>,
-    /// What the user should know of the scene.
+    /// Warnings about the scene for the user.
     pub warnings: Vec<String>,
 }
 
@@ -193,9 +193,9 @@ struct Way<'a> {
     settings: &'a Settings,
     each: &'a mut dyn FnMut(Cycle),
     steady: Option<Estimate>,
-    /// What errors are relative to, α or N: the greatest headline of any cycle, that of the periodic state included.
+    /// Reference for relative errors, α or N: the greatest headline of any cycle, that of the periodic state included.
     unit: f64,
-    /// The same of the periodic state alone; 0 if it is not known.
+    /// Reference from the periodic state alone; 0 if it is not known.
     steady_unit: f64,
     /// Stated error of each cycle's headline, absolute, and what of it finer grids would leave.
     errors: Vec<(f64, f64)>,

@@ -55,12 +55,12 @@ pub fn attempt(
     told(|| solve(problem, settings, observer, cancel))
 }
 
-/// What `solve` returns; its error, or its panic, in words.
+/// Runs `solve`; its error, or its panic, in words.
 pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
     caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }
 
-/// What `work` returns, or the text of its panic.
+/// Runs `work`; returns its result, or the text of its panic.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<&str>().copied();

@@ -23,13 +23,13 @@ use std::sync::Arc;
 /// One scene, solved.
 #[derive(Clone, Debug)]
 pub struct ComparedRun {
-    /// What it is called here: the scene's name, made unique.
+    /// Label in the comparison: the scene's name, made unique.
     pub label: String,
     /// The scene.
     pub scene: Scene,
-    /// The same, checked and in SI units; a plate that floats is at the gap that was found.
+    /// The scene, checked and in SI units; a plate that floats is at the gap that was found.
     pub problem: Problem,
-    /// What came of it, or why nothing did.
+    /// The solution, or why there is none.
     pub solved: Result<Arc<Solution>, String>,
 }
 
@@ -93,7 +93,7 @@ pub fn runs(
     Ok(each(scenes, problems, settings, cancel, finished))
 }
 
-/// The same of scenes with their problems; one that cannot be solved by the method asked for is a run that says so, too.
+/// Solves scenes whose problems are given; one that cannot be solved by the method asked for is a run that says so, too.
 pub(super) fn each(
     scenes: &[Scene],
     problems: Vec<Problem>,
@@ -170,7 +170,7 @@ pub struct ResultRow {
 }
 
 impl ResultRow {
-    /// What it is, with its unit after a comma; where runs have it in different units, every value has its own.
+    /// Its description with its unit after a comma; where runs have it in different units, every value has its own.
     pub fn label(&self) -> String {
         labelled(self.quantity.words(), self.unit.unwrap_or(""))
     }

@@ -1,4 +1,4 @@
-//! What a plan decided, in words: what is solved of each part of the model, and why; and how exactly it is solved.
+//! The decisions of a plan in words: how each part of the model is solved, and why; and how exactly.
 
 use crate::digits::{percent, short, significant};
 use crate::plan::{Choice, Decision, Weighed};
@@ -15,7 +15,7 @@ pub fn exactness(fidelity: &str) -> String {
     }
 }
 
-/// The same of all solves of a command, as titles have it: `fidelity reference, in at most 2ms a solve`.
+/// How exactly all solves of a command are done, for titles: `fidelity reference, in at most 2ms a solve`.
 pub fn effort(settings: &Settings, budget: Option<Duration>) -> String {
     match (settings.method, budget) {
         (Method::Paper, _) => "the paper's algorithm".to_owned(),
@@ -48,7 +48,7 @@ pub fn term(decision: &Decision) -> &'static str {
     }
 }
 
-/// What was decided and why, to be read after [`term`].
+/// A decision and its reason in words, to be read after [`term`].
 pub fn words(decision: &Decision) -> String {
     let weighed = decision.weighed.map_or_else(String::new, |weighed| reason(decision.chosen, &weighed));
     match decision.chosen {

@@ -6,15 +6,15 @@ use crate::solve::SolveError;
 /// Why there is no sweep, comparison, fit, optimum or sensitivity. Found before anything is solved, but for errors of the solver and the last.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AnalysisError {
-    /// What was asked for is not allowed, or a table cannot be used: the option, key or line, its value, and what is allowed.
+    /// Invalid request, or a table that cannot be used: the option, key or line, its value, and what is allowed.
     #[error("{0}")]
     Input(String),
-    /// The same of the fields of one key that is swept.
+    /// Invalid fields of one key that is swept.
     #[error("{told}")]
     Field {
-        /// With the key, as [`Self::Input`].
+        /// Message with the key, as [`Self::Input`].
         told: String,
-        /// Without it, to be said beside the fields.
+        /// Message without the key, for display beside the fields.
         in_place: String,
     },
     /// A key or value of a scene.
@@ -38,7 +38,7 @@ impl AnalysisError {
         }
     }
 
-    /// What is wrong, said where it is: the key need not be named.
+    /// Message for display beside the fields of the key, which it need not name.
     pub fn in_place(&self) -> String {
         match self {
             Self::Field { in_place, .. } => in_place.clone(),

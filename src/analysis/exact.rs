@@ -39,14 +39,14 @@ pub struct Harmonic<T> {
 }
 
 impl Harmonic<f64> {
-    /// What a spring and a damping of 1 are in N/m and N s/m, of a strip per metre of width: p_a A/h₀, and that over ω.
+    /// Units of the spring and damping numbers \[N/m, N s/m; of a strip per metre of width\]: p_a A/h₀, and that over ω.
     pub fn unit(plate: &Plate) -> Self {
         let spring = plate.gas.ambient_pressure * plate.area() / plate.mean_gap;
         Self { spring, damping: spring / (TAU * plate.frequency) }
     }
 }
 
-/// What stiffness and damping of a plate are in; those of a strip are per metre of width.
+/// Unit names of stiffness and damping of a plate; those of a strip are per metre of width.
 pub fn units(plate: &Plate) -> [&'static str; 2] {
     if plate.is_strip() { ["N/m²", "N·s/m²"] } else { ["N/m", "N·s/m"] }
 }
@@ -60,7 +60,7 @@ pub struct ExactComparison {
     pub solved: Option<Harmonic<Estimate>>,
     /// Exact for ε → 0.
     pub linear: Harmonic<f64>,
-    /// What a spring and a damping of 1 are in N/m and N s/m, of a strip per metre of width.
+    /// Units of the spring and damping numbers \[N/m, N s/m; of a strip per metre of width\].
     pub unit: Harmonic<f64>,
     /// Cycle mean over the plate of the pressure ratio P = p/p_a, solved, with its error.
     pub mean_pressure: Estimate,
@@ -70,7 +70,7 @@ pub struct ExactComparison {
     pub invariant_deviation: Option<f64>,
     /// Load over the cycle \[N, of a strip N/m\], at the frames of the recording, for σ → ∞: gas that cannot leave within a cycle, Boyle's law.
     pub boyle: Vec<f64>,
-    /// The same for σ → 0: gas that is not compressed.
+    /// Likewise for σ → 0: gas that is not compressed.
     pub viscous: Vec<f64>,
 }
 

@@ -1,5 +1,5 @@
-//! What is done with solves: one parameter varied, error against time, where a method fails, published results beside
-//! computed ones, and what the numbers mean in words.
+//! Analyses built on solves: parameter sweeps, error against time, where a method fails, published results beside
+//! computed ones, and the meaning of the numbers in words.
 //!
 //! Plain data out. No file, no terminal; where time is what is measured, the caller hands in the clock.
 

@@ -32,7 +32,7 @@ macro_rules! numbers {
                 TABLE[self as usize].1
             }
 
-            /// What it is, in words.
+            /// Its description in words, without the unit.
             pub fn words(self) -> &'static str {
                 TABLE[self as usize].2
             }
@@ -212,7 +212,7 @@ impl Quantity {
     }
 }
 
-/// What the forces of a problem are in: those of a strip are per metre of width.
+/// Unit of the forces of a problem: those of a strip are per metre of width.
 pub fn force_unit(problem: &Problem) -> &'static str {
     match &problem.scenario {
         Scenario::Plate(plate) if plate.is_strip() => "N/m",

@@ -1,4 +1,4 @@
-//! What the dimensionless numbers of a scene say about its film, and whether the film matters, in words.
+//! The regime of a film in words, from its dimensionless numbers, and whether the film matters.
 
 use super::validity::mach;
 use crate::digits::{as_given, brief, rounded, significant};
@@ -15,8 +15,8 @@ const NOTHING: f64 = 1e-6;
 /// Least gap over the mean one of a plate below which its film is told where it is closest, too.
 const CLOSE: f64 = 0.5;
 
-/// What the film is: how far from its edges gas leaks in a cycle, beside its shorter side. Of a rotor that floats, where the film is
-/// thinnest, since it never has the minimum spacing.
+/// The regime of the film in words, spring or damper: how far from its edges gas leaks in a cycle, compared with its shorter side. For a
+/// rotor that floats, where the film is thinnest, since it never has the minimum spacing.
 pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
     if let (Scenario::Motor(motor), Outcome::Motor(result @ MotorResult { levitated: true, .. })) =
         (&problem.scenario, outcome)
@@ -43,7 +43,7 @@ fn leaks(problem: &Problem) -> String {
     }
 }
 
-/// What gas does in a cycle at the present gap, and what that makes of the film.
+/// How gas leaks in a cycle at the present gap, and whether that makes the film a spring or a damper.
 fn film(problem: &Problem) -> (String, &'static str) {
     let shorter = match &problem.scenario {
         Scenario::Motor(motor) => motor.tooth_width.min(motor.contact_width),
@@ -96,7 +96,7 @@ pub fn sucks(load: Estimate) -> bool {
     load.value + load.error.abs() < -NOTHING
 }
 
-/// What the bearing number Λ says, beside the squeeze number.
+/// Meaning of the bearing number Λ in words, compared with the squeeze number.
 pub fn bearing(numbers: &Dimensionless) -> &'static str {
     match (numbers.bearing_number, numbers.bearing_to_squeeze) {
         (0.0, _) => "nothing slides",
@@ -106,7 +106,7 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
     }
 }
 
-/// What the Knudsen number says, and of which film it is.
+/// Meaning of the Knudsen number in words, and where in the film it holds.
 pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
     let at = match (&problem.scenario, outcome) {
         (_, Outcome::Motor(MotorResult { levitated: true, .. })) => {

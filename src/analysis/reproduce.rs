@@ -37,7 +37,7 @@ pub const SOFTER: f64 = 1.2;
 pub struct Both {
     /// The scene, as converged: without meshes of its own.
     pub scene: Scene,
-    /// The same, checked and in SI units.
+    /// The scene, checked and in SI units.
     pub problem: Problem,
     /// By the paper's algorithm on its own meshes, or why not.
     pub paper: Result<Solution, String>,
@@ -69,11 +69,11 @@ pub struct Row {
 pub struct Point {
     /// Frequency \[kHz\].
     pub frequency_khz: f64,
-    /// What came of it, or why nothing did.
+    /// The result, or why there is none.
     pub solved: Result<MotorResult, String>,
 }
 
-/// Everything.
+/// All results of the paper, computed again.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// The rows of Table I, in the paper's order.

@@ -16,15 +16,15 @@ const HARMONICS: usize = 90;
 /// Harmonics of the load that bend the section as it is drawn.
 const BENDING: u32 = 4;
 
-/// What the present model is called.
+/// Name of the present model.
 const PRESENT: &str = "present rotor";
-/// The models beside it: what each is called, and the value of `rotor.model`.
+/// The models beside it: name of each, and value of `rotor.model`.
 const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of preset ring-rotor", "ring")];
 
 /// One model of the rotor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
-    /// What it is called.
+    /// Name of the model.
     pub name: Cow<'static, str>,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub compliance: Vec<f64>,
@@ -44,7 +44,7 @@ pub struct Bent {
     pub harmonics: Vec<Deflection>,
 }
 
-/// What is known of a rotor.
+/// Compliance, deflection and resonances of a rotor, its compliance beside that of other models.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RotorCurves {
     /// The present model, and then the others that have the same wave: the beam fitted to Table I and the ring of the preset.
@@ -53,7 +53,7 @@ pub struct RotorCurves {
     pub relative_error: f64,
     /// Lowest natural frequencies of the first harmonics \[Hz\], of a ring.
     pub resonances: Option<Vec<f64>>,
-    /// Of a ring.
+    /// The bent section of a ring; `None` for other models.
     pub bent: Option<Bent>,
 }
 

@@ -73,7 +73,7 @@ impl Output {
         }
     }
 
-    /// What it is, in words.
+    /// Its description in words, without the unit.
     pub fn words(self) -> &'static str {
         match self {
             Self::Number(quantity) => quantity.words(),
@@ -92,7 +92,7 @@ impl Output {
         }
     }
 
-    /// What it is, with its unit after a comma.
+    /// Its description with its unit after a comma.
     pub fn label(self, problem: &Problem) -> String {
         labelled(self.words(), self.unit(problem))
     }
@@ -133,11 +133,11 @@ pub struct Sensitivity {
     pub settings: Settings,
     /// The problem.
     pub problem: Problem,
-    /// What random scenes are solved from: not carried in bytes, but solved again.
+    /// Solve from which random scenes start: not serialized, but solved again.
     centre: OnceLock<Centre>,
     /// How the solve in the middle ended.
     pub status: Status,
-    /// What the user should know of that solve.
+    /// Warnings about that solve for the user.
     pub warnings: Vec<String>,
     /// The results, the headline first.
     pub outputs: &'static [Output],
@@ -180,7 +180,7 @@ impl Sensitivity {
         Ok(Some(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse }))
     }
 
-    /// What random scenes are solved from.
+    /// Solve from which random scenes start, made on first use.
     fn centre(&self, cancel: &Cancel) -> Result<&Centre, SolveError> {
         match self.centre.get() {
             Some(centre) => Ok(centre),
@@ -251,9 +251,9 @@ impl Sensitivity {
         Propagated { deviation: Estimate { value: deviation, error }, parts, unknown }
     }
 
-    /// What to draw of an output, the greatest first: the elasticities of all keys that have a scale; or, if there are uncertain keys, what
-    /// each contributes to the uncertainty, in the unit of the output. And how many are left out because they are less than [`LEAST`] of the
-    /// greatest.
+    /// Bars of the tornado chart of an output, the greatest first: the elasticities of all keys that have a scale; or, if there are uncertain
+    /// keys, the contribution of each to the uncertainty, in the unit of the output. And how many bars are left out because they are less than
+    /// [`LEAST`] of the greatest.
     pub fn tornado(
         &self,
         output: usize,
@@ -470,7 +470,7 @@ impl Uncertainties {
 pub struct Propagated {
     /// Its standard deviation, with the error that those of the derivatives make.
     pub deviation: Estimate,
-    /// What each key contributes, signed, in the unit of the result.
+    /// Contribution of each key, signed, in the unit of the result.
     pub parts: Vec<(&'static Parameter, Estimate)>,
     /// Uncertain keys whose derivative is not known; their contribution is missing.
     pub unknown: Vec<&'static str>,
@@ -489,13 +489,13 @@ impl Propagated {
 /// One draw: the values of the uncertain keys in their order, and the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Draw {
-    /// Of the keys, in their units.
+    /// Values of the keys, in their units.
     pub values: Vec<f64>,
-    /// In the order of the outputs, with their numerical errors; not finite where the draw has none.
+    /// Results in the order of the outputs, with their numerical errors; not finite where the draw has none.
     pub results: Vec<Estimate>,
 }
 
-/// What random scenes give.
+/// Results of random scenes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MonteCarlo {
     /// Where the random numbers began.

@@ -72,7 +72,7 @@ impl Map {
         values
     }
 
-    /// What makes the scene of a cell: keys and values. Other meshes go with the nodes along a tooth.
+    /// Keys and values that make the scene of a cell. The other meshes scale with the nodes along a tooth.
     fn changes(&self, values: [f64; 2]) -> Vec<(&'static str, f64)> {
         let mut changes = vec![(self.axes[0], values[0]), (self.axes[1], values[1])];
         if self.axes[0] == NODES {
@@ -84,7 +84,7 @@ impl Map {
     }
 }
 
-/// What became of a cell.
+/// Outcome of a cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Converged, with numbers that can be.
@@ -155,12 +155,12 @@ pub enum Violation {
 
 /// Lengths and forces need not agree any better than this.
 const ROUND_OFF: f64 = 1e-9;
-/// What a share of the load may be off by beside its stated error: no film has an effect as small as this.
+/// Tolerance of a share of the load beside its stated error: no film has an effect as small as this.
 const SHARE: f64 = 1e-6;
 /// Share of the load that film and contact may miss at an instant, beside the stated error.
 const BALANCE: f64 = 2e-3;
 
-/// What cannot be of a motor's solution.
+/// Physically impossible numbers in a motor's solution.
 pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
     let numbers = [
@@ -207,7 +207,7 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     violations
 }
 
-/// What a solve comes to, and what about it cannot be.
+/// Verdict on a solve, and its physically impossible numbers.
 pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<Violation>) {
     match solved {
         Err(reason) => (Verdict::Failed(reason.clone()), Vec::new()),
@@ -235,9 +235,9 @@ pub struct Cell {
     pub place: [usize; 2],
     /// Keys and values that make its scene, those of the axes first.
     pub changes: Vec<(&'static str, f64)>,
-    /// What became of it.
+    /// Verdict on its solve.
     pub verdict: Verdict,
-    /// What about its numbers cannot be.
+    /// Its physically impossible numbers.
     pub violations: Vec<Violation>,
     /// Its numbers; none if it failed or was refused.
     pub numbers: Numbers,

@@ -98,7 +98,7 @@ impl Sweep {
         Self::of_part(scene, vary, settings, Part::WHOLE)
     }
 
-    /// The same of which only a part is to be solved: that alone has to be small enough.
+    /// A sweep of which only one part is to be solved: only that part has to be small enough.
     pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, AnalysisError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
             let found = vary.len();
@@ -147,7 +147,7 @@ impl Sweep {
         &self.scene
     }
 
-    /// What is varied, as it was given.
+    /// Keys that are varied and their values, as they were given.
     pub fn vary(&self) -> &[Vary] {
         &self.vary
     }
@@ -182,7 +182,7 @@ impl Sweep {
         varied(&self.scene, &self.axes, &self.values(point))
     }
 
-    /// What is to be solved at a point, or why nothing can be.
+    /// Problem at a point, or why it cannot be solved.
     fn problem_at(&self, point: usize) -> Result<Problem, String> {
         let problem = solvable(&self.scene, &self.axes, &self.values(point), &self.settings);
         let problem = problem.map_err(|error| error.to_string())?;

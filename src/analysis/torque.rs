@@ -1,5 +1,4 @@
-//! What a designer wants of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and
-//! without it.
+//! Performance of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and without it.
 //!
 //! The pressures are those of the scene's rotor speed; what another speed changes is bounded, or solved where the bound is large
 //! ([`TorqueCurves::speed_effect`]).
@@ -22,7 +21,7 @@ const SMALL_EFFECT: f64 = 0.01;
 /// Speeds of a curve, equally spaced from rest to the stator's greatest speed; the distinguished ones come in addition.
 const SPEEDS: usize = 121;
 
-/// What a designer wants of a motor; the whole ring.
+/// Performance of a motor over the rotor's speed, for the whole ring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TorqueCurves {
     /// With the film.

@@ -26,7 +26,7 @@ pub fn outside(problem: &Problem, solution: Option<&Solution>) -> Vec<Excess> {
     of_outcome(problem, solution.map(|solution| &solution.outcome), decisions)
 }
 
-/// The same of an outcome, and of what was decided for it.
+/// The limits that a scene exceeds, from an outcome and the decisions made for it.
 pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
     let problem = &*outcome.map_or(Cow::Borrowed(problem), |outcome| settled(problem, outcome));
     match &problem.scenario {
@@ -46,7 +46,7 @@ pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
     names
 }
 
-/// What is said beside a headline: `outside the limits of the model: sound, thinness`; nothing if there are none.
+/// Note beside a headline: `outside the limits of the model: sound, thinness`; `None` if no limit is exceeded.
 pub fn beside_headline(exceeded: &[Excess]) -> Option<String> {
     let names: Vec<String> = names(exceeded).iter().map(|name| name.replace('-', " ")).collect();
     (!names.is_empty()).then(|| format!("outside the limits of the model: {}", names.join(", ")))

@@ -49,7 +49,7 @@ pub struct Variation {
     pub parameters: Vec<&'static Parameter>,
 }
 
-/// What a derivative was taken over.
+/// Side of the scene's value to which the steps of a derivative were taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sides {
@@ -66,7 +66,7 @@ pub enum Sides {
 pub struct Slope {
     /// The derivative; not finite where the number is not known.
     pub value: f64,
-    /// The same without the finest grid.
+    /// The derivative without the finest grid.
     pub coarse: f64,
     /// The least error that the grids leave, absolute: both ladders of them may agree by chance.
     pub least: f64,
@@ -168,7 +168,7 @@ impl Variation {
         self.parameters.iter().map(|parameter| number(parameter).unwrap_or(f64::NAN)).collect()
     }
 
-    /// What is to be solved at other values of the keys, in their units.
+    /// Problem at other values of the keys, in their units.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
         let mut scene = self.scene.clone();
         for (parameter, value) in self.parameters.iter().zip(values) {
@@ -251,8 +251,8 @@ struct Steps {
     points: Result<Vec<Problem>, String>,
 }
 
-/// What a change of a key is relative to, in its unit: its value, of a temperature from absolute zero; of a key that is zero, a share of what
-/// is worth a slider.
+/// Reference for a relative change of a key, in its unit: its value, for a temperature from absolute zero; for a key that is zero, a share
+/// of the range of its slider.
 fn scale(parameter: &Parameter, value: f64) -> f64 {
     match parameter.kind {
         _ if parameter.unit == "°C" => value + 273.15,

@@ -29,7 +29,7 @@ impl Columns {
     }
 }
 
-/// What a table is about, and an empty line below.
+/// Heading of a table, with an empty line below.
 pub(super) fn heading(words: &str) -> String {
     paragraph(words, "", "") + "\n"
 }

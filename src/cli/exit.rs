@@ -25,7 +25,7 @@ pub(super) enum Exit {
 }
 
 impl Exit {
-    /// What a solve that ended so leads to.
+    /// Exit status after a solve that ended with this status.
     pub(super) fn of(status: &Status) -> Self {
         Self::from(&RunStatus::from(*status))
     }
@@ -41,13 +41,13 @@ impl Exit {
         })
     }
 
-    /// What several lead to: the worst of them.
+    /// The worst of several.
     pub(super) fn worst(all: impl IntoIterator<Item = Self>) -> Self {
         all.into_iter().max().unwrap_or(Self::Solved)
     }
 }
 
-/// What ends a command early.
+/// Error that ends a command early.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     /// A preset or a `--set`.
@@ -65,7 +65,7 @@ pub(super) enum CliError {
     /// A file or folder of `--out`.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// What `--out` writes.
+    /// A file that `--out` cannot make.
     #[error(transparent)]
     Export(#[from] ExportError),
     /// The system refuses threads or a window.
@@ -87,7 +87,7 @@ impl From<&RunStatus> for Exit {
 }
 
 impl CliError {
-    /// What is wrong with the options, and what is allowed.
+    /// A fault of the options: `fault` says what is wrong, and what is allowed.
     pub(super) fn usage(fault: &str) -> Self {
         Self::Input(fault.to_owned())
     }

@@ -140,7 +140,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
     Ok(())
 }
 
-/// What was assumed, and why.
+/// Prints the assumptions, and the reason for each.
 fn told(motor: &NewMotor) {
     let mut columns = Columns::new();
     for assumption in &motor.assumed {

@@ -113,7 +113,7 @@ pub(super) struct AccuracyOptions {
 }
 
 impl AccuracyOptions {
-    /// What was asked for by name or by number.
+    /// The accuracy asked for, by name or by number.
     fn named(&self) -> Option<Fidelity> {
         self.accuracy.or(self.fidelity)
     }
@@ -151,7 +151,7 @@ impl SolveOptions {
         self.begin_with(Fidelity::default(), Method::default())
     }
 
-    /// The same, with these for what was not chosen. Starts the threads and allows the memory.
+    /// As `begin`, with these defaults for what was not chosen. Starts the threads and sets the memory budget.
     pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|fault| {
@@ -173,7 +173,7 @@ impl SolveOptions {
     }
 }
 
-/// What a shell reports for a program ended by Ctrl-C.
+/// Exit status that a shell reports for a program ended by Ctrl-C.
 const KILLED: i32 = 130;
 
 /// A flag that the first Ctrl-C (or a request to terminate) raises; the second ends the program.
@@ -253,7 +253,7 @@ impl OutputOptions {
         Ok(folder)
     }
 
-    /// The same of a command that has fields.
+    /// As `folder`, for a command that has fields.
     pub(super) fn folder_of_fields<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
         if self.has("none") && self.figures.len() > 1 {
             return Err(CliError::usage("--figures none is no figures at all: give it alone, or leave it out"));

@@ -107,7 +107,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     Ok(())
 }
 
-/// What a preset is, without what its group's heading says.
+/// Description of a preset, without the part that the heading of its group says.
 fn about(scene: &Scene) -> String {
     let rest = ["Maeno and Bogy 1992, Table I, ", "Maeno and Bogy 1992, Table I: ", "Beyond Table I: "];
     capitalised(rest.iter().find_map(|prefix| scene.about.strip_prefix(prefix)).unwrap_or(&scene.about))

@@ -42,7 +42,7 @@ impl Bar {
         self.bar.set_message(format!("{}{point}", self.left(share)));
     }
 
-    /// What has been reached of work whose length is not known.
+    /// Shows how far work has come whose length is not known.
     pub(super) fn count(&self, reached: &str) {
         self.bar.set_message(reached.to_owned());
     }
@@ -73,7 +73,7 @@ impl Bar {
         Self { bar, unit, history: Vec::new(), started: Instant::now(), before: 0 }
     }
 
-    /// What `work` returns, and how long that took \[s\]; the bar ends with it.
+    /// Runs `work`; returns its result and how long it took \[s\]. The bar ends with it.
     pub(super) fn timed<T>(self, work: impl FnOnce(&Self) -> T) -> (T, f64) {
         let done = work(&self);
         (done, self.started.elapsed().as_secs_f64())

@@ -127,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(Exit::of(&sensitivity.status))
 }
 
-/// What is missing in the random draws.
+/// Warning about random scenes that failed or were drawn again; `None` if there are none.
 fn warning(carlo: &MonteCarlo) -> Option<String> {
     let all = carlo.draws.len() + carlo.failures.len();
     let failed = carlo.failures.first().map(|first| {

@@ -186,7 +186,7 @@ fn text(
     text
 }
 
-/// What was stated of the errors, and what was asked.
+/// The stated error and the one asked for, in a sentence.
 fn exactness(accuracy: &Accuracy) -> String {
     let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
     if accuracy.asked > 0.0 {

@@ -223,7 +223,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floati
     }
 }
 
-/// What is known exactly beside what was computed.
+/// Rows with the exact limits beside the computed values.
 fn exact_rows(columns: &mut Columns, exact: &ExactComparison, plate: &Plate) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
         // To as many digits as the computed number has beside it.
@@ -275,7 +275,7 @@ fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: 
     ]);
 }
 
-/// What follows from a gas that the scene names.
+/// Row with the viscosity and mean free path of a gas that the scene names.
 fn gas_row(columns: &mut Columns, problem: &Problem) {
     let gas = match &problem.scenario {
         Scenario::Motor(motor) => &motor.gas,

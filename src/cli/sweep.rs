@@ -336,7 +336,7 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     text
 }
 
-/// What the table for people shows; all is in the files.
+/// Quantities in the table on the terminal; the files have all of them.
 const SHOWN: [Quantity; 12] = [
     Quantity::Alpha,
     Quantity::MeanGap,

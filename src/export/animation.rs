@@ -25,7 +25,7 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What an animation is to be.
+/// Options of an animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Pixels across.

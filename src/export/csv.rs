@@ -102,7 +102,7 @@ pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write
     rows_with(rows, words, out)
 }
 
-/// The same where all texts are ours, such as options: they are written as they are.
+/// As [`rows`], for texts of the program itself, such as options: they are written as they are.
 pub fn rows_of_ours<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
     rows_with(rows, |text| text.into(), out)
 }

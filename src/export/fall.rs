@@ -73,7 +73,7 @@ pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
         .layer(Line::new("height", line, Style::solid(Colour::FILM)))
 }
 
-/// The same as a figure.
+/// The panel as a figure of its own.
 pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<Estimate>) -> Figure {
     let mut figure = Figure::new("dropped on the vibration").panel(panel(cycles, floats));
     figure.caption = "Height of the plate, the gap without the vibration, from where it is dropped.".to_owned();

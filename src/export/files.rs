@@ -50,9 +50,9 @@ impl Control<'_> {
 pub struct Solved<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The same, checked and in SI units.
+    /// The scene, checked and in SI units.
     pub problem: &'a Problem,
-    /// What came of it.
+    /// Its solution.
     pub solution: &'a Solution,
     /// The rounds, if they were kept.
     pub history: &'a [Progress],
@@ -138,7 +138,7 @@ pub fn expected_size(folder: &Folder<'_>, problem: &Problem, recording: &Recordi
     lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8) + series * 8 * (WRITTEN + 8) + vtk
 }
 
-/// What `squeezefilm solve --out` writes into a folder.
+/// Writes the files of `squeezefilm solve --out` into a folder.
 pub fn solve(
     folder: &Folder<'_>,
     solved: &Solved<'_>,
@@ -273,7 +273,7 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
     drawn.into_iter().map(named).collect()
 }
 
-/// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
+/// Writes the files of `squeezefilm compare --out` into a folder. `all`: lists parameters that do not differ, too.
 pub fn comparison(
     folder: &Folder<'_>,
     runs: &[ComparedRun],
@@ -319,7 +319,7 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<V
     alone(path, |out| out.write_all(&bytes))
 }
 
-/// What `squeezefilm sweep --out` writes into a folder.
+/// Writes the files of `squeezefilm sweep --out` into a folder.
 /// `shown`: the quantity of the figure.
 pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
@@ -330,7 +330,7 @@ pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) 
     files.commit()
 }
 
-/// What `squeezefilm fit --out` writes into a folder of a fit to measurements; `problem`: with the values found.
+/// Writes the files of `squeezefilm fit --out` for a fit to measurements into a folder; `problem`: with the values found.
 pub fn fitted(
     folder: &Folder<'_>,
     problem: &Problem,
@@ -348,7 +348,7 @@ pub fn fitted(
     files.commit()
 }
 
-/// What it writes of an optimum.
+/// Writes the files of `squeezefilm fit --out` for an optimum into a folder.
 pub fn optimum(
     folder: &Folder<'_>,
     problem: &Problem,
@@ -363,7 +363,7 @@ pub fn optimum(
     files.commit()
 }
 
-/// What `squeezefilm sensitivity --out` writes into a folder.
+/// Writes the files of `squeezefilm sensitivity --out` into a folder.
 pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::Found<'_>) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;

@@ -106,7 +106,7 @@ pub fn figures(problem: &Problem, fitted: &Fitted, measured: &Measured) -> Vec<(
     found
 }
 
-/// What was measured under one name, beside what is computed.
+/// Panel of the measurements of one name, beside the computed values.
 fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) -> Panel {
     let all = || {
         measured

@@ -26,7 +26,7 @@ const NO_TORQUE_ERROR: &str = "the errors of torque, power, speed and efficiency
 pub struct Summary {
     /// The problem; a plate that floats is at the gap that was found. The object has the scene's name and kind.
     pub problem: Problem,
-    /// What came of it.
+    /// The result.
     pub outcome: Outcome,
     /// How it ended; in the object as [`status_name`] says it.
     pub status: Status,
@@ -37,17 +37,17 @@ pub struct Summary {
     pub numbers: Numbers,
     /// Torque, power and efficiency (motor), if they were asked for.
     pub torque: Option<TorqueCurves>,
-    /// What is known exactly beside what was computed (plate).
+    /// Exact limits beside the computed values (plate).
     pub exact: Option<ExactComparison>,
     /// Wall time of the solve alone \[s\].
     pub wall_s: f64,
-    /// What it cost beside that.
+    /// Cost of the solve other than time, counted.
     pub stats: Stats,
-    /// What was modelled; in the object with a sentence for each decision.
+    /// The model that was solved; in the object with a sentence for each decision.
     pub model: Model,
     /// Limits of the model that the scene exceeds; empty within them.
     pub validity: Vec<Excess>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// The command line, word by word; empty if there was none.
     pub command: Vec<String>,
@@ -194,7 +194,7 @@ fn exact_object(found: &ExactComparison) -> Value {
     object
 }
 
-/// What the solve cost: its wall time \[s\], and what was counted.
+/// Cost of the solve: its wall time \[s\], and the counts.
 #[derive(serde::Serialize)]
 struct StatsObject {
     wall_s: f64,
@@ -202,7 +202,7 @@ struct StatsObject {
     counted: Stats,
 }
 
-/// What was modelled, with a sentence for each decision.
+/// The model that was solved, with a sentence for each decision.
 fn model_object(model: &Model) -> Value {
     json!({
         "fidelity": model.fidelity,

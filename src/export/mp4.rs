@@ -75,7 +75,7 @@ fn sample(packet: &[u8]) -> io::Result<Vec<u8>> {
     Ok(kept.map(|obu| obu.obu).collect::<Vec<_>>().concat())
 }
 
-/// What a decoder has to know before it sees a packet, from the first.
+/// Sample entry, which configures the decoder, made from the first packet.
 fn entry(first: &[u8]) -> io::Result<SampleEntry> {
     let obus = parse_obus(first, Av1ObuParseContext::Sample).map_err(io::Error::other)?;
     let header = obus.iter().find(|obu| obu.obu_type == Av1ObuType::SequenceHeader).map_or(&[][..], |obu| obu.obu);

@@ -24,17 +24,17 @@ pub const LARGEST: u64 = 512;
 
 /// The last column.
 const CHECK: &str = "check";
-/// What a comment begins with.
+/// First character of a comment line.
 const COMMENT: u8 = b'#';
 
-/// What the first line says.
+/// Header in the first line: which sweep the rows belong to.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Head {
     sweep: String,
     /// Which part, as `3/64`; the whole is `1/1`.
     part: String,
     scene_toml: String,
-    /// What is varied, as on the command line.
+    /// Keys that are varied and their values, as on the command line.
     vary: Vec<String>,
     settings: Settings,
     budget: Option<Duration>,
@@ -65,10 +65,10 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &
     writer.flush()
 }
 
-/// What is said of a file of another sweep.
+/// Message about a file of another sweep.
 const ANOTHER: &str = "it is of another sweep: another scene, range, setting, budget or version";
 
-/// What is said of a damaged file; lines are counted from 1.
+/// Message about a damaged file; lines are counted from 1.
 fn damaged(line: u64, fault: impl Display) -> String {
     format!("line {line}: {fault}")
 }

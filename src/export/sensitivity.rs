@@ -11,7 +11,7 @@ use crate::solution::Status;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any.
+/// Results of a sensitivity analysis: derivatives, uncertainties of the keys, and random draws, if there are any.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<'a> {
     /// Results and derivatives.

@@ -117,7 +117,7 @@ pub fn validity(problem: &Problem, ended: &Startup) -> Vec<Excess> {
     of_outcome(problem, (ended.cycles > 0).then_some(&ended.outcome), &ended.decisions)
 }
 
-/// What the user should know of a start-up.
+/// Warnings about a start-up for the user.
 pub fn warnings(ended: &Startup) -> Vec<String> {
     ended.warnings.iter().cloned().chain(unsettled(ended)).collect()
 }
@@ -130,7 +130,7 @@ pub fn place<T>(rows: &mut Vec<T>, number: usize, row: T) {
     }
 }
 
-/// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
+/// Final value of a start-up by the periodic solve: α, or the load ratio, and its stated error.
 pub fn steady(problem: &Problem, startup: &Startup) -> Option<Estimate> {
     startup.steady.map(|found| match &problem.scenario {
         Scenario::Motor(_) => found,

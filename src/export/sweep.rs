@@ -200,7 +200,7 @@ pub fn figure(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
 /// Most maps in a figure of three keys.
 const MOST_MAPS: usize = 12;
 
-/// What a sweep is about: α of a motor, the load ratio of a plate.
+/// The main quantity of a sweep: α of a motor, the mean gap of a plate that floats, the load ratio of any other plate.
 pub fn primary(sweep: &Sweep) -> Quantity {
     let there = sweep.quantities();
     let first = [Quantity::Alpha, Quantity::MeanGap].into_iter().find(|quantity| there.contains(quantity));

@@ -16,7 +16,7 @@ pub fn object(preset: &str, tradeoff: &Tradeoff, targets: &[Target]) -> Value {
     })
 }
 
-/// What was asked for, a share or a time \[s\], and the setting that serves it with its options on the command line; null if none does.
+/// The target, a share or a time \[s\], and the setting that meets it with its options on the command line; null if none does.
 fn choice(tradeoff: &Tradeoff, target: Target) -> Value {
     let chosen = tradeoff.choose(target).map(|i| &tradeoff.points[i].run.candidate);
     let (wish, value) = match target {
@@ -64,7 +64,7 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
     tradeoff.points.iter().enumerate().map(setting).collect()
 }
 
-/// What the settings of a family are called, and their colour.
+/// Name of a family of settings, and its colour.
 pub fn words(family: Family) -> (&'static str, Colour) {
     match family {
         Family::Fidelity => ("fidelities", Colour::FILM),

@@ -20,21 +20,21 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Unsaved work is written away this often.
+/// Interval at which unsaved work is stored.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The application.
 pub struct App {
-    /// What carries commands out.
+    /// Carries out commands and owns the state.
     pub updater: Updater,
-    /// Text is being typed, other than what is looked for in the glossary.
+    /// Whether text is being typed anywhere but in the search field of the glossary.
     typing: bool,
-    /// What was asked for while text was being typed: it is carried out once the text is taken.
+    /// Commands given while text was being typed, carried out once the text is committed.
     after_text: Vec<Command>,
     last_frame: Option<Instant>,
-    /// Something was done since the last time that all was written away.
+    /// Whether anything has happened since the last save to storage.
     unwritten: bool,
-    /// What followed the `#` of the page's address when it was last looked at.
+    /// Fragment of the page's address, after the `#`, when it was last read.
     address: String,
 }
 
@@ -94,7 +94,7 @@ impl App {
         }
     }
 
-    /// Carries out what has waited for a text, once that is taken; not if it was refused.
+    /// Carries out the commands that waited for typed text; drops them if the text was refused.
     fn text_taken(&mut self, ctx: &egui::Context, asked: &[&'static str]) {
         if self.after_text.is_empty() || ctx.text_edit_focused() {
             return;

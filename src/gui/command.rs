@@ -1,4 +1,4 @@
-//! Everything that a panel or a key asks for. `ui` pushes commands; `update` alone carries them out.
+//! The commands that panels and keys can give. `ui` pushes commands; `update` alone carries them out.
 
 use super::state::dialogs::Purpose;
 use super::state::document::Next;
@@ -37,15 +37,15 @@ pub enum Command {
     Use(Fidelity, Numerics),
     /// The most time that a solve may take from now on, if that is limited.
     Budget(Option<Duration>),
-    /// Copies a link to what is shown.
+    /// Copies a link to the present view.
     CopyLink,
     /// Tells what the program is, and how it is cited.
     About,
     /// Copies its citation.
     CopyCitation,
-    /// Takes the last edit back.
+    /// Undoes the last edit.
     Undo,
-    /// Makes it again.
+    /// Redoes the edit that was undone last.
     Redo,
     /// Opens a preset, or closes the window: asks first if there are unsaved changes.
     Proceed(Next),
@@ -63,11 +63,11 @@ pub enum Command {
     Save(Option<Next>),
     /// Closes the window although work goes on; asks about unsaved changes.
     QuitAnyway,
-    /// Gives unsaved changes up, then does this.
+    /// Discards unsaved changes, then does this.
     DiscardThen(Next),
-    /// Takes away what is in the way.
+    /// Closes the modal.
     CloseModal,
-    /// What is typed into the prompt for a path.
+    /// Sets the text of the path prompt.
     TypePath(String),
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
@@ -75,31 +75,31 @@ pub enum Command {
     CancelSolve,
     /// Shows this in the middle of the window.
     Show(Tab),
-    /// Asks something of the pinned runs.
+    /// A command for the pinned runs.
     Pin(PinCommand),
-    /// Asks something of the sweep.
+    /// A command for the sweep.
     Sweep(SweepCommand),
-    /// About what the results depend on.
+    /// A command for the sensitivity analysis.
     Sensitivity(SensitivityCommand),
-    /// About measurements, and fits to them.
+    /// A command for measurements and fits.
     Fit(FitCommand),
     /// Forgets the measured face.
     ForgetFace,
     /// Gives the scene the roughness that follows from the measured face: one edit.
     TakeRoughness,
-    /// About the plate that is held.
+    /// A command for the held plate.
     Hold(HoldCommand),
-    /// About the start-up.
+    /// A command for the start-up.
     Startup(StartupCommand),
     /// Measures error against time, now.
     Measure,
     /// Ends the measurement.
     CancelMeasure,
-    /// What is asked of the trade-off.
+    /// Sets a target of the trade-off: an accuracy or a time.
     Target(Target),
     /// Ends the export under way; nothing is written.
     CancelExport,
-    /// What the last export wrote has been read.
+    /// Closes the note about the files of the last export.
     CloseExportNote,
     /// Play or pause what moves in the middle.
     TogglePlay,
@@ -115,7 +115,7 @@ pub enum Command {
     FollowTooth(usize),
     /// Follows the tooth this many further on.
     NextTooth(i64),
-    /// Looks at the ring from here.
+    /// Sets the direction that the ring is seen from.
     Orbit(Orbit),
     /// Shows a prompt for a path to open.
     OpenPathPrompt,
@@ -131,17 +131,17 @@ pub enum Command {
     Screenshot,
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
-    /// About lessons.
+    /// A command for lessons.
     Lesson(LessonCommand),
     /// The tour, from this stop on; none ends it.
     Tour(Option<usize>),
     /// Shows or hides the glossary.
     Glossary(bool),
-    /// What is looked for in the glossary.
+    /// Searches the glossary for this text.
     SearchGlossary(String),
 }
 
-/// About the pinned runs.
+/// Commands for the pinned runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PinCommand {
     /// Pins the run on screen.
@@ -150,47 +150,47 @@ pub enum PinCommand {
     Preset(&'static str),
     /// Forgets one that is being solved, or will be.
     Forget(u64),
-    /// Calls a pin something else.
+    /// Renames a pin.
     Rename(u64, String),
-    /// Takes a pin away.
+    /// Removes a pin.
     Remove(u64),
-    /// Takes all pins away.
+    /// Removes all pins.
     Clear,
-    /// Brings back what was taken away together.
+    /// Brings back the pins that `Clear` removed.
     Restore,
     /// Makes the scene of a pin the present scene: one edit.
     Open(u64),
-    /// Shows this of them.
+    /// Shows this page of the comparison.
     Look(Page),
     /// Lists all parameters, or only those that differ.
     AllParameters(bool),
 }
 
-/// About the sweep.
+/// Commands for the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweepCommand {
-    /// Asks for this.
+    /// Replaces the form.
     Form(Form),
-    /// Draws this.
+    /// Chooses the quantity that is drawn.
     Draw(Quantity),
-    /// Begins anew.
+    /// Starts a new sweep.
     Start,
     /// Ends it; what is solved stays.
     Cancel,
-    /// Goes on with what was cancelled.
+    /// Continues a cancelled sweep.
     Continue,
     /// Makes the scene of a point the present scene: one edit.
     Open(usize),
 }
 
-/// About measurements, and fits to them.
+/// Commands for measurements and fits.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FitCommand {
     /// Forgets the table.
     Forget,
-    /// Asks for this.
+    /// Replaces the form.
     Form(FitForm),
-    /// Begins.
+    /// Starts the fit or the search.
     Start,
     /// Ends it.
     Cancel,
@@ -198,14 +198,14 @@ pub enum FitCommand {
     Take,
 }
 
-/// About the start-up.
+/// Commands for the start-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartupCommand {
     /// Starts from rest.
     Start,
     /// Ends it.
     Cancel,
-    /// Looks at this cycle, or at the nearest one that is kept.
+    /// Shows this cycle, or the nearest one that is kept.
     Choose(usize),
     /// Whether the newest cycle is looked at.
     Follow(bool),
@@ -213,24 +213,24 @@ pub enum StartupCommand {
     Replay,
 }
 
-/// About what the results depend on.
+/// Commands for the sensitivity analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SensitivityCommand {
     /// Computes the derivatives.
     Start,
-    /// Ends what is being computed.
+    /// Cancels the computation.
     Cancel,
-    /// Looks at this of the results.
+    /// Shows this result, by its index.
     Look(usize),
     /// The uncertainty of a key, as it is typed; empty for none.
     Uncertainty(&'static str, String),
-    /// How many random scenes.
+    /// Sets the number of random scenes.
     Draws(usize),
     /// Solves random scenes.
     Draw,
 }
 
-/// About the plate that is held.
+/// Commands for the held plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HoldCommand {
     /// Holds it at this gap \[m\].
@@ -250,7 +250,7 @@ pub enum HoldCommand {
     Seconds(f64),
 }
 
-/// About lessons.
+/// Commands for lessons.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LessonCommand {
     /// Begins a lesson, by its place in the list, at a step or where it was left.
@@ -267,11 +267,11 @@ pub enum LessonCommand {
     Predict(Prediction),
     /// Keeps to that answer.
     Commit,
-    /// Says what was seen.
+    /// Answers what was observed, by the index of the choice.
     Observe(usize),
     /// Answers what is asked now with this choice.
     Choose(usize),
-    /// Does what comes next: keeps to an answer, goes to the marked parameter, goes to the next step.
+    /// Does what comes next: commits an answer, goes to the marked parameter, or goes to the next step.
     GoOn,
     /// Asks for one more hint.
     Hint,
@@ -283,7 +283,7 @@ pub enum LessonCommand {
     AllResults(bool),
     /// Reads the lessons of all folders again.
     Reload,
-    /// Says again what was wrong with lessons.
+    /// Shows again the faults found in lessons.
     Faults,
 }
 

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// A drop, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct DropWork {
-    /// The plate, with what it floats on.
+    /// The scene of a plate under a load, and its problem.
     pub posed: Posed,
     /// The fidelity of its grids and steps.
     pub fidelity: Fidelity,

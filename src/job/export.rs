@@ -105,13 +105,13 @@ pub enum Content {
 pub struct Files {
     /// The file, or the folder.
     pub path: PathBuf,
-    /// What is in them.
+    /// Content of the files.
     pub content: Content,
 }
 
 impl Work for Files {
     const NAME: &'static str = "files";
-    /// How many pictures of an animation are drawn, of how many.
+    /// Pictures of an animation drawn so far, and their total.
     type Message = (usize, usize);
     /// The paths of the files that were written.
     type Found = Vec<PathBuf>;

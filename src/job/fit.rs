@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// Points that the search starts from.
 const STARTS: usize = 16;
 
-/// What a fit to measurements, or the search for an optimum, ends with.
+/// Result of a fit to measurements, or of the search for an optimum.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Found {
     /// A fit, and the measurements that were fitted.
@@ -47,19 +47,19 @@ impl Found {
 pub struct FitWork {
     /// The scene whose keys are chosen.
     pub scene: Scene,
-    /// The measurements, of a fit.
+    /// The measurements of a fit; `None` for an optimum.
     pub measured: Option<Arc<Measured>>,
     /// The keys, which stay within these bounds.
     pub bounds: Vec<Bounds>,
-    /// What is to be as large or as small as it can be.
+    /// The optimum that is sought; `None` for a fit.
     pub goal: Option<Goal>,
-    /// How it is solved.
+    /// Settings of the solves.
     pub settings: Settings,
 }
 
 impl Work for FitWork {
     const NAME: &'static str = "fit";
-    /// How many points were tried, with the least χ² or the best number so far.
+    /// Number of points tried, and the least χ² or the best value so far.
     type Message = (usize, f64);
     type Found = Found;
 

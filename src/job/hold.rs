@@ -19,7 +19,7 @@ pub use thread::HeldPlate;
 
 use crate::hold::Hold;
 
-/// What can be asked of a held plate, in a process as on a page.
+/// Requests to a held plate, the same in a process and on a page.
 impl HeldPlate {
     /// Moves the plate to the gap `gap` \[m\], or to the nearest one that is allowed.
     pub fn move_to(&self, gap: f64) {

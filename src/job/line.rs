@@ -11,7 +11,7 @@ use std::rc::Rc;
 /// Idle workers that are kept, because starting one takes longer than most work.
 const SPARE: usize = 2;
 
-/// What a worker sends.
+/// A message from a worker.
 #[derive(Debug)]
 pub(super) enum Sent<M, R> {
     Message(M),

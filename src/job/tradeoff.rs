@@ -6,7 +6,7 @@ use crate::control::Cancel;
 use crate::platform::Instant;
 use serde::{Deserialize, Serialize};
 
-/// The state of a measurement: all settings with what was measured of them so far, and the share of the work that is done, 0 to 1.
+/// Progress of a measurement: all settings with their results so far, and the share of the work that is done, 0 to 1.
 pub type Progress = (Vec<MeasuredSetting>, f64);
 
 /// A measurement, as it is sent to the thread or worker that makes it.
@@ -16,7 +16,7 @@ pub struct TradeoffWork {
     pub posed: Posed,
     /// The settings that are measured.
     pub candidates: Vec<Candidate>,
-    /// How much is measured.
+    /// Effort of the measurement.
     pub effort: Effort,
     /// The clock. It is not sent: a worker uses its own.
     #[serde(skip, default = "clock")]
@@ -30,7 +30,7 @@ fn clock() -> fn() -> Instant {
 impl Work for TradeoffWork {
     const NAME: &'static str = "measure";
     type Message = Progress;
-    /// All settings with what was measured of them.
+    /// All settings with their results.
     type Found = Vec<MeasuredSetting>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Found>, String> {

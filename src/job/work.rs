@@ -26,7 +26,7 @@ pub trait Wake: Fn(bool) + Send + Sync + 'static {}
 
 impl<F: Fn(bool) + Send + Sync + 'static> Wake for F {}
 
-/// What a task has sent since it was last asked.
+/// Messages and result of a task since the last call of `drain`.
 #[derive(Debug)]
 pub struct News<M, R> {
     /// Messages, in order.
@@ -41,7 +41,7 @@ pub struct News<M, R> {
 pub struct Posed {
     /// The scene, in the units of the field.
     pub scene: Scene,
-    /// The same, checked and in SI units.
+    /// The problem that the scene poses, checked and in SI units.
     pub problem: Problem,
 }
 
@@ -84,7 +84,7 @@ pub(super) mod tests {
     use crate::solve::{Settings, solve};
     use std::sync::Arc;
 
-    /// As it is on the other side.
+    /// A value after a round trip through bytes.
     pub(in crate::job) fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
         postcard::from_bytes(&postcard::to_stdvec(what).unwrap()).unwrap()
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a lesson: file, line, and what is allowed instead. A fault never stops the program: the other lessons are read.
+//! Faults of lessons: file, line, and what is allowed instead. A fault never stops the program: the other lessons are read.
 
 use std::path::PathBuf;
 
@@ -10,6 +10,6 @@ pub struct LessonError {
     pub origin: PathBuf,
     /// Line in the file, from 1.
     pub line: Option<usize>,
-    /// What is wrong, and what is allowed or expected.
+    /// Description of the fault, and of what is allowed or expected.
     pub what: String,
 }

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 const SOURCE: &str = include_str!("../../assets/glossary/glossary.toml");
 
-/// A term and what it means.
+/// A term and its explanation.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
@@ -19,7 +19,7 @@ pub struct Term {
     /// Other names that the window uses for it: in rows, headings and texts.
     #[serde(default)]
     pub also: Vec<String>,
-    /// What it means.
+    /// Explanation of the term.
     #[serde(deserialize_with = "blocks")]
     pub text: Vec<Block>,
 }

@@ -22,9 +22,9 @@ use std::collections::BTreeMap;
 const FIDELITY: Fidelity = Fidelity::Fine;
 /// Duration of a push by hand, in leak times of the film.
 const PUSH: f64 = 0.1;
-/// How long the plate is then held where it is, in leak times.
+/// Duration of the hold after the push, in leak times.
 const KEPT: f64 = 8.0;
-/// How often the check is evaluated meanwhile.
+/// Number of evaluations of the check during the hold.
 const LOOKS: usize = 80;
 
 /// A fault of a step, or advice about it.
@@ -38,7 +38,7 @@ pub struct Finding {
     pub fault: StepFault,
 }
 
-/// What can be wrong with a step.
+/// A fault of a step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StepFault {
     /// The check holds for the scene that the step begins with.
@@ -95,7 +95,7 @@ pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> 
     findings
 }
 
-/// The numbers that the texts of a step quote, by what is written between the braces.
+/// Numbers quoted in the texts of a step, by the text between the braces.
 #[derive(Clone, Debug, Default)]
 pub struct Quoted {
     /// Numbers of the run that the step begins with, in the texts above the task.

@@ -98,7 +98,7 @@ pub mod worker {
     /// The script that begins a worker, beside the page.
     const SCRIPT: &str = "./worker.js";
 
-    /// What a worker sends.
+    /// A message from a worker.
     #[derive(Debug)]
     pub enum News {
         /// A message, as bytes.

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene. A [`SceneError`] holds the first faults and counts the others; its `Display` is what
+//! Faults of a scene. A [`SceneError`] holds the first faults and counts the others; its `Display` is what
 //! the user sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
 
 use super::parameter::{Parameter, Range};
@@ -14,7 +14,7 @@ pub const SCHEMA: i64 = 1;
 /// Most faults told at once.
 const MOST_FAULTS: usize = 10;
 
-/// What is wrong with a scene: at least one fault and at most ten, in the order of the file, and how many more there are.
+/// Faults of a scene: at least one and at most ten, in the order of the file, and how many more there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
     faults: Vec<Fault>,
@@ -64,7 +64,7 @@ impl SceneError {
         self.more
     }
 
-    /// The same faults, said of `origin`, where they name no file of their own.
+    /// Sets `origin` as the file of those faults that name none of their own.
     pub(super) fn at(mut self, origin: &Path) -> Self {
         for fault in &mut self.faults {
             fault.origin.get_or_insert_with(|| origin.to_owned());
@@ -102,7 +102,7 @@ pub struct Fault {
     pub line: Option<usize>,
     /// Column in the line, in characters, from 1.
     pub column: Option<usize>,
-    /// What is wrong.
+    /// The fault itself.
     pub what: FaultKind,
 }
 
@@ -128,7 +128,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// What is wrong. Values carry the unit of their key.
+/// A fault of a scene. Values carry the unit of their key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FaultKind {
     /// The file is not read.
@@ -160,7 +160,7 @@ pub enum FaultKind {
     Elsewhere {
         /// The dotted key, or the table in brackets.
         key: String,
-        /// What chooses: `scene`, or the key of the model.
+        /// The key that selects: `scene`, or the key of the model.
         selector: &'static str,
         /// The scenes or models it belongs to.
         needs: &'static [&'static str],
@@ -172,7 +172,7 @@ pub enum FaultKind {
     BothGiven {
         /// The dotted key.
         key: &'static str,
-        /// The other one.
+        /// The key that replaces it.
         other: &'static str,
     },
     /// A value that the key does not take, whatever its size.
@@ -194,7 +194,7 @@ pub enum FaultKind {
         parameter: &'static Parameter,
         /// The value.
         value: Value,
-        /// What is allowed.
+        /// The allowed range.
         range: Range,
     },
     /// A rule between keys that is broken, or another fault that nothing but a message is made of.
@@ -202,7 +202,7 @@ pub enum FaultKind {
     Rule {
         /// The dotted key to change first.
         key: &'static str,
-        /// What is wrong: the key, its value, and what is allowed.
+        /// The whole message: the key, its value, and what is allowed.
         message: String,
     },
     /// One row of a table, or one of an array of tables such as a part of the rotor, is wrong.
@@ -212,7 +212,7 @@ pub enum FaultKind {
         key: &'static str,
         /// Which row or table it is: its name, or its number from 1; the header of a CSV file does not count.
         which: String,
-        /// What is wrong with it. Its columns or keys are named without those of the table around them.
+        /// The fault of that row or table. Its columns or keys are named without those of the table around them.
         fault: Box<FaultKind>,
     },
     /// Neither a built-in preset nor a file.

@@ -19,15 +19,15 @@ use std::path::Path;
 pub struct Question {
     /// Its name: as an option of the command line `--diameter-mm`.
     pub name: &'static str,
-    /// What is asked for, in words.
+    /// The quantity asked for, in words.
     pub words: &'static str,
-    /// What it accepts.
+    /// Answers that it accepts.
     pub accepts: Accepts,
-    /// What is assumed without an answer, in words. `None` if an answer is required.
+    /// Assumption if there is no answer, in words. `None` if an answer is required.
     pub otherwise: Option<&'static str>,
 }
 
-/// What a question accepts.
+/// Answers that a question accepts.
 #[derive(Clone, Copy, Debug)]
 pub enum Accepts {
     /// A number in the range of this key of a scene, in the unit of the key.
@@ -46,7 +46,7 @@ pub enum Accepts {
 const DIGITS: usize = 4;
 /// More friction than this is remarked on.
 const MUCH_FRICTION: f64 = 0.5;
-/// What is usual.
+/// Usual coefficients of friction, in words.
 const USUAL: &str = "usual are 0.1 to 0.5, and 0.7 is that of Maeno and Bogy";
 const GASES: &[&str] = &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"];
 
@@ -105,7 +105,7 @@ impl Question {
         if self.unit().is_empty() { self.words.to_owned() } else { format!("{}, {}", self.words, self.unit()) }
     }
 
-    /// What it accepts, in words.
+    /// Accepted answers, in words.
     pub fn allowed(&self) -> String {
         match self.accepts {
             Accepts::Key(key) => self.parameter().map_or_else(|| key.to_owned(), Parameter::accepts_if_given),
@@ -160,16 +160,16 @@ pub struct Assumption {
 pub struct NewMotor {
     /// The motor.
     pub scene: Scene,
-    /// What was assumed, in the order of the questions.
+    /// Assumptions that were made, in the order of the questions.
     pub assumed: Vec<Assumption>,
 }
 
-/// What friction and tangential amplitude are, of the least that torque and speed of the data sheet allow.
+/// Friction and tangential amplitude, as multiples of the least that torque and speed of the data sheet allow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// Of the coefficient of friction.
+    /// Multiple of the least coefficient of friction.
     pub friction: f64,
-    /// Of the tangential amplitude.
+    /// Multiple of the least tangential amplitude.
     pub amplitude: f64,
 }
 
@@ -241,7 +241,7 @@ impl NewMotor {
     /// The motor that these answers describe.
     ///
     /// # Errors
-    /// What is missing or wrong with the answers, a line each.
+    /// Answers that are missing or wrong, a line each.
     pub fn of(answers: &Answers) -> Result<Self, String> {
         Self::with(answers, Factors::LEAST)
     }

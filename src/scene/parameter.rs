@@ -254,17 +254,17 @@ impl Parameter {
         })
     }
 
-    /// What the key accepts, in words: `a number from 5 to 10000 nm`; of an optional key also that it may be absent.
+    /// Accepted values in words: `a number from 5 to 10000 nm`; of an optional key also that it may be absent.
     pub fn accepts(&self) -> String {
         self.accepts_if_given() + &self.or_none()
     }
 
-    /// What the absence of an optional key means.
+    /// Meaning of the absence of an optional key, in words; empty if the key is required.
     pub(super) fn or_none(&self) -> String {
         self.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"))
     }
 
-    /// What the key accepts if it is given, in words.
+    /// Accepted values in words, if the key is given.
     pub(super) fn accepts_if_given(&self) -> String {
         match self.kind {
             ParameterKind::Number { range, .. } => format!("a number from {}", self.with_unit(range)),

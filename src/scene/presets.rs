@@ -71,8 +71,8 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
-/// What the file of a PRESET argument does not give of the numbers that make a motor or a plate, so that `scene` has those of the paper, or of
-/// the default strip; nothing of a built-in preset.
+/// Numbers of a motor or a plate that the file of a PRESET argument does not give, so that `scene` has those of the paper, or of the default
+/// strip; empty for a built-in preset.
 pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
     let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
     let text = (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten();

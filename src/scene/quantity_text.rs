@@ -57,7 +57,7 @@ pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
     }
 }
 
-/// What is wrong with a text that is no number for `parameter`.
+/// Message for a text that is not a number for `parameter`.
 pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
     let units: Vec<&str> =
         kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();

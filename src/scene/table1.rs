@@ -14,7 +14,7 @@ pub struct PublishedRow {
     /// The built-in preset of the row, `tooth-width-1.16mm`. It is not in the file, because it follows from the name of the row.
     #[serde(skip)]
     pub preset: String,
-    /// What differs from the fundamental case: a key and its value, `stator.tooth_width_mm=1.157`, or words; empty in the first row.
+    /// Difference from the fundamental case: a key and its value, `stator.tooth_width_mm=1.157`, or words; empty in the first row.
     pub change: String,
     /// The film's load on one wavelength \[N\], mean over the cycle.
     pub published_load_n: f64,

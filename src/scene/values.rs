@@ -8,7 +8,7 @@ use super::value::{Value, show_text};
 use crate::problem::Numerics;
 use std::collections::BTreeMap;
 
-/// What is to be solved.
+/// Kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A ring-type travelling-wave motor.
@@ -61,7 +61,7 @@ impl Scene {
         Self::new(Kind::Plate)
     }
 
-    /// What is to be solved.
+    /// Kind of scene.
     pub fn kind(&self) -> Kind {
         self.kind
     }

@@ -13,7 +13,7 @@
 //! g = s + C_∞ q,   c ≥ 0, g ≥ 0, c g = 0   ⟹   q = φ(s), decreasing, piecewise smooth, in closed form
 //! ```
 //!
-//! What is left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (if a table has a harmonic stiffer than
+//! The unknowns left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (if a table has a harmonic stiffer than
 //! the last, its saddle point: see `modes`). Newton's method (semi-smooth, since φ has a corner where contact begins) with a line search on
 //! the slope converges from anywhere; once no node changes sides the remaining error is round-off. A step is solved for between the modes or,
 //! where these are more, between the nodes. Complementarity holds exactly by construction.
@@ -35,7 +35,7 @@ use faer::{Conj, MatMut, MatRef, Side};
 use nalgebra::{DMatrix, DVector};
 use rough::Rough;
 
-/// What does not change from one instant to the next.
+/// The contact problem of a rotor on its teeth: everything that does not change from one instant to the next, and a workspace.
 #[derive(Clone, Debug)]
 pub struct Contact {
     modes: Modes,
@@ -56,7 +56,7 @@ pub struct Contact {
     noise: f64,
     // Workspace, one value a node:
     s: Vec<f64>,
-    /// What s is off by, below its last bits.
+    /// Error of s below its last bits.
     rest: Vec<f64>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
@@ -121,7 +121,7 @@ impl Contact {
         }
     }
 
-    /// The same with asperities in place of the hard stop, if there are any, on a contact `width` \[m\] wide.
+    /// Replaces the hard stop by asperities, if there are any, on a contact `width` \[m\] wide.
     pub fn on(self, asperities: Option<Asperities>, width: f64) -> Self {
         let nodes = self.nodes();
         Self { asperities: asperities.map(|law| Rough::new(law, width, nodes)), ..self }
@@ -138,8 +138,8 @@ impl Contact {
         self.tolerance = tolerance.max(ROUND_OFF);
     }
 
-    /// What is subtracted from the force of the trapped gas at the nodes \[N/m\]: ambient pressure on the rotor's back, less a force of
-    /// the film that does not follow the gap.
+    /// Force subtracted from that of the trapped gas at the nodes \[N/m\]: ambient pressure on the rotor's back, less a force of the film
+    /// that does not depend on the gap.
     pub fn ambient_mut(&mut self) -> &mut [f64] {
         &mut self.ambient
     }

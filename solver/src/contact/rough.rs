@@ -16,7 +16,7 @@ pub(super) struct Rough {
     last: Vec<f64>,
 }
 
-/// What is found at a node.
+/// Solution at one node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     /// q \[N/m\].

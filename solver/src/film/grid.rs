@@ -5,7 +5,7 @@ use crate::numerics::{grading, legendre};
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// What lies beyond the first node along an axis. Beyond the last there is always ambient gas.
+/// Boundary at the first node of an axis. The last node is always at ambient pressure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// An edge at ambient pressure: the interval is the whole length, from −half to half.
@@ -21,7 +21,7 @@ pub struct Axis {
     pub nodes: Vec<f64>,
     /// Length each node stands for \[m\]; of a radial axis, area \[m²\].
     pub lengths: Vec<f64>,
-    /// What lies before the first node.
+    /// Boundary at the first node.
     pub start: Start,
     /// Slopes of a spectral axis at every node by the values at every node \[1/m\], `[node][value]`; empty where the nodes are
     /// those of finite volumes.

@@ -67,7 +67,7 @@ impl FilmState {
     }
 }
 
-/// What steps of one film took.
+/// Cost of the time steps of one film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Time steps.

@@ -29,7 +29,7 @@ impl Species {
         (self.viscosity)(temperature) * speed / pressure
     }
 
-    /// What it is at a temperature \[K\].
+    /// The ideal gas of this species at a temperature \[K\].
     pub fn at(&self, temperature: f64) -> IdealGas {
         IdealGas {
             name: self.name,
@@ -64,7 +64,7 @@ impl std::fmt::Display for IdealGas {
 }
 
 impl IdealGas {
-    /// What a gas is taken to be that is given by viscosity and mean free path alone: air at 20 °C.
+    /// Assumed for a gas that is given by viscosity and mean free path alone: air at 20 °C.
     pub const UNNAMED: Self =
         Self { name: "air", temperature: 293.15, gas_constant: 287.05, heat_ratio: 1.4, prandtl: 0.71 };
 

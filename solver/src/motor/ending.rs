@@ -44,7 +44,7 @@ impl From<Interrupted> for Stop {
     }
 }
 
-/// What was found; `None` if it was cancelled.
+/// The result; `None` if the solve was cancelled.
 pub(super) fn unless_cancelled<T>(found: Result<T, Stop>) -> Result<Option<T>, MotorError> {
     match found {
         Ok(found) => Ok(Some(found)),
@@ -53,7 +53,7 @@ pub(super) fn unless_cancelled<T>(found: Result<T, Stop>) -> Result<Option<T>, M
     }
 }
 
-/// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
+/// Reference for the relative error of α: α itself, or 0.01 where the film carries less than a hundredth of the load.
 pub fn unit(alpha: f64) -> f64 {
     alpha.abs().max(0.01)
 }

@@ -63,7 +63,7 @@ pub(super) struct MotorLevel {
     stiffness: f64,
     /// Residual of the last round; of a transient, the largest of a step of the last cycle, in ln ζ.
     pub(super) residual: f64,
-    /// What the gas, as it changed in the last round, changes of the film's load \[N\].
+    /// Change of the film's load due to the change of the gas in the last round \[N\].
     drift: f64,
     /// ζ from the film's last cycle, lines.
     line: Vec<f64>,
@@ -493,7 +493,7 @@ impl MotorLevel {
         self.mean_film_load_of(1)
     }
 
-    /// The same over every so many steps.
+    /// Cycle mean of the film load from every `every`-th step alone \[N\].
     fn mean_film_load_of(&self, every: usize) -> f64 {
         let (lengths, size) = (&self.grid().x.lengths, self.nx);
         let lines = (0..self.stored * self.steps).filter(|line| (line % self.steps).is_multiple_of(every));

@@ -29,7 +29,7 @@ use level::MotorLevel;
 
 /// Rounds that a start from another motor's state is given.
 const WARM_ROUNDS: usize = 12;
-/// The same where the cycle has to repeat to round-off, nearly.
+/// Likewise, where the cycle has to repeat nearly to round-off.
 const NEAR_ROUNDS: usize = 80;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
@@ -42,7 +42,7 @@ pub const NEARLY_FLOATS: f64 = 0.95;
 /// Loads, over its own, through which the state of a motor whose teeth touch is followed.
 const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
-/// What rounding may have changed of α.
+/// Round-off error of α: an α this close to 1 is 1.
 const ROUNDING: f64 = 1e-12;
 /// Share of the load below which an error is no reason to call a result unresolved.
 const NEGLIGIBLE: f64 = 1e-4;

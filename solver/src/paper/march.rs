@@ -15,7 +15,7 @@ const INNER_STALLED: usize = 8;
 /// Pressure \[p_a\] beyond which the march is taken to have blown up.
 const BLOWN_UP: f64 = 1e4;
 
-/// What one time step came to.
+/// Outcome of one time step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     /// Whether pressure and spacing settled.

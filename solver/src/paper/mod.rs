@@ -60,7 +60,7 @@ const CYCLE_TOLERANCE: f64 = 1e-5;
 const CYCLES: usize = 200;
 /// Cycles without a change smaller by [`PROGRESS`] after which the march is given up.
 const STALLED: usize = 10;
-/// What counts as progress from cycle to cycle.
+/// A cycle counts as progress if its change is below this multiple of the smallest one so far.
 const PROGRESS: f64 = 0.9;
 /// An inner loop that ends in a limit cycle smaller than this, in a march whose cycle repeats, is a warning and part of
 /// the error; a larger one means that there is no solution of this kind.
@@ -283,7 +283,7 @@ impl Counts {
     }
 }
 
-/// What went wrong in the steps of one cycle.
+/// Failures in the steps of one cycle.
 #[derive(Clone, Copy, Debug, Default)]
 struct Trouble {
     /// Steps whose inner loop did not settle.
@@ -310,7 +310,7 @@ impl Trouble {
         }
     }
 
-    /// What a solve that is not in order is off by; `None` if all is in order.
+    /// Greatest change or imbalance of the failed steps; `None` if none failed.
     fn residual(&self) -> Option<f64> {
         (self.unsettled + self.contact + self.overcarried > 0).then(|| self.change.max(self.imbalance))
     }

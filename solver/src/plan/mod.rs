@@ -1,4 +1,4 @@
-//! What THIS scene needs: which terms, how many teeth, which symmetries, which grids, and why (shown to the user).
+//! The plan of a solve: which terms, teeth, symmetries and grids the scene needs, and why (shown to the user).
 
 mod grid;
 mod motor;
@@ -16,7 +16,7 @@ use crate::rotor::{Compliances, MOST_HARMONICS, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};
 
-/// What was decided about one part of the model; `analysis::decision` of the crate `squeezefilm` says it, and why, in words.
+/// The decision about one part of the model; `analysis::decision` of the crate `squeezefilm` puts it, and the reason, into words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The part, and how it is solved.
@@ -25,7 +25,7 @@ pub struct Decision {
     pub overruled: bool,
     /// Bound of what it changes, relative to α; 0 is exact.
     pub effect: f64,
-    /// What speaks for and against leaving the part out; `None` if nothing had to be weighed.
+    /// Reasons for and against leaving the part out; `None` if nothing had to be weighed.
     pub weighed: Option<Weighed>,
 }
 
@@ -81,7 +81,7 @@ pub enum Choice {
     NoLeaks,
 }
 
-/// What speaks for and against leaving out a part of the model.
+/// Reasons for and against leaving out a part of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weighed {
     /// How the part is solved if it is left out.
@@ -128,7 +128,7 @@ impl Decision {
     }
 }
 
-/// What will be solved.
+/// The plan of a solve: model terms, symmetries, grids and tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Fidelity's name, or `custom`.
@@ -179,9 +179,9 @@ pub struct Plan {
     pub round_limit: usize,
     /// Record the pressure maps of the cycle, the largest of the fields.
     pub maps: bool,
-    /// What the error that grids tell is multiplied by: 1, and more where contact is sharper than any grid.
+    /// Safety factor on the error estimated from the grids: 1, and more where contact is sharper than any grid.
     pub irregular: f64,
-    /// What was decided, part by part.
+    /// The decisions, part by part.
     pub decisions: Vec<Decision>,
 }
 

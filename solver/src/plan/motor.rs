@@ -146,8 +146,8 @@ const RIGID: f64 = 1e-5;
 /// (calibrated: docs/validation.md).
 const SHARP: f64 = 2e-3;
 const IRREGULAR: f64 = 3.0;
-/// What the estimate grows by where teeth are crowned, so that contact ends between nodes, and where the amplitude is as many times the minimum
-/// spacing, so that it begins and ends within few instants (calibrated as well).
+/// Addition to that factor where teeth are crowned, so that contact ends between nodes, and where the amplitude is `AMPLE` times the minimum
+/// spacing, so that contact begins and ends within few instants (calibrated as well).
 const CROWNED: f64 = 0.6;
 const OF_AMPLE: f64 = 0.4;
 const AMPLE: [f64; 2] = [7.0, 12.0];

@@ -20,7 +20,7 @@ const UPWINDING_UNEVEN: f64 = 0.1;
 struct Reduction {
     /// For the whole model, and for the reduced one.
     choices: [Choice; 2],
-    /// What the switch says, `None` if it is left to the plan.
+    /// Whether the scene's switch leaves the term out; `None` if that is left to the plan.
     asked: Option<bool>,
     /// As of [`Weighed`].
     effect: f64,

@@ -27,7 +27,7 @@ use std::f64::consts::TAU;
 const ROUGHLY: f64 = 0.02;
 /// Share of the error asked for, or of the one that the load has, by which the film may carry too much or too little.
 const SHARE: f64 = 0.1;
-/// The same where the scene prescribes its grids, relative.
+/// Relative tolerance likewise, where the scene prescribes its grids.
 const ON_GIVEN_GRIDS: f64 = 1e-5;
 /// Solves after which the gap is taken as it is.
 const MOST_SOLVES: usize = 60;
@@ -64,7 +64,7 @@ pub enum FloatError {
         amplitude: f64,
         /// Least gap \[m\].
         min_spacing: f64,
-        /// What the film carries there, as a share of the load.
+        /// Film load at that gap, as a share of the plate's load.
         share: f64,
         /// The least amplitude with which it floats \[m\]; `None` if none does.
         needed: Option<f64>,
@@ -126,7 +126,7 @@ pub fn float(
     Ok((periodic, plan))
 }
 
-/// What a change of the gap does to a cycle: it at a smaller and at a greater gap, so far from each other \[m\].
+/// Sensitivity of a cycle to the gap: its states at a smaller and at a greater gap, `apart` \[m\] from each other.
 struct Beside {
     sides: Vec<Periodic>,
     apart: f64,

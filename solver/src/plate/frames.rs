@@ -23,7 +23,7 @@ impl Frames {
         self.gap.len()
     }
 
-    /// What is known at the steps, `value(step, k)` > 0, at a frame: cubic in the steps.
+    /// Interpolates to a frame what is known at the steps, `value(step, k)` > 0: cubic in the steps.
     pub(super) fn mix(&self, frame: usize, out: &mut [f64], value: impl Fn(usize, usize) -> f64) {
         let Some((step, t)) = self.places.get(frame).copied() else {
             out.iter_mut().enumerate().for_each(|(k, out)| *out = value(frame, k));

@@ -29,8 +29,8 @@ const PATIENCE: usize = 8;
 /// Share of the load's swing below which its mean need not be known more exactly.
 const LEAST_SHARE_OF_SWING: f64 = 1e-4;
 
-/// What the accuracy of a mean load is relative to \[N; of a strip N/m\]: itself, or a small share of the swing of the load where the
-/// mean is next to nothing beside it.
+/// Reference for the relative error of a mean load \[N; of a strip N/m\]: the mean itself, or a small share of the swing of the load where
+/// the mean is negligible beside it.
 pub fn unit(mean: f64, swing: f64) -> f64 {
     mean.abs().max(LEAST_SHARE_OF_SWING * swing)
 }

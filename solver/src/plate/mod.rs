@@ -172,7 +172,7 @@ impl Scene for Search<'_> {
     }
 }
 
-/// What one node less across changes of [`numbers`], on the coarsest grid.
+/// Changes of [`numbers`] on the coarsest grid with one node less across.
 fn width_errors(plate: &Plate, found: &Found<PlateLevel>) -> [f64; 5] {
     let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 5] };
     let of = |level: &PlateLevel| {

@@ -10,7 +10,7 @@
 use super::{BETWEEN, LineLoads, Recording};
 use std::ops::{Add, Range};
 
-/// What the lines of a scene have to obey.
+/// Constraints that the lines of a scene obey: balance of load, and contact only where the gap is closed.
 #[derive(Clone, Copy, Debug)]
 pub struct Balance {
     /// Load L that film and contact carry at each instant \[N\]; `None` for a plate, which is held.
@@ -227,7 +227,7 @@ impl Recording {
     }
 }
 
-/// What the fine grid misses at the coarse nodes of one frame: line loads \[N/m\] and thickness \[m\].
+/// Corrections of the fine grid at the coarse nodes of one frame: line loads \[N/m\] and thickness \[m\].
 struct Missing<'a> {
     fine: &'a LineLoads,
     coarse: &'a LineLoads,

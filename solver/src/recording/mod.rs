@@ -69,8 +69,8 @@ pub struct Recording {
     pub min_film_thickness_error: Vec<f64>,
     /// Of `max_pressure` \[Pa\].
     pub max_pressure_error: Vec<f64>,
-    /// What the lines of this recording are judged by ([`Recording::estimate`]): extrapolated from the two coarser grids, and those of
-    /// the finest grid as it was solved. Empty if there were not three grids.
+    /// References for the error of the lines of this recording ([`Recording::estimate`]): those extrapolated from the two coarser grids, and
+    /// those of the finest grid as it was solved. Empty if there were not three grids.
     pub yardsticks: Vec<LineLoads>,
 }
 

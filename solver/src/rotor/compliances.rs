@@ -1,4 +1,4 @@
-//! What solvers know of a rotor, whatever its model.
+//! A rotor as the solvers see it, whatever its model: its compliance to each harmonic of the wave.
 
 use super::ring::{Band, RingError};
 use crate::budget::Excess;
@@ -50,7 +50,7 @@ pub struct Wave {
     pub band: Band,
 }
 
-/// What solvers know of a rotor: its compliance to each harmonic of the wave.
+/// A rotor as the solvers see it: its compliance to each harmonic of the wave.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compliances {
     pub(super) wavelength: f64,
@@ -78,7 +78,7 @@ impl Compliances {
         self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
     }
 
-    /// The same with no harmonic stiffer than `least` \[m²/N\], so that short waves have a limit and the harmonics come to an end.
+    /// These with no harmonic stiffer than `least` \[m²/N\], so that short waves have a limit and the harmonics come to an end.
     #[must_use]
     pub fn at_least(self, least: f64) -> Self {
         let harmonics = self.harmonics.iter().map(|value| value.max(least)).collect();
@@ -91,13 +91,13 @@ impl Compliances {
         self.harmonics.iter().any(|value| *value < least)
     }
 
-    /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
+    /// Local compliance beyond `n` harmonics \[m²/N\]: the limit of short waves, or C(k_n) of a rotor whose limit is zero.
     pub fn beyond(&self, n: usize) -> f64 {
         if self.local > 0.0 { self.local } else { self.harmonic(n) }
     }
 }
 
-/// What `off`, a sum of errors of harmonics, is of the smooth part of the deflection under a point load.
+/// Ratio of `off`, a sum of errors of harmonics, to the smooth part of the deflection under a point load.
 pub(super) fn smooth_share(harmonics: &[f64], off: f64) -> f64 {
     off / harmonics.iter().take(SMOOTH).sum::<f64>()
 }

@@ -10,10 +10,10 @@
 //! Fig. 3. A shorter table ends where G has died out. The integral is the trapezoidal sum over the rows, which of even rows is exactly
 //! the inverse of the sum that the paper's equation (8) makes of its nodes, a local compliance at x = 0 included.
 //!
-//! What G(0) exceeds the line through the next two rows by is taken to be such a local compliance, times the first step.
+//! The excess of G(0) over the line through the next two rows is taken to be such a local compliance, times the first step.
 //!
-//! Two errors are stated: what the sum over every second row differs by (a third of that, the rule being of second order), and what a tail
-//! beyond X may add, at most 2 |G(X)|/k_n if it dies out without turning (the second mean value theorem). No more harmonics are resolved
+//! Two errors are stated: a third of the difference to the sum over every second row, the rule being of second order; and the contribution
+//! of a tail beyond X, at most 2 |G(X)|/k_n if it dies out without turning (the second mean value theorem). No more harmonics are resolved
 //! than the rows tell apart, and beyond the last of these the compliance is taken to be local.
 
 use super::compliances::{Compliances, RotorError, Wave, smooth_share};

@@ -63,7 +63,7 @@ impl Motor {
         Wave { length: self.wavelength(), waves: self.waves, band }
     }
 
-    /// What the rotor's model comes to for the first `count` harmonics.
+    /// Compliances of the rotor's model to the first `count` harmonics of the wave.
     ///
     /// # Errors
     /// See [`RotorCompliance::resolve`].
@@ -90,7 +90,7 @@ impl Motor {
     }
 }
 
-/// What was computed last, for whoever asks for the same again. A result does not depend on whether it is found here.
+/// Cache of the latest results, the newest first. A result does not depend on whether it is found here.
 struct Cache<K, V>(Mutex<VecDeque<(K, V)>>);
 
 impl<K: PartialEq, V: Clone> Cache<K, V> {
@@ -98,7 +98,7 @@ impl<K: PartialEq, V: Clone> Cache<K, V> {
         Self(Mutex::new(VecDeque::new()))
     }
 
-    /// What `key` gave, or what `compute` makes of it.
+    /// The cached result for `key`, or else that of `compute`, which is then kept.
     fn or<E>(&self, key: K, compute: impl FnOnce(&K) -> Result<V, E>) -> Result<V, E> {
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, found)) = kept().iter().find(|(known, _)| *known == key) {
@@ -119,7 +119,7 @@ fn bytes(elements: usize) -> u64 {
     (elements * (8e3 + 2.4e3 * elements.log2())) as u64
 }
 
-/// What a ring needs of memory while its compliances under a contact band are computed.
+/// Memory that a ring needs while its compliances under a contact band are computed.
 ///
 /// # Errors
 /// [`RotorError`] of a ring that has no mesh.
@@ -128,7 +128,7 @@ pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
     Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) })
 }
 
-/// What it needs while its natural frequencies are, of which each may be on a thread of its own.
+/// Memory that a ring needs while its natural frequencies are computed, each of which may be on a thread of its own.
 ///
 /// # Errors
 /// As [`need`].

@@ -16,7 +16,7 @@ use crate::plate;
 use crate::problem::{Motor, Plate, Problem, RotorCompliance, Scenario};
 use crate::solution::{Floating, Outcome, PlateResult, Solution, Status};
 
-/// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
+/// Relative tolerances for a repeating cycle: of the change of the trapped gas, and of the load.
 const TOLERANCE: f64 = 1e-6;
 const REPEATING: f64 = 1e-6;
 

@@ -29,7 +29,7 @@ pub struct Roughness {
     pub asperities: Option<Asperities>,
 }
 
-/// What a gap makes of the film's flow, as multiples of that between smooth faces as far apart as the film is thick.
+/// Flow factors at one gap: the film's flow as a multiple of that between smooth faces as far apart as the film is thick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
     /// Flow along x driven by pressure.

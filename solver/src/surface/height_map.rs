@@ -19,7 +19,7 @@ pub struct HeightMap {
     pub heights: Vec<f64>,
 }
 
-/// What is wrong with a measured face.
+/// Why a measured face cannot be read or used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HeightMapError {
     /// A line does not say what it has to.
@@ -27,7 +27,7 @@ pub enum HeightMapError {
     Line {
         /// Its number, from 1 on.
         line: usize,
-        /// What is expected.
+        /// The fault, and what is expected.
         what: String,
     },
     /// The lines do not say how the heights lie.

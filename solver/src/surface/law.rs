@@ -1,4 +1,4 @@
-//! What a contact law and a distribution of heights are.
+//! The types of contact laws and of distributions of summit heights.
 
 /// The summits of two faces, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

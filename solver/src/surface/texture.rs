@@ -1,4 +1,4 @@
-//! What a measured face amounts to: heights, lengths, spectral moments, and the keys of a preset that follow.
+//! Statistics of a measured face: heights, lengths, spectral moments, and the keys of a preset that follow.
 //!
 //! Sa, Sq, Sz, Ssk and Sku are those of ISO 25178-2 of the levelled heights. The correlation length along an axis is where the
 //! autocorrelation first falls to ½; the lay γ is the ratio of both (Peklenik 1968, as in Patir and Cheng 1978). Summits follow from
@@ -29,7 +29,7 @@ pub struct Texture {
     pub kurtosis: f64,
     /// Lengths along x and y at which the autocorrelation falls to ½ \[m\]; `None` where it does not, and along y of a profile.
     pub correlation: [Option<f64>; 2],
-    /// The same for 0.2, which ISO 25178-2 takes.
+    /// Likewise for the threshold 0.2 of ISO 25178-2.
     pub correlation_fifth: [Option<f64>; 2],
     /// Mean squares of height m₀ \[m²\], slope m₂ \[–\] and curvature m₄ \[1/m²\]; m₂ and m₄ are means over both directions.
     pub moments: [f64; 3],
@@ -39,7 +39,7 @@ pub struct Texture {
 
 /// Points of an autocorrelation that is kept beyond its fall to 0.2.
 const TAIL: usize = 3;
-/// What rounding leaves of heights that are level, over the largest of them.
+/// Round-off in levelled heights, relative to the largest height.
 const ROUNDING: f64 = 1e-12;
 /// Most lags of an autocorrelation.
 const MOST_LAGS: usize = 2000;

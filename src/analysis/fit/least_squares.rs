@@ -44,8 +44,8 @@ pub struct Fitted {
     pub chi_squared: f64,
     /// Measurements less unknowns that are not at a bound.
     pub degrees_of_freedom: usize,
-    /// What the errors that were given, or taken, have to be multiplied by for χ² to be as large as its degrees of freedom; 1 where the
-    /// errors are known; `None` without degrees of freedom.
+    /// Factor on the errors that were given or assumed which makes χ² equal to its degrees of freedom; 1 where the errors are known;
+    /// `None` without degrees of freedom.
     pub error_scale: Option<f64>,
     /// Whether the errors of the measurements were given.
     pub errors_known: bool,
@@ -61,7 +61,7 @@ pub struct Fitted {
     pub minima: Vec<Minimum>,
     /// How many solves it took.
     pub solves: usize,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// The scene with these values.
     pub scene: Scene,
@@ -83,7 +83,7 @@ pub struct FittedUnknown {
 /// A measurement beside what is computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FittedRow {
-    /// What is computed with its numerical error, or why nothing is: then the measurement was left out.
+    /// The computed value with its numerical error, or why there is none: then the measurement was left out.
     pub computed: Computed,
     /// (computed − measured)/error, with the errors scaled by [`Fitted::error_scale`].
     pub residual: Option<f64>,
@@ -176,7 +176,7 @@ fn sum_of_squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// What belongs to each measurement, from what was asked of each condition.
+/// Puts the values of each condition into the order of the measurements.
 fn in_order<T: Clone>(measured: &Measured, solved: &[Vec<T>]) -> Vec<T> {
     let mut next = vec![0; solved.len()];
     let computed = measured.measurements.iter().map(|one| {
@@ -345,7 +345,7 @@ struct Reached {
     converged: bool,
 }
 
-/// What there is to say of the minimum.
+/// Statistics of the minimum that was reached.
 fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
     let Reached { x, at, columns, computed, curves, minima, converged } = reached;
     let count = x.len();
@@ -432,7 +432,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
     Ok(fitted)
 }
 
-/// What the user should know of a fit.
+/// Warnings about a fit for the user.
 fn warnings(
     fitted: &Fitted,
     measured: &Measured,

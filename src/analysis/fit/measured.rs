@@ -47,7 +47,7 @@ impl Observable {
         }
     }
 
-    /// What it is, with its unit: `film load, N`.
+    /// Its description with its unit: `film load, N`.
     pub fn label(self, problem: &Problem) -> String {
         match self {
             Self::Number(quantity) => quantity.label(problem),
@@ -63,7 +63,7 @@ pub struct Measurement {
     pub label: String,
     /// Which of the conditions it was measured under.
     pub condition: usize,
-    /// What was measured.
+    /// The observable that was measured.
     pub what: Observable,
     /// The value, in the unit of its name.
     pub value: f64,
@@ -71,7 +71,7 @@ pub struct Measurement {
     pub error: f64,
 }
 
-/// What was measured, and under which conditions.
+/// A table of measurements, and the conditions under which they were made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Name of the table.
@@ -115,7 +115,7 @@ impl FromStr for ErrorSize {
     }
 }
 
-/// What a column holds.
+/// Kind of a column.
 #[derive(Clone, Copy)]
 enum Column {
     Key,
@@ -387,7 +387,7 @@ impl Measured {
     }
 }
 
-/// What a column of this name holds, or what is wrong with it.
+/// Kind of the column of this name, or why it has none.
 fn column(problem: &Problem, name: &str) -> Result<Column, String> {
     if Parameter::find(name).is_some() {
         return Ok(Column::Key);

@@ -140,7 +140,7 @@ impl<'a> Model<'a> {
         Ok(scene)
     }
 
-    /// What is asked of each condition, at each of several points, all in parallel: `[point][condition][asked]`. `None` if cancelled.
+    /// Observables of each condition at each of several points, computed in parallel: `[point][condition][asked]`. `None` if cancelled.
     pub(super) fn at(
         &self,
         points: &[Vec<f64>],
@@ -158,13 +158,13 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(rows)
     }
 
-    /// The same at one point, solved as asked: `[condition][asked]`.
+    /// Observables of each condition at one point, solved as asked: `[condition][asked]`. `None` if cancelled.
     pub(super) fn at_one(&self, x: &[f64], cancel: &Cancel) -> Option<Vec<Vec<Computed>>> {
         self.at(&[x.to_vec()], &self.settings, cancel)?.pop()
     }
 
-    /// The same, and of each condition under which torques are asked for the torque over the rotor's speed, `[rpm, N m]`, at speeds from the least to
-    /// the greatest of them.
+    /// As `at_one`, with the torque over the rotor's speed, `[rpm, N m]`, of each condition under which torques are asked for, at speeds from the
+    /// least to the greatest of them.
     pub(super) fn with_curves(&self, x: &[f64], cancel: &Cancel) -> Option<(Vec<Vec<Computed>>, Vec<Curve>)> {
         let of = |condition: usize| {
             let asked = &self.asked[condition];
@@ -184,12 +184,12 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(found)
     }
 
-    /// The same by drafts.
+    /// As `at`, from solves at draft fidelity.
     pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
         self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
     }
 
-    /// What is asked of a condition at `x`.
+    /// Observables of a condition at `x`.
     fn solve(
         &self,
         condition: usize,
@@ -272,7 +272,7 @@ impl<'a> Model<'a> {
     }
 }
 
-/// What is asked of a solution.
+/// Reads the observables off a solution.
 fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Computed> {
     let numbers = Numbers::of(problem, solution);
     let mut curve = Vec::new();

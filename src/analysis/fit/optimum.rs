@@ -34,7 +34,7 @@ const LINE: usize = 21;
 pub const FLAT: f64 = 0.01;
 /// Share of the bounds over which a number that changes less makes a plateau.
 const PLATEAU: f64 = 0.1;
-/// What stands for a number that could not be computed, in units of what is sought.
+/// Penalty in place of a number that could not be computed, in units of the number that is sought.
 const NOTHING: f64 = 1e3;
 
 /// A limit on another number: `alpha<0.3`, `stall_torque_nm>0.2`.
@@ -95,7 +95,7 @@ impl Goal {
         Ok(Self { quantity: find(if greatest { "maximise" } else { "minimise" }, name)?, greatest, limits })
     }
 
-    /// What it and its limits are read from.
+    /// Observables of the goal and of its limits.
     fn asked(&self) -> Vec<Observable> {
         std::iter::once(self.quantity)
             .chain(self.limits.iter().map(|(_, quantity)| *quantity))
@@ -118,11 +118,11 @@ impl Goal {
 /// The optimum found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Optimum {
-    /// What was sought.
+    /// The goal of the search.
     pub goal: Goal,
     /// The number there, with its numerical error.
     pub value: Estimate,
-    /// The same at the scene's own values; `None` if it cannot be solved there.
+    /// The number at the scene's own values; `None` if it cannot be solved there.
     pub before: Option<Estimate>,
     /// The numbers that are limited.
     pub limited: Vec<Estimate>,
@@ -132,7 +132,7 @@ pub struct Optimum {
     pub converged: bool,
     /// How many solves it took.
     pub solves: usize,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// The scene with these values.
     pub scene: Scene,
@@ -310,7 +310,7 @@ fn no_start(reason: &str) -> AnalysisError {
     AnalysisError::Search(format!("no start can be solved: {reason}"))
 }
 
-/// What there is to say of the optimum at `x`.
+/// Describes the optimum at `x`, with lines through it along each unknown.
 fn describe(
     model: &Model<'_>,
     goal: &Goal,

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 /// Singular values below this share of the largest are taken for nothing: differences of solves are no more accurate.
 const RANK: f64 = 1e-4;
 
-/// What the derivatives J of (computed/error) tell of the unknowns x.
+/// Certainty of the unknowns x, from the derivatives J of (computed/error).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Certainty {
     /// (JᵀJ)⁻¹ of the directions that are determined.

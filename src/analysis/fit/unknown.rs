@@ -11,7 +11,7 @@ pub const MOST_UNKNOWNS: usize = 12;
 /// Bounds with at least this ratio are searched by equal ratios.
 const WIDE: f64 = 10.0;
 
-/// What to choose: `key=from:to`, `key=from:to:log` or `key=from:to:lin`.
+/// A key to choose, and its bounds: `key=from:to`, `key=from:to:log` or `key=from:to:lin`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// Dotted key, as in `--set`.

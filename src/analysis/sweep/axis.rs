@@ -1,4 +1,4 @@
-//! What is varied in a sweep: keys, their ranges and the values between, and what is wrong with them.
+//! The axes of a sweep: keys, their ranges and the values between, and the checks of them.
 
 use crate::analysis::error::AnalysisError;
 use crate::digits::as_given;
@@ -16,7 +16,7 @@ pub const MOST_POINTS: usize = 100_000;
 /// Most keys that are varied at once.
 pub const MOST_KEYS: usize = 3;
 
-/// What to vary: `key=from:to:count`, `key=from:to:count:log` or `key=value,value,…`.
+/// A key to vary, and its values: `key=from:to:count`, `key=from:to:count:log` or `key=value,value,…`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Vary {
     /// Dotted key, as in `--set`.

@@ -79,7 +79,7 @@ pub fn without_grid(numerics: &Numerics) -> Numerics {
     Numerics { film_nodes_along: None, film_nodes_across: None, steps_per_cycle: None, tolerance: None, ..*numerics }
 }
 
-/// What is worth measuring for a scene: every fidelity and some accuracies between them, some grids, the scene's own if it has one,
+/// Settings worth measuring for a scene: every fidelity and some accuracies between them, some grids, the scene's own if it has one,
 /// and for a motor with a hard stop the paper's method on three meshes.
 pub fn candidates(problem: &Problem) -> Vec<Candidate> {
     let (scene, free) = (&problem.numerics, without_grid(&problem.numerics));

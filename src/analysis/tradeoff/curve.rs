@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// A setting on the curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// What was measured.
+    /// The setting, with its measured solves.
     pub run: MeasuredSetting,
     /// Median time \[s\]; NaN before the first run.
     pub median: f64,
@@ -26,7 +26,7 @@ pub struct Point {
     pub best: bool,
 }
 
-/// What a user asks for.
+/// The user's target: an accuracy or a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// An error of at most this share of the value that is judged.

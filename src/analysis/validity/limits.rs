@@ -70,11 +70,11 @@ pub struct Excess {
     pub limit: f64,
     /// Unit of both; empty for a pure number.
     pub unit: &'static str,
-    /// What that means, in a sentence.
+    /// Explanation, in a sentence.
     pub text: String,
 }
 
-/// What most limits are about. In SI units.
+/// Quantities of the film on which most limits depend, in SI units.
 pub(super) struct Film<'a> {
     pub(super) gas: &'a Gas,
     pub(super) omega: f64,

@@ -13,7 +13,7 @@ pub struct Axis {
     pub unit: String,
     /// Linear, or logarithmic: values that are not positive are then left out.
     pub scale: Scale,
-    /// What it covers.
+    /// Range that it covers.
     pub range: Range,
     /// Only whole numbers are labelled: rounds, teeth.
     pub whole: bool,
@@ -62,7 +62,7 @@ pub(in crate::export) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 
     values.into_iter().fold(ends, |[low, high], value| [low.min(value), high.max(value)])
 }
 
-/// What an axis or a colour bar covers.
+/// Range of an axis or a colour bar.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Range {
     /// The data.

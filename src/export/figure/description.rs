@@ -1,4 +1,4 @@
-//! What a figure is: plain data that can be kept and compared. Nothing in here draws.
+//! The description of a figure: plain data that can be stored and compared. Nothing in here draws.
 
 use super::axis::Axis;
 use super::layers::Layer;
@@ -17,7 +17,7 @@ pub struct Figure {
     pub share_x: bool,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
-    /// What the figure shows, in sentences: kept in the file as its description, not drawn.
+    /// Caption of the figure, in sentences: stored in the file as its description, not drawn.
     pub caption: String,
     /// Where the numbers come from: drawn small below the panels, and kept in the file.
     pub provenance: Provenance,
@@ -79,7 +79,7 @@ pub struct Panel {
     pub y: Axis,
     /// A second vertical axis on the right, for the layers that ask for it.
     pub right: Option<Axis>,
-    /// What is drawn.
+    /// Layers of the panel.
     pub layers: Vec<Layer>,
     /// Where the names of the layers stand.
     pub legend: Legend,

@@ -91,7 +91,7 @@ pub(in crate::export) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, F
     render::pixels(&drawing, &drawing.svg(figure, false), scale, [width, height])
 }
 
-/// What the file says about itself, by the keywords of PNG.
+/// Metadata of the file, by the keywords of PNG.
 fn facts(figure: &Figure) -> Vec<(&'static str, String)> {
     let software = if figure.provenance.version.is_empty() {
         "squeezefilm".to_owned()

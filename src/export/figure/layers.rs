@@ -1,4 +1,4 @@
-//! What is drawn in a panel: curves, areas, points, fields, words.
+//! The layers of a panel: curves, areas, points, fields, words.
 
 use super::axis::Range;
 use super::colour::{Colour, Colours};
@@ -9,7 +9,7 @@ use super::style::{Marker, Style};
 pub enum Layer {
     /// A curve.
     Line(Line),
-    /// What lies between two curves.
+    /// The area between two curves.
     Band(Band),
     /// Single points, with error bars or without.
     Points(Points),
@@ -149,12 +149,12 @@ pub struct Map {
     pub grid: Grid,
     /// How values become colours.
     pub colours: Colours,
-    /// What the colours cover.
+    /// Range of values that the colours cover.
     pub range: Range,
     /// Whether colours run from node to node or every node has its cell.
     pub shading: Shading,
-    /// With lines of equal value: up to ten round ones, each with its value, black or white as the colours ask. What the values are told apart by, a
-    /// typical error: where round values would be nearer to each other there are no lines.
+    /// Draws up to ten labelled contour lines at round values, black or white as the colours need. The number is a typical error of the values:
+    /// where round values would be nearer to each other than it, there are no lines. `None`: no contours.
     pub contours: Option<f64>,
 }
 

@@ -118,7 +118,7 @@ fn ranges(panels: &[Panel], columns: usize, shared: bool) -> Vec<Ranges> {
     panels.iter().enumerate().map(of).collect()
 }
 
-/// What the layers cover along x (0), or along the vertical axis (1) at the left or the right.
+/// Values that the layers cover along x (0), or along the vertical axis (1) at the left or the right.
 fn covered(panel: &Panel, scale: Scale, along: usize, right: bool) -> Vec<f64> {
     let log = scale == Scale::Log;
     let of = |layer: &Layer| match layer {
@@ -162,7 +162,7 @@ fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
     }
 }
 
-/// What an upright axis takes beside the plotting area.
+/// Width that an upright axis needs beside the plotting area.
 fn room(axis: &Ruler) -> f64 {
     axis.reach() + if axis.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
 }
@@ -192,7 +192,7 @@ fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
 }
 
 impl Placed {
-    /// What is known before the width is: ranges, and what stands beside the axes.
+    /// The layout as far as it does not depend on the width: ranges, and what stands beside the axes.
     fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
         let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
         let bar = first_map(panel).map(|map| {
@@ -213,7 +213,7 @@ impl Placed {
         }
     }
 
-    /// What stands right of the plotting area.
+    /// Width needed at the right of the plotting area: axis and colour bar.
     fn right_side(&self) -> f64 {
         let axis = self.right.as_ref().map_or(0.0, room);
         let bar = self.bar.as_ref().filter(|bar| bar.upright).map_or(0.0, |bar| BAR_GAP + BAR + room(&bar.ruler));
@@ -221,7 +221,7 @@ impl Placed {
         (axis + bar).max(7.0)
     }
 
-    /// What stands above the plotting area: title, legend, colour bar.
+    /// Height needed above the plotting area: title, legend, colour bar.
     fn above(&self, panel: &Panel) -> f64 {
         let text = legend::height(self, panel);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
@@ -236,7 +236,7 @@ impl Placed {
         self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.ruler.label, NOTE))
     }
 
-    /// What stands below it.
+    /// Height needed below the plotting area: ticks, their labels and the axis label.
     fn below(&self) -> f64 {
         if !self.x_labels {
             return MAJOR;

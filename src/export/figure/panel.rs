@@ -76,7 +76,7 @@ struct On<'a> {
 }
 
 impl On<'_> {
-    /// What a reader of the file needs to get back from places to values.
+    /// Attributes of the SVG group from which a reader of the file can convert positions to values.
     fn attributes(&self) -> String {
         let Rect { x, y, width, height } = self.placed.rect;
         let axis = |Ruler { range, .. }: &Ruler| {

@@ -32,7 +32,7 @@ const SAMPLE: f64 = 17.0;
 /// Between a sample and its name.
 pub(super) const SPACE: f64 = 3.5;
 
-/// What is read along an axis or a colour bar.
+/// The scale along an axis or a colour bar: range, ticks and label.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     pub(super) range: Scaled,
@@ -84,7 +84,7 @@ impl Placed {
     }
 }
 
-/// What stands for a layer in the legend.
+/// Symbol of a layer in the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Sign {
     Line(Style),

@@ -36,7 +36,7 @@ pub(super) fn pixels(
     Ok(Pixels { width: pixmap.width(), height: pixmap.height(), rgb })
 }
 
-/// The same as a PDF of one page, its text as text.
+/// A drawing as a PDF of one page, with its text as text.
 pub(super) fn pdf(drawing: &Drawing, svg: &str, facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
     document(&[Page { size: drawing.size, pictures: &drawing.pictures, svg }], facts)
 }

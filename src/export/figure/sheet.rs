@@ -60,7 +60,7 @@ fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     filled(sheet, size).pages.into_iter().map(|page| page.body).collect()
 }
 
-/// What set a sheet in type of this size.
+/// The setter after it has set the whole sheet in type of this size.
 fn filled(sheet: &[Piece], size: f64) -> Setter {
     let mut setter = Setter { pages: vec![Svg::default()], column: 0, y: MARGIN, size };
     for (i, piece) in sheet.iter().enumerate() {

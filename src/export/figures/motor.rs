@@ -172,7 +172,7 @@ pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
     all_teeth_on(recording, frame, &unit, scale, pressure_span(recording))
 }
 
-/// The same in a unit, of which a pascal is `scale`, with colours that cover `span` \[Pa\].
+/// As [`all_teeth`], in `unit`, of which a pascal is `scale`, with colours that cover `span` \[Pa\].
 pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scale: f64, span: [f64; 2]) -> Panel {
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());

@@ -47,7 +47,7 @@ pub(super) fn along(recording: &Recording, frame: usize, metre: f64, value: impl
     points
 }
 
-/// The same of a load, with nothing rather than a line at zero where a tooth does not touch.
+/// As `along`, for a load: with a gap rather than a line at zero where a tooth does not touch.
 pub(super) fn along_where_not_zero(
     recording: &Recording,
     frame: usize,

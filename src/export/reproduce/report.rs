@@ -17,7 +17,7 @@ const LEAD: &str = "T. Maeno and D. B. Bogy, IEEE Transactions on Ultrasonics, F
     table and figure that the text defines, computed anew. What was published stands beside the same algorithm on the same \
     meshes, and beside the converged solution of the same equations.";
 
-/// What of the paper is not in here, and why.
+/// Parts of the paper that are not reproduced, and why.
 const LEFT_OUT: [&str; 3] = [
     "Fig. 1 is the flow chart of the algorithm. It is not a result; the program follows it literally as method paper.",
     "Fig. 2 is a sketch of rotor and stator with the values of the calculation. The text does not repeat them all: amplitude, spacing, number \

@@ -1,4 +1,4 @@
-//! What the paper says in words, beside what comes of it.
+//! Statements of the paper's text, beside the numbers computed for them.
 
 use crate::analysis::reproduce::{Both, Reproduction};
 use crate::digits::significant;
@@ -10,13 +10,13 @@ use serde::Serialize;
 pub struct Statement {
     /// The statement, in the paper's words or nearly.
     pub says: &'static str,
-    /// What the paper gives for it.
+    /// The paper's own numbers for it.
     pub published: String,
     /// By its algorithm on its own meshes.
     pub paper: String,
     /// Converged.
     pub converged: String,
-    /// What to make of it.
+    /// Verdict: whether the computed numbers agree.
     pub verdict: &'static str,
 }
 
@@ -26,7 +26,7 @@ fn result(both: Option<&Both>, paper: bool) -> Option<&MotorResult> {
     Both::result(if paper { &both.paper } else { &both.ours })
 }
 
-/// What stands for a number that is not known.
+/// Placeholder for a number that is not known.
 const UNKNOWN: &str = "–";
 
 /// α, with its error.

@@ -1,4 +1,4 @@
-//! What is drawn, computed from runs and scenes: scales, curves, samples, texts. No egui in here, and no state.
+//! Data for drawing, derived from runs and scenes: scales, curves, samples, texts. No egui in here, and no state.
 
 pub mod format;
 pub mod ring;

@@ -34,7 +34,7 @@ const MARKS: u32 = 12;
 const MARK: f64 = 0.035;
 const MARK_HEIGHT: f64 = 0.06;
 
-/// From where the ring is seen.
+/// Direction that the ring is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// Angle round the axis \[rad\].
@@ -60,7 +60,7 @@ impl Orbit {
     }
 }
 
-/// What a face is of.
+/// The part of the drawing that a face belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
     /// The top of a tooth, with the film pressure at its two ends \[Pa\].
@@ -75,15 +75,15 @@ pub enum Part {
     Mark,
 }
 
-/// A face that is seen.
+/// A visible face.
 #[derive(Clone, Copy, Debug)]
 pub struct Face {
     /// Its corners, counter-clockwise, as (right, up) in contact radii: the first and the last are at one end of it along the ring, the other two
     /// at the other end.
     pub corners: [[f64; 2]; 4],
-    /// What it is of.
+    /// The part that it belongs to.
     pub part: Part,
-    /// How much light it has, 0 to 1.
+    /// Brightness, 0 to 1.
     pub light: f64,
     near: f64,
 }
@@ -109,7 +109,7 @@ pub struct Ring<'a> {
     pub recording: &'a Recording,
     /// The instant, in frames.
     pub place: f64,
-    /// Whole cycles that went before.
+    /// Whole cycles before this one.
     pub cycles: f64,
     /// The lines at that instant.
     pub lines: &'a Lines,
@@ -136,7 +136,7 @@ impl Ring<'_> {
         self.exaggeration / self.motor.contact_radius
     }
 
-    /// From the bottom of the stator to the top of the rotor, in contact radii.
+    /// Height from the bottom of the stator to the top of the rotor, in contact radii.
     fn tall(&self) -> f64 {
         (self.heights[1] - self.heights[0]) * self.scale() + LIFT
     }
@@ -182,7 +182,7 @@ impl Ring<'_> {
         stations
     }
 
-    /// Where the stator's tops are, and half-way over each groove.
+    /// Stations of the rotor: at those of the stator's tops, and half-way over each groove.
     fn rotor(&self, stator: &[Station]) -> Vec<Station> {
         let mut places: Vec<f64> = stator.iter().filter(|top| top.pressure.is_some()).map(|top| top.x).collect();
         if self.with_grooves() {
@@ -239,7 +239,7 @@ impl Ring<'_> {
 /// A cut across a body.
 #[derive(Clone, Copy)]
 struct Cut {
-    /// As they are seen, (right, up, near): the inner and the outer one below, then those above.
+    /// Corners as seen, (right, up, near): the inner and the outer one below, then those above.
     corners: [[f64; 3]; 4],
     /// Light on the outer wall there.
     light: f64,

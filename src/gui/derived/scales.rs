@@ -1,4 +1,4 @@
-//! What the views need of a whole cycle, computed once for a run: fixed ranges of the axes, and curves over the cycle.
+//! Data of a whole cycle for the views, computed once per run: fixed ranges of the axes, and curves over the cycle.
 
 use crate::analysis::compare::ComparedRun;
 use crate::problem::Scenario;
@@ -8,12 +8,12 @@ use crate::recording::Recording;
 #[derive(Debug, Default)]
 pub struct Curve {
     values: Vec<f64>,
-    /// Not periodic: the last value holds to the end of the cycle.
+    /// Whether it is not periodic: the last value then holds to the end of the cycle.
     once: bool,
 }
 
 impl Curve {
-    /// One value for each frame.
+    /// A curve of one value for each frame.
     pub fn new(values: impl IntoIterator<Item = f64>) -> Self {
         Self { values: values.into_iter().collect(), once: false }
     }
@@ -66,7 +66,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Those that hold both cycles.
+    /// The ranges that hold both cycles.
     pub fn and(self, other: Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
         Self {

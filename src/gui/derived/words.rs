@@ -37,9 +37,9 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("numerics.time", "trapped", "None, gas trapped"),
 ];
 
-/// The choice that leaves it to the plan.
+/// Label of the choice that leaves a parameter to the plan.
 const AUTO: &str = "Automatic";
-/// What the scene says for it.
+/// Name of that choice in a scene.
 const AUTO_NAME: &str = "auto";
 
 /// The name of a parameter: its own, or its key in words with a capital letter.
@@ -59,7 +59,7 @@ pub fn choice(key: &str, name: &str) -> String {
     }
 }
 
-/// As [`choice`]; of what is left to the plan, also what `plan` has chosen: "Auto: left out".
+/// As [`choice`]; if it is left to the plan, also the choice of the `plan`: "Auto: left out".
 pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     let found = plan.iter().find(|decision| decision.key() == Some(key));
     match found {
@@ -68,7 +68,7 @@ pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     }
 }
 
-/// That the plan has chosen this.
+/// Words for a choice made by the plan: "Auto: left out".
 pub fn automatic(key: &str, name: &str) -> String {
     format!("Auto: {}", uncapitalised(&choice(key, name)))
 }
@@ -86,7 +86,7 @@ pub fn field_name(parameter: &Parameter) -> String {
     }
 }
 
-/// What the user should know about a parameter that has no effect here.
+/// A note on a parameter that has no effect in this scene; `None` if it has one.
 pub fn unused(scene: &Scene, parameter: &Parameter) -> Option<&'static str> {
     match parameter.key {
         key if !scene.heeds(key) => Some("No effect on a plate"),

@@ -1,14 +1,14 @@
-//! What the solver is doing.
+//! Progress of the background solver, as the window shows it.
 
 use crate::control::Progress;
 use crate::fidelity::Fidelity;
 
-/// What the solver is doing.
+/// State of the background solver: the newest request and how far it is.
 #[derive(Clone, Debug, Default)]
 pub struct Activity {
     /// The newest request.
     pub number: u64,
-    /// What is running.
+    /// The solve in progress; `None` while the solver is idle.
     pub running: Option<Running>,
     /// Why there is no newer result.
     pub failure: Option<String>,
@@ -17,9 +17,9 @@ pub struct Activity {
 /// The fidelity being solved, and how far it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Running {
-    /// Which fidelity.
+    /// The fidelity being solved.
     pub fidelity: Fidelity,
-    /// Its newest round.
+    /// State after the newest round.
     pub round: Progress,
     /// Residual at the start of this grid.
     first: f64,
@@ -36,7 +36,7 @@ impl Running {
         ((before(level) + here * (before(level + 1) - before(level))) / before(levels.max(1))) as f32
     }
 
-    /// In words.
+    /// The progress in words.
     pub fn text(&self) -> String {
         let Progress { level, levels, iteration, residual, tolerance, .. } = self.round;
         let fidelity = self.fidelity;

@@ -1,8 +1,8 @@
-//! Work in the background, as a tab has it.
+//! Background work that belongs to a tab.
 
 use crate::job::task::{News, Task};
 
-/// Work in the background, while it goes on.
+/// A background task and the outcome of the last one.
 #[derive(Debug)]
 pub struct Background<M, R> {
     task: Option<Task<M, R>>,
@@ -25,7 +25,7 @@ impl<M, R> From<Task<M, R>> for Background<M, R> {
 }
 
 impl<M, R> Background<M, R> {
-    /// Asks it to end.
+    /// Asks the task to end.
     pub fn cancel(&mut self) {
         if let Some(task) = &self.task {
             task.cancel();
@@ -33,14 +33,14 @@ impl<M, R> Background<M, R> {
         }
     }
 
-    /// Whether it goes on.
+    /// Whether the task is running.
     pub fn running(&self) -> bool {
         self.task.is_some()
     }
 }
 
 impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
-    /// What it has told since the last time; it does not go on after its end.
+    /// Messages and result since the last call; drops the task when it has ended.
     pub(super) fn news(&mut self) -> News<M, R> {
         let news = self.task.as_ref().map_or(News { messages: Vec::new(), end: None }, Task::drain);
         if news.end.is_some() {
@@ -49,7 +49,7 @@ impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
         news
     }
 
-    /// The same of work whose failure is told beside it: its messages, and what it found in the end.
+    /// As [`Self::news`], but keeps an error in `failure`: the messages, and the result if there is one.
     pub(super) fn found(&mut self) -> (Vec<M>, Option<R>) {
         let News { messages, end } = self.news();
         let found = end.and_then(|end| {

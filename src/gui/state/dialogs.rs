@@ -1,10 +1,10 @@
-//! What file dialogs are for, what came of one, and what can be exported.
+//! Purposes of file dialogs, their answers, and the kinds of export.
 
 use super::document::Next;
 use crate::job::export::Picture;
 use std::path::PathBuf;
 
-/// What can be written to a file, or into a folder, of its own.
+/// A kind of export to a file or a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Export {
     /// All results of the run on screen, as `solve --out` writes them.
@@ -35,7 +35,7 @@ pub enum Export {
     Sensitivity,
     /// All that `fit --out` writes.
     Fit,
-    /// What was answered in lessons.
+    /// The answers given in lessons.
     Answers,
 }
 
@@ -46,21 +46,21 @@ const TABLE: Filter = Some(("Table", &["csv"]));
 const REPORT: Filter = Some(("Report", &["html"]));
 const FIGURE: Filter = Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }));
 
-/// What there is to say of an export.
+/// Description of an export, for menus and dialogs.
 #[derive(Clone, Copy, Debug)]
 pub struct Described {
     /// Its entry in menus.
     pub entry: &'static str,
-    /// What its file is called at first.
+    /// Suggested name of the file or folder.
     pub file_name: &'static str,
     /// Kind of file and its extensions; `None` for a folder.
     pub filter: Filter,
-    /// What is written, for whoever has to choose.
+    /// One sentence on the contents, shown on hover.
     pub about: &'static str,
 }
 
 impl Export {
-    /// What there is to say of it.
+    /// Its description.
     #[rustfmt::skip]
     pub fn described(self) -> Described {
         let (entry, file_name, filter, about): (_, _, Filter, _) = match self {
@@ -94,7 +94,7 @@ impl Export {
         Described { entry, file_name, filter, about }
     }
 
-    /// What is asked.
+    /// Title of its file dialog.
     pub fn title(self) -> &'static str {
         self.described().entry.trim_end_matches('…')
     }
@@ -130,10 +130,10 @@ pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBu
     ))
 }
 
-/// What a picture of the window is called at first.
+/// Suggested file name of a picture of the window.
 pub(super) const PICTURE: &str = "squeezefilm.png";
 
-/// What a dialog is for, with all that its answer needs.
+/// Purpose of a file dialog, with the data that its answer needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
     /// Open a preset.
@@ -153,7 +153,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// What is asked.
+    /// Title of the dialog.
     pub fn title(&self) -> &'static str {
         match self {
             Self::Open => "Open a preset",
@@ -192,7 +192,7 @@ impl Purpose {
     }
 }
 
-/// What came of a dialog.
+/// Answer of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// A file was chosen.

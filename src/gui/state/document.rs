@@ -4,12 +4,12 @@ use crate::fidelity::Fidelity;
 use crate::scene::{Scene, SceneError, presets};
 use std::path::{Path, PathBuf};
 
-/// Edits that can be taken back.
+/// Number of edits that can be undone.
 const HISTORY: usize = 500;
 /// Edits are solved up to this fidelity, unless another is asked for.
 const TARGET: Fidelity = Fidelity::Fine;
 
-/// What comes after the present scene; unsaved changes of that would be lost.
+/// The scene to open next, or the end of the window; unsaved changes to the present scene would be lost.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Next {
     /// A built-in preset.
@@ -64,7 +64,7 @@ impl Document {
         Self { practice: true, ..Self::opened(scene, None) }
     }
 
-    /// The same, solved up to this fidelity.
+    /// The same document, solved up to this fidelity.
     pub fn with_target(self, target: Fidelity) -> Self {
         Self { target, ..self }
     }
@@ -161,7 +161,7 @@ impl Document {
         }
     }
 
-    /// Takes the last edit back; whether there was one.
+    /// Undoes the last edit. Returns whether there was one.
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.undo.pop() else { return false };

@@ -12,7 +12,7 @@ use crate::solution::Status;
 /// A drop, under way or ended.
 #[derive(Debug)]
 pub struct Dropped {
-    /// It tells each cycle, and returns how it ended.
+    /// The task; its messages are the cycles, its result is how it ended.
     pub work: Background<Cycle, Fall>,
     scene: Scene,
     /// Grids and steps are those of this fidelity.
@@ -29,7 +29,7 @@ impl Dropped {
         Self { work: task.into(), scene, fidelity, cycles: Vec::new(), ended: None }
     }
 
-    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    /// Takes progress and results since the last call; cancels the task if `scene` is another one.
     pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         self.cycles.extend(messages);

@@ -3,12 +3,12 @@
 use crate::scene::{Parameter, Scene, Value, quantity_text};
 use std::collections::BTreeMap;
 
-/// What happens to a parameter.
+/// A change of one parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// It is set.
+    /// It is set to a value.
     Value(Value),
-    /// It is set to what was typed.
+    /// It is set from typed text.
     Text(String),
     /// It is removed.
     Unset,
@@ -60,7 +60,7 @@ impl RejectedEdits {
         self.0.clear();
     }
 
-    /// The scene has changed: what it would no longer refuse is dropped, and the other reasons are given anew.
+    /// Checks the rejected edits again after a change of the scene: drops those that it would accept now, and renews the reasons of the others.
     pub fn review(&mut self, scene: &Scene) {
         self.0.retain(|key, (change, message)| match change.applied(scene, key) {
             Ok(_) => false,

@@ -1,4 +1,4 @@
-//! An export under way, or what the last one wrote.
+//! The export in progress, and the files of the last one.
 
 use super::background::Background;
 use super::dialogs::Export;
@@ -12,30 +12,30 @@ use std::time::Duration;
 /// An export under way.
 #[derive(Debug)]
 pub struct RunningExport {
-    /// What is written.
+    /// The kind of export.
     pub export: Export,
-    /// It tells how many pictures of an animation are drawn.
+    /// The task; its messages count the pictures of an animation that are drawn.
     pub work: Background<<Files as Work>::Message, <Files as Work>::Found>,
     /// When it began.
     pub started: Instant,
-    /// How many pictures are drawn, of how many.
+    /// Pictures drawn so far, and their total.
     pub drawn: (usize, usize),
 }
 
-/// All that the window knows of exports.
+/// State of exports.
 #[derive(Debug, Default)]
 pub struct ExportState {
     /// The export that is being written.
     pub running: Option<RunningExport>,
-    /// What was written last, and when: a note for a while.
+    /// Files written last, and when; shown as a note for a while.
     written: Option<(Vec<PathBuf>, Instant)>,
 }
 
-/// How long what was written is told.
+/// How long the note about written files is shown.
 const TOLD: Duration = Duration::from_secs(10);
 
 impl ExportState {
-    /// One has begun.
+    /// Starts to track an export that has begun.
     pub fn begin(&mut self, export: Export, task: TaskOf<Files>, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
@@ -46,22 +46,22 @@ impl ExportState {
         self.running.iter_mut().for_each(|running| running.work.cancel());
     }
 
-    /// What was written last, as long as that is told.
+    /// Files written last, while the note about them is shown.
     pub fn written(&self) -> Option<&[PathBuf]> {
         self.written.as_ref().map(|(paths, _)| paths.as_slice())
     }
 
-    /// Files were written.
+    /// Shows a note about these files.
     pub fn wrote(&mut self, paths: Vec<PathBuf>, now: Instant) {
         self.written = Some((paths, now));
     }
 
-    /// What was written has been read.
+    /// Closes the note.
     pub fn close_note(&mut self) {
         self.written = None;
     }
 
-    /// Takes what has been told since the last time; an error is to be shown.
+    /// Takes progress and results since the last call; returns an error to be shown.
     pub fn drain(&mut self, now: Instant) -> Option<String> {
         self.written.take_if(|(_, since)| now.saturating_duration_since(*since) > TOLD);
         let running = self.running.as_mut()?;

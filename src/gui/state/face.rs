@@ -6,7 +6,7 @@ use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
 use std::sync::Arc;
 
-/// Measured heights, level, and what they come to.
+/// A measured face: its heights, levelled, and their statistics.
 #[derive(Debug)]
 pub struct Face {
     /// Name of the file.
@@ -25,7 +25,7 @@ pub type FaceTask = Task<(), (HeightMap, Texture)>;
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]
 pub struct FaceState {
-    /// What reads a file.
+    /// The task that reads a file.
     pub work: Background<(), (HeightMap, Texture)>,
     /// Name of that file.
     name: String,
@@ -39,7 +39,7 @@ impl FaceState {
         (self.work, self.name) = (task.into(), name);
     }
 
-    /// Takes what was read since the last time; why it was not is to be shown.
+    /// Takes a face that was read since the last call; returns an error to be shown.
     pub fn drain(&mut self) -> Option<String> {
         let found = self.work.news().end?.map(|found| {
             let (map, texture) = found?;

@@ -1,4 +1,4 @@
-//! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
+//! State of the fit tab: the table of measurements, the form, and the result of a fit or of the search for an optimum.
 
 use super::background::Background;
 use super::document::solved_alike;
@@ -13,13 +13,13 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
 use std::sync::Arc;
 
-/// What is chosen at first: the first that a scene has.
+/// Keys for the first unknown of a new form, in order of preference.
 const FIRST: [&str; 2] = ["plate.mean_gap_um", "film.min_spacing_nm"];
 
-/// What is looked for.
+/// Goal of the search: a fit or an optimum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sought {
-    /// Agreement with the measurements.
+    /// Best agreement with the measurements.
     #[default]
     Agreement,
     /// The greatest value of a number.
@@ -28,12 +28,12 @@ pub enum Sought {
     Least,
 }
 
-/// What is asked for.
+/// The form, as typed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
     /// The keys to be chosen.
     pub axes: Vec<AxisForm>,
-    /// What is looked for.
+    /// Goal of the search.
     pub sought: Sought,
     /// The number whose optimum is sought, by its name.
     pub quantity: Option<&'static str>,
@@ -46,23 +46,23 @@ pub struct FitForm {
 pub struct FitState {
     /// The table.
     pub measured: Option<Arc<Measured>>,
-    /// What is asked for, as typed.
+    /// The form, as typed.
     pub form: FitForm,
-    /// What is wrong with each key of the form.
+    /// Fault of each key of the form, in order; `None` if it is valid.
     pub faults: Vec<Option<String>>,
     /// Numbers whose optimum can be sought: name, and words with the unit.
     pub quantities: Vec<(&'static str, String)>,
-    /// Of which scene the form was judged.
+    /// Scene for which the form was last checked; `None` if it has changed since.
     judged: Option<Scene>,
-    /// What is wrong with the limits.
+    /// Fault of the limits; `None` if they are valid.
     pub goal_fault: Option<String>,
-    /// The search: it tells how many points were tried, and the best so far.
+    /// The search; its messages carry the number of points tried and the best value so far.
     pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
-    /// The scene that it is of.
+    /// The scene that it searches for.
     asked: Option<Scene>,
-    /// How many points were tried, and the least χ² or the best number so far.
+    /// Number of points tried, and the least χ² or the best value so far.
     pub told: Option<(usize, f64)>,
-    /// What was found, and for which scene.
+    /// The result, and the scene that it was searched for.
     pub found: Option<(Scene, Arc<Found>)>,
 }
 
@@ -111,7 +111,7 @@ impl FitState {
         (torques, others)
     }
 
-    /// Looks whether the form is one of `scene`, and what is wrong with it; only if one of them has changed.
+    /// Fits the form to `scene` and checks it, if either has changed.
     pub fn review(&mut self, scene: &Scene) {
         let Self { form: FitForm { axes, quantity, .. }, quantities: known, .. } = self;
         if self.judged.as_ref() == Some(scene) && self.faults.len() == axes.len() {
@@ -134,15 +134,15 @@ impl FitState {
         self.judged = Some(scene.clone());
     }
 
-    /// Asks for this.
+    /// Replaces the form.
     pub fn ask(&mut self, form: FitForm) {
         (self.form, self.judged) = (form, None);
     }
 
-    /// The optimum that is sought; `None` of agreement.
+    /// The optimum that is sought; `None` if a fit is.
     ///
     /// # Errors
-    /// What is wrong with the limits.
+    /// If a limit cannot be read, or the goal does not fit the scene.
     pub fn goal(&self, scene: &Scene) -> Result<Option<Goal>, String> {
         let FitForm { sought, quantity, .. } = &self.form;
         let (Some(name), true) = (*quantity, *sought != Sought::Agreement) else { return Ok(None) };
@@ -150,7 +150,7 @@ impl FitState {
         Goal::new(scene, name, *sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
     }
 
-    /// Whether something else is asked for than what was found.
+    /// Whether the form asks for something else than the last result.
     pub fn asks_for_another(&self) -> bool {
         let FitForm { sought, quantity, .. } = &self.form;
         self.found.as_ref().is_some_and(|(_, found)| match &**found {
@@ -164,10 +164,10 @@ impl FitState {
         })
     }
 
-    /// The bounds that the form says.
+    /// The bounds given in the form.
     ///
     /// # Errors
-    /// The first thing that is wrong with it.
+    /// The first fault of the form.
     pub fn asked(&self, scene: &Scene) -> Result<Vec<Bounds>, String> {
         if let Some(fault) = self.faults.iter().flatten().chain(&self.goal_fault).next() {
             return Err(fault.clone());
@@ -180,7 +180,7 @@ impl FitState {
         (self.work, self.asked, self.told) = (task.into(), Some(scene), None);
     }
 
-    /// Takes what was told and found since the last time.
+    /// Takes progress and results since the last call.
     pub fn drain(&mut self) {
         let (messages, found) = self.work.found();
         self.told = messages.into_iter().last().or(self.told);
@@ -201,7 +201,7 @@ fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
     measurable(&problem).into_iter().map(|quantity| (quantity.name(), quantity.label(&problem))).collect()
 }
 
-/// What a line of the form says.
+/// The bounds given in a line of the form.
 fn bounds(scene: &Scene, axis: &AxisForm) -> Result<Bounds, String> {
     let (from, to, scale) = axis.ends()?;
     let bounds = Bounds { key: axis.key.to_owned(), from, to, scale: Some(scale) };

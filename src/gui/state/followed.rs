@@ -1,5 +1,5 @@
-//! What is computed in the background of what is on screen while its tab is shown, and kept until something else is on screen: torque over
-//! speed of a run, and a rotor by itself.
+//! Results computed in the background while their tab is shown, and kept until there are newer ones: torque over speed of a run,
+//! and the properties of a rotor.
 
 use super::background::Background;
 use crate::analysis::rotor::RotorCurves;
@@ -11,7 +11,7 @@ use crate::problem::{Motor, RotorCompliance, Scenario};
 use crate::rotor::Wave;
 use std::sync::Arc;
 
-/// What is known of one `K`, and what is being computed.
+/// The result `T` for one `K`, and the task that computes the next.
 #[derive(Debug)]
 pub struct Followed<K, T> {
     asked: Option<K>,
@@ -26,13 +26,13 @@ impl<K, T> Default for Followed<K, T> {
 }
 
 impl<K: Clone, T: Send + 'static> Followed<K, T> {
-    /// `task` computes that of `of`. What was found before stays until then.
+    /// Follows `of`, whose result `task` computes. The previous result stays until then.
     pub fn follow(&mut self, of: K, task: Option<Task<(), T>>) {
         self.asked = Some(of);
         task.into_iter().for_each(|task| self.work = task.into());
     }
 
-    /// Takes what was found since the last time.
+    /// Takes a result that has come since the last call.
     pub fn drain(&mut self) {
         if let Some(end) = self.work.news().end
             && let Some(of) = self.asked.clone()
@@ -41,12 +41,12 @@ impl<K: Clone, T: Send + 'static> Followed<K, T> {
         }
     }
 
-    /// The newest that is known.
+    /// The newest result, or why it failed.
     pub fn found(&self) -> Option<&Result<T, String>> {
         self.known.as_ref().map(|(_, found)| found)
     }
 
-    /// What that is of.
+    /// The `K` that the newest result belongs to.
     pub fn found_of(&self) -> Option<&K> {
         self.known.as_ref().map(|(of, _)| of)
     }
@@ -61,14 +61,14 @@ impl TorqueState {
         !self.asked.as_ref().is_some_and(|asked| same(asked, run)) && matches!(run.problem.scenario, Scenario::Motor(_))
     }
 
-    /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
+    /// Curves of the scene of `run`, at least at standard fidelity or, if lower, at that of `run`.
     pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
         let good = run.fidelity.min(Fidelity::Standard);
         let (_, found) = self.known.as_ref().filter(|(of, _)| of.number == run.number && of.fidelity >= good)?;
         found.as_ref().ok()
     }
 
-    /// Whether what is known is of `run`.
+    /// Whether the newest result belongs to `run`.
     pub fn is_of(&self, run: &SolvedScene) -> bool {
         self.found_of().is_some_and(|of| same(of, run))
     }
@@ -87,7 +87,7 @@ impl RotorState {
         !self.work.running() && !self.asked.as_ref().is_some_and(|asked| is_of(asked, motor))
     }
 
-    /// Whether what is known is of the rotor of `motor`.
+    /// Whether the newest result belongs to the rotor of `motor`.
     pub fn is_of(&self, motor: &Motor) -> bool {
         self.found_of().is_some_and(|of| is_of(of, motor))
     }

@@ -8,13 +8,13 @@ use crate::scene::Scene;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Seconds for the leak time that can be chosen.
+/// Range of the slow motion: seconds on screen for the leak time.
 pub const SECONDS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
-/// Seconds for the leak time at first.
+/// Initial slow motion: seconds on screen for the leak time.
 pub const FIRST_SECONDS: f64 = 1.0;
 /// Seconds of slow motion that the charts hold.
 const WINDOW: f64 = 8.0;
-/// Pressures that the colours hold at least, over ambient.
+/// Smallest range of the colours, in ambient pressures.
 const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
 
 /// A held plate.
@@ -24,18 +24,18 @@ pub struct HoldState {
     scene: Scene,
     /// Its film, gap and gas.
     pub plate: Plate,
-    /// Seconds that the leak time takes.
+    /// Seconds on screen for the leak time.
     pub seconds: f64,
-    /// Where it is held \[m\].
+    /// Gap at which the plate is held \[m\].
     pub target: f64,
-    /// Whether it is let go, and if so, whether the face below it vibrates.
+    /// `Some` if the plate was let go; whether the face below it vibrates.
     pub free: Option<bool>,
     /// The film now, whatever is shown of it.
     pub now: Arc<Snapshot>,
     trail: VecDeque<Arc<Snapshot>>,
-    /// The time of the film that is shown of what was recorded \[s\], while the plate does not go on; `None`: the plate itself.
+    /// Time of the recorded film that is shown \[s\], while the plate is paused; `None` shows the plate itself.
     recorded: Option<f64>,
-    /// Whether what is shown moves, if anything does.
+    /// Whether the animation runs: of the plate itself, or of the recorded film.
     pub playing: bool,
     /// Least and greatest pressure since it was reset \[Pa\].
     pub pressure_range: [f64; 2],
@@ -64,7 +64,7 @@ impl HoldState {
         }
     }
 
-    /// Takes what it did since the last time.
+    /// Takes the snapshots since the last call.
     pub fn drain(&mut self) {
         let (now, taken) = self.job.take();
         if now.number == self.now.number {
@@ -126,7 +126,7 @@ impl HoldState {
         self.job.let_go(vibrates);
     }
 
-    /// Pauses what moves on screen, or lets it go on: the plate itself, or what was recorded of it.
+    /// Pauses or resumes the animation: of the plate itself, or of the recorded film.
     pub fn toggle_play(&mut self) {
         self.show(self.recorded, !self.playing);
     }
@@ -138,12 +138,12 @@ impl HoldState {
         }
     }
 
-    /// Shows what was recorded after this share of what the charts hold; at its end the plate itself, paused.
+    /// Shows the recorded film at this share of what the charts hold; at its end the plate itself, paused.
     pub fn seek(&mut self, share: f64) {
         self.show_recorded((share * self.trail.len().saturating_sub(1) as f64).round() as usize);
     }
 
-    /// Shows what was recorded so many snapshots later than what is shown.
+    /// Shows the recorded film `by` snapshots after the one shown.
     pub fn step(&mut self, by: i64) {
         self.show_recorded(self.place().saturating_add_signed(by as isize));
     }
@@ -162,7 +162,7 @@ impl HoldState {
         }
     }
 
-    /// Plays what was recorded on by `elapsed` \[s\] of the clock; whether that moves.
+    /// Advances the replay by `elapsed` \[s\] of the clock. Returns whether it moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
         let (Some(time), true) = (self.recorded, self.playing) else { return false };
         let on = time + elapsed / self.slowed();
@@ -171,7 +171,7 @@ impl HoldState {
         true
     }
 
-    /// The place of what is shown among what is recorded, oldest first; the newest is last.
+    /// Index of the snapshot shown among those recorded, oldest first.
     pub fn place(&self) -> usize {
         let newest = self.trail.len().saturating_sub(1);
         let place =
@@ -184,7 +184,7 @@ impl HoldState {
         !self.scene.same_model(scene)
     }
 
-    /// Whether it has been at its mean gap for as long as the charts show.
+    /// Whether the plate has been at its mean gap for as long as the charts show.
     pub fn is_untouched(&self) -> bool {
         let at_rest = |gap: f64| gap == self.plate.mean_gap;
         let was_at_rest = self.trail.iter().all(|snapshot| at_rest(snapshot.reading.gap));
@@ -206,7 +206,7 @@ impl HoldState {
         self.plate.gas.ambient_pressure + self.force_range[1] / self.plate.area()
     }
 
-    /// What was read off it lately, oldest first.
+    /// Readings that the charts hold, oldest first.
     pub fn trail(&self) -> impl ExactSizeIterator<Item = &Reading> {
         self.trail.iter().map(|snapshot| &snapshot.reading)
     }

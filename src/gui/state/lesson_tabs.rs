@@ -1,4 +1,4 @@
-//! What a lesson reads off the tabs: of a plate in the hand, of a start-up, of torque over speed, of a plate beside its exact results.
+//! Numbers that a lesson reads off the tabs: a held plate, a start-up, torque over speed, a plate beside its exact results.
 
 use super::followed::TorqueState;
 use super::hold::HoldState;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// A held plate this near to its mean gap has not been moved, relative.
 const AT_REST: f64 = 0.01;
 
-/// What the window shows, to be read by a check.
+/// The parts of the window that the check of a task reads.
 #[derive(Clone, Copy, Debug)]
 pub struct OnScreen<'a> {
     /// The run on screen.
@@ -27,9 +27,9 @@ pub struct OnScreen<'a> {
 /// Numbers that are read off the tabs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OffTabs {
-    /// What was read off when the step began.
+    /// Readings when the step began.
     pub start: Readings,
-    /// What is read off now.
+    /// Present readings.
     pub now: Readings,
     /// Whether the held plate was at rest since the step was set up: what was done with it before does not count.
     rested: bool,

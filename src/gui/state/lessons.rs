@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
-/// How long Enter does not lead on after a key has answered what was seen.
+/// How long Enter is ignored after a key has answered an observation, so that the reply can be read.
 const UNREAD: Duration = Duration::from_secs(1);
 /// Parts of the window that lessons can highlight.
 pub const PLACES: &[&str] = &[
@@ -42,14 +42,14 @@ pub const PLACES: &[&str] = &[
     "lessons",
 ];
 
-/// What is highlighted in this frame.
+/// Highlights of the present frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Highlights {
     /// Parts of the window, and keys of parameters.
     names: Vec<String>,
     /// Whether highlighted parameters are scrolled to, and their group opened.
     pub reveal: bool,
-    /// What takes the keyboard once it is drawn: a parameter, a part of the window, or [`NUMBER`].
+    /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
     pub enter: Option<String>,
 }
 
@@ -66,9 +66,9 @@ impl Highlights {
 /// Lessons, tour and glossary.
 #[derive(Debug, Default)]
 pub struct LessonState {
-    /// All that could be read.
+    /// Lessons that could be read.
     pub lessons: Vec<Lesson>,
-    /// What is wrong with lessons that could not be read.
+    /// Faults of lessons that could not be read.
     pub faults: Vec<LessonError>,
     /// Folders that lessons were read from, in full: they can be read again.
     pub folders: Vec<PathBuf>,
@@ -77,9 +77,9 @@ pub struct LessonState {
     progress: BTreeMap<String, Progress>,
     /// The stop of the tour.
     pub tour: Option<usize>,
-    /// What is looked for in the glossary, while it is shown.
+    /// Search text of the glossary; `None` while it is closed.
     pub glossary: Option<String>,
-    /// What is highlighted in this frame.
+    /// Highlights of the present frame.
     pub highlights: Highlights,
 }
 
@@ -106,7 +106,7 @@ impl LessonState {
         Some((lesson, lesson.steps.get(running.step)?))
     }
 
-    /// How far a lesson was followed, and what was done in it.
+    /// Progress in a lesson: the step reached, and the answers and tasks done.
     pub fn progress(&self, lesson: &Lesson) -> Progress {
         self.progress.get(&lesson.id).cloned().unwrap_or_default()
     }
@@ -171,30 +171,30 @@ impl LessonState {
         Some((lesson.id.clone(), Progress { step, done, work: running.work.clone() }))
     }
 
-    /// What was answered and done, in all lessons.
+    /// Record of the answers and tasks of all lessons that were begun.
     pub fn records(&self) -> Vec<Record> {
         let all = self.all_progress();
         let begun = self.lessons.iter().filter_map(|lesson| Some((lesson, all.get(&lesson.id)?)));
         begun.flat_map(|(lesson, progress)| record::of(lesson, &progress.work)).collect()
     }
 
-    /// Notes that what is done in the lesson that is followed, and was not a moment ago, was done at `now` \[s since 1970, UTC\].
+    /// Stamps the answers and tasks of the present lesson that are newly done with `now` \[s since 1970, UTC\].
     pub fn note_times(&mut self, now: u64) {
         self.running.iter_mut().flat_map(|running| &mut running.work).for_each(|work| work.note_times(now));
     }
 
-    /// Keeps what was done in the lesson that is followed.
+    /// Stores the progress of the present lesson.
     fn keep(&mut self) {
         self.progress.extend(self.present());
     }
 
-    /// What a text quotes: of the run of `scene` on screen or, for what is `told` once a task is done, of the run that did it.
+    /// A number quoted in a text, from the run of `scene` or, if `told` after a task, from the run that fulfilled it; "…" if unknown.
     pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
         let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
         value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
-    /// Whether what is told of the step is of another run than that of `scene`.
+    /// Whether the quoted numbers are from another run than that of `scene`.
     pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
         let step = self.step().map(|(_, step)| step);
         self.running.as_ref().zip(step).is_some_and(|(running, step)| running.tells_of_another(step, scene))
@@ -207,7 +207,7 @@ impl LessonState {
         Some((step, running.work.get_mut(running.step)?))
     }
 
-    /// What the step on screen waits for.
+    /// Stage of the present step; `None` without a lesson.
     pub fn stage(&self) -> Option<Stage> {
         let (_, step) = self.step()?;
         let running = self.running.as_ref()?;
@@ -229,7 +229,7 @@ impl LessonState {
         start.run.as_ref().filter(|_| step.task.is_some() && start.scene != *scene)
     }
 
-    /// Whether a key answered what was seen so shortly before `now` that nobody can have read what is told then.
+    /// Whether a key answered an observation so shortly before `now` that the reply cannot have been read yet.
     pub fn has_just_answered(&self, now: Instant) -> bool {
         let answered = self.running.as_ref().and_then(|running| running.answered);
         answered.is_some_and(|answered| now.saturating_duration_since(answered) < UNREAD)
@@ -286,7 +286,7 @@ impl LessonState {
         self.open(lesson, Some(0), document, view)
     }
 
-    /// To a step further on or back; the recap comes after the last, and after that the lesson ends. Whether the scene has to be solved anew.
+    /// Goes `by` steps on or back; the recap comes after the last, then the lesson ends. Returns whether the scene has to be solved anew.
     pub fn turn(&mut self, by: isize, document: &mut Document, view: &mut View) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
@@ -304,7 +304,7 @@ impl LessonState {
         self.set_up(document, view, again)
     }
 
-    /// Sets up what the present step needs. `scene`: also its scene. Whether that has to be solved anew.
+    /// Sets up the view of the present step and, if `scene`, its scene. Returns whether that has to be solved anew.
     pub fn set_up(&mut self, document: &mut Document, view: &mut View, scene: bool) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
@@ -341,13 +341,13 @@ impl LessonState {
         document.change(next, document.target())
     }
 
-    /// What else fulfils the task of the step.
+    /// Actions beyond changes of keys in the example solution of the step's task.
     pub fn acts(&self) -> Vec<Act> {
         let task = self.step().and_then(|(_, step)| step.task.as_ref());
         task.map(|task| task.example.acts.clone()).unwrap_or_default()
     }
 
-    /// Whether the step on screen is about what is done in `tab`.
+    /// Whether the step on screen belongs to `tab`.
     pub fn is_about(&self, tab: Tab) -> bool {
         self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(self::tab) == Some(tab))
     }
@@ -361,8 +361,8 @@ impl LessonState {
         true
     }
 
-    /// Looks at what is on screen: what the step began with, and whether its task is fulfilled. Whether a parameter is still
-    /// being scrolled to, which takes some frames.
+    /// Checks the present step against what is on screen, and sets the highlights. Returns whether another frame is needed soon: scrolling to
+    /// a parameter takes some frames.
     pub fn observe(&mut self, document: &Document, seen: OnScreen<'_>) -> bool {
         self.highlights = Highlights::default();
         let asks = self.stage() == Some(Stage::Question);

@@ -1,4 +1,4 @@
-//! What follows the `#` of an address: a scene, as a built-in preset and what is changed of it, with the tab that is shown, or a step of a
+//! The fragment of an address, after the `#`: a scene, as a built-in preset and its changes, with the tab that is shown, or a step of a
 //! lesson. `#fundamental&film.min_spacing_nm=100&tab=torque`, `#lesson=3&step=4`.
 //!
 //! The keys are those of `--set`, and so are their values, but for `%`, `&`, `#` and what an address cannot hold, which are written as
@@ -10,51 +10,51 @@ use crate::scene::{Scene, SceneError};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use std::fmt::Write as _;
 
-/// What a link leads to.
+/// Target of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Link {
     /// A scene.
     Scene {
         /// The built-in preset.
         preset: &'static str,
-        /// What it is with the changes.
+        /// The preset with the changes applied.
         scene: Box<Scene>,
-        /// What is shown of it; `None`: what is shown already.
+        /// The tab to show; `None` keeps the present one.
         tab: Option<Tab>,
     },
     /// A step of a lesson; both are counted from 1.
     Lesson {
-        /// Which of those that are built in.
+        /// Number among the built-in lessons.
         lesson: usize,
-        /// Which of its steps.
+        /// Number of the step.
         step: usize,
     },
 }
 
-/// What is wrong with a link.
+/// Why a link cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LinkError {
-    /// What it begins with is no built-in preset.
+    /// It does not begin with a built-in preset.
     #[error("a link begins with a built-in preset or with lesson=: {0:?} is neither; the presets are {names}", names = names())]
     Preset(String),
-    /// A part that is no `key=value`.
+    /// A part is not of the form `key=value`.
     #[error("{0:?} in a link: allowed is key=value")]
     Pair(String),
-    /// What was asked for as a tab is none.
+    /// There is no such tab.
     #[error("tab={0} in a link: allowed is {tabs}", tabs = tabs())]
     Tab(String),
-    /// No number of a lesson or of a step.
+    /// The number of a lesson or a step is invalid.
     #[error("{key}={found} in a link: allowed is a whole number from 1 on")]
     Number {
         /// `lesson` or `step`.
         key: &'static str,
-        /// What was asked for.
+        /// The text in place of the number.
         found: String,
     },
-    /// A part of a link to a lesson that is no step.
+    /// A part of a link to a lesson is not `step=`.
     #[error("{0:?} in a link to a lesson: allowed is step=")]
     Lesson(String),
-    /// A key or its value.
+    /// A key or its value is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
@@ -108,7 +108,7 @@ impl Link {
         Ok(Self::Scene { preset: preset.name, scene: Box::new(scene), tab })
     }
 
-    /// To `scene`, from the built-in preset that it differs from in the fewest keys.
+    /// A link to `scene`, based on the built-in preset that it differs from in the fewest keys.
     pub fn to(scene: &Scene, tab: Tab) -> String {
         let built_in = BUILT_IN.iter().filter_map(|preset| Some((preset.name, preset.scene().ok()?)));
         let alike = built_in.filter(|(_, original)| original.scene() == scene.scene());
@@ -137,7 +137,7 @@ impl Link {
         text
     }
 
-    /// To a step of a built-in lesson; both are counted from 1.
+    /// A link to a step of a built-in lesson; both are counted from 1.
     pub fn to_lesson(lesson: usize, step: usize) -> String {
         format!("#lesson={lesson}&step={step}")
     }
@@ -148,7 +148,7 @@ fn counted(key: &'static str, found: &str) -> Result<usize, LinkError> {
     number.ok_or_else(|| LinkError::Number { key, found: found.to_owned() })
 }
 
-/// What is written as `%` and two digits: everything but letters, digits and a few signs.
+/// Characters to be percent-encoded: all but letters, digits and a few signs.
 #[rustfmt::skip]
 const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b':').remove(b',').remove(b';')
     .remove(b'(').remove(b')').remove(b'+').remove(b'*').remove(b'/').remove(b'=');

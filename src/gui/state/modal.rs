@@ -1,4 +1,4 @@
-//! What is in the way until it is answered: an error, a question, a path to type.
+//! The modal dialogs: an error, a question, a path prompt.
 
 use super::dialogs::Purpose;
 use super::document::Next;
@@ -13,25 +13,25 @@ pub enum Modal {
     Unsaved {
         /// The scene's name.
         name: String,
-        /// What would lose them.
+        /// The action that would lose them.
         next: Next,
     },
-    /// Work that would end with the window: what it is.
+    /// Descriptions of work that closing the window would end.
     Unfinished(Vec<String>),
     /// A path to type.
     Path(PathPrompt),
-    /// What is asked about a new motor, as answered so far.
+    /// The questions about a new motor, as answered so far.
     NewMotor(Answers),
-    /// What the program is, and how it is cited.
+    /// About the program, and how it is cited.
     About,
 }
 
-/// A path, and what it may be used for.
+/// A prompt for a path.
 #[derive(Clone, Debug)]
 pub struct PathPrompt {
-    /// What it may be used for, the first by Enter.
+    /// Purposes that the path may be used for, the first on Enter.
     pub purposes: Vec<Purpose>,
-    /// What is typed so far.
+    /// The text typed so far.
     pub path: String,
     /// Whether it stands in for a file dialog that could not be shown.
     pub no_dialog: bool,

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What is shown of the pins.
+/// A page of the comparison of pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Page {
     /// Their fields, in motion.
@@ -23,9 +23,9 @@ pub enum Page {
 /// One pinned run, beside its entry in [`Pins::runs`].
 #[derive(Debug)]
 pub struct Pin {
-    /// Its own number, which no other pin ever has.
+    /// Identifier, never used for another pin.
     pub id: u64,
-    /// Which colour.
+    /// Index of its colour.
     pub slot: usize,
     /// Scales and curves of its cycle.
     pub curves: RunCurves,
@@ -34,15 +34,15 @@ pub struct Pin {
 /// A pin that is being solved, or will be: a preset, or one of the last window.
 #[derive(Debug)]
 pub struct Waiting {
-    /// Its own number, which is that of its pin.
+    /// Identifier, kept by the pin.
     pub id: u64,
-    /// What it is called, or will be.
+    /// Its name.
     pub name: String,
     scene: Scene,
     fidelity: Fidelity,
-    /// The colour that it had.
+    /// Index of the colour that it had; `None` if it is new.
     slot: Option<usize>,
-    /// None: its turn has not come.
+    /// The solve; `None` until its turn comes.
     task: Option<TaskOf<PinWork>>,
 }
 
@@ -52,7 +52,7 @@ struct Stored {
     label: String,
     slot: Option<usize>,
     fidelity: String,
-    /// As a preset file has it.
+    /// The scene as a preset file.
     scene: String,
 }
 
@@ -64,19 +64,19 @@ impl Stored {
     }
 }
 
-/// What became of a request.
+/// Outcome of a request, to be shown.
 #[derive(Debug)]
 pub enum Note {
-    /// Nothing is wrong.
+    /// A remark; nothing failed.
     Remark(String),
     /// It could not be done.
     Failure(String),
 }
 
-/// All pins, the first being what differences are from.
+/// All pins; differences are relative to the first.
 #[derive(Debug, Default)]
 pub struct Pins {
-    /// Beside their runs.
+    /// The pins, in the order of `runs`.
     pub pins: Vec<Pin>,
     /// The pinned runs.
     pub runs: Vec<ComparedRun>,
@@ -84,16 +84,16 @@ pub struct Pins {
     pub results: Vec<ResultRow>,
     /// Their parameters.
     pub parameters: Vec<ParameterRow>,
-    /// Those that are being solved, or will be.
+    /// Pins that are being solved, or wait for it.
     pub waiting: Vec<Waiting>,
     next: u64,
-    /// What is shown.
+    /// The page that is shown.
     pub page: Page,
     /// Whether parameters are listed that do not differ.
     pub all_parameters: bool,
-    /// What became of the last request, if that cannot be seen.
+    /// Outcome of the last request, if it would not be visible otherwise.
     pub note: Option<Note>,
-    /// What "Remove all" took away, until there is a new pin.
+    /// Pins taken away by "Remove all", kept until there is a new pin.
     cleared: Option<Box<Self>>,
 }
 
@@ -149,7 +149,7 @@ impl Pins {
         self.tabulate();
     }
 
-    /// What it is called, or the scene's name and what it differs in from a pin of that name.
+    /// A unique name for `run`: that of its scene, with the keys that differ from a pin of the same name.
     fn name_of(&self, run: &ComparedRun) -> String {
         let name = &run.scene.name;
         let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
@@ -188,7 +188,7 @@ impl Pins {
     /// The pins of [`Self::stored`], which wait until they are solved; what cannot be read of them is left out, and said.
     ///
     /// # Errors
-    /// What could not be read.
+    /// The faults of the pins that could not be read.
     pub fn restore(&mut self, text: &str) -> Result<(), String> {
         let stored: Vec<Stored> = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let mut faults = Vec::new();
@@ -219,7 +219,7 @@ impl Pins {
         }
     }
 
-    /// Takes what has been solved since the last time.
+    /// Takes solves that have ended since the last call.
     pub fn drain(&mut self) {
         let mut solved = Vec::new();
         let mut failed = None;
@@ -245,7 +245,7 @@ impl Pins {
         self.waiting.retain(|waiting| waiting.id != id);
     }
 
-    /// Calls a pin something else; a name that another has is numbered.
+    /// Renames a pin; a name that another pin has is numbered.
     pub fn rename(&mut self, id: u64, name: &str) {
         if let Some(i) = self.place(id) {
             let label = unique(name, |label| self.runs.iter().enumerate().any(|(j, run)| j != i && run.label == label));
@@ -253,7 +253,7 @@ impl Pins {
         }
     }
 
-    /// Takes a pin away.
+    /// Removes a pin.
     pub fn remove(&mut self, id: u64) {
         if let Some(i) = self.place(id) {
             self.pins.remove(i);
@@ -263,7 +263,7 @@ impl Pins {
         }
     }
 
-    /// Takes all away, also those that are being solved, until [`Self::restore_cleared`].
+    /// Removes all pins, also those being solved; [`Self::restore_cleared`] brings them back.
     pub fn clear(&mut self) {
         let fresh = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
         let mut cleared = std::mem::replace(self, fresh);
@@ -272,7 +272,7 @@ impl Pins {
         self.cleared = Some(Box::new(cleared));
     }
 
-    /// Whether what was taken away can be brought back.
+    /// Whether removed pins can be brought back.
     pub fn can_restore(&self) -> bool {
         self.cleared.is_some()
     }

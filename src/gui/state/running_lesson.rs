@@ -43,45 +43,45 @@ pub struct RunningLesson {
     pub lesson: usize,
     /// Its step.
     pub step: usize,
-    /// What was done, by step.
+    /// Answers and tasks done, by step.
     pub work: Vec<StepWork>,
     /// Whether all results are shown in place of the text.
     pub all_results: bool,
     /// The student's own scene.
     pub(super) student: Document,
-    /// What was shown before the lesson: the tab, and whether parameters and results were.
+    /// View before the lesson: the tab, and whether parameters and results were shown.
     pub(super) before: (Tab, bool, bool),
-    /// What the step began with.
+    /// Scene and run that the step began with.
     pub start: StartingPoint,
     /// The newest run of the present scene.
     pub newest: Option<Numbers>,
-    /// What is read off the tabs.
+    /// Numbers read off the tabs.
     pub tabs: OffTabs,
     pub(super) reveal: u8,
-    /// Whether what is marked, or the field for an answer, takes the keyboard.
+    /// Whether the marked widget, or the field for an answer, is to take the keyboard.
     pub(super) enter: bool,
-    /// When a key last answered what was seen: what is told then has to be read before Enter leads on.
+    /// When a key last answered an observation: the reply has to be read before Enter leads on.
     pub answered: Option<Instant>,
 }
 
 impl RunningLesson {
-    /// Lets what is marked, or the field for an answer, take the keyboard.
+    /// Lets the marked widget, or the field for an answer, take the keyboard.
     pub fn enter_marked(&mut self) {
         (self.enter, self.reveal) = (true, REVEALED);
     }
 
-    /// The value of what a text quotes: of the run of `scene` or, for what is `told` once a task is done, of the run that did it.
+    /// Value of a quoted number, from the run of `scene` or, if `told` after a task, from the run that fulfilled it.
     pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
         let kept = self.kept(reading).filter(|_| told);
         kept.or_else(|| self.present(reading, scene))
     }
 
-    /// Of the run that did the task.
+    /// The value in the run that fulfilled the task.
     fn kept(&self, reading: &Reading) -> Option<f64> {
         self.work.get(self.step)?.readings.get(&reading.source).copied()
     }
 
-    /// Of the run of `scene`.
+    /// The value in the run of `scene`.
     fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
         let empty = Numbers::default();
         let numbers = self.newest.as_ref().unwrap_or(&empty);
@@ -99,7 +99,7 @@ impl RunningLesson {
         readings(step.told()).any(|reading| other(reading) == Some(true))
     }
 
-    /// Looks at the run on screen: what the step began with, and whether its task is fulfilled.
+    /// Checks the present step against the run on screen: its starting point, and whether its task is fulfilled.
     pub(super) fn judge(&mut self, lesson: &Lesson, document: &Document, seen: OnScreen<'_>) {
         self.newest = None;
         self.tabs.now = Readings::default();

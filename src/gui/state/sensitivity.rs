@@ -1,4 +1,4 @@
-//! What the results depend on, as the window has it: what was found, of which scene, and the uncertainties that were typed.
+//! State of the sensitivity tab: the derivatives of the results, the typed uncertainties, and the random scenes.
 
 use super::background::Background;
 use super::document::solved_alike;
@@ -10,9 +10,9 @@ use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Random scenes that are solved unless another number is chosen.
+/// Default number of random scenes.
 const DRAWS: usize = 500;
-/// Where their random numbers begin: the same draws every time.
+/// Seed of the random scenes: the same draws every time.
 pub const SEED: u64 = 1;
 
 /// Derivatives, uncertainties and random scenes.
@@ -23,25 +23,25 @@ pub struct SensitivityState {
     share: f64,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,
-    /// What was typed for each key, not empty, and what is wrong with it.
+    /// Typed uncertainties by key, none empty, each with the reason if it is refused.
     typed: BTreeMap<&'static str, (String, Option<String>)>,
     /// The uncertainties that make sense; none may be among them. `None` before anything was found.
     pub uncertainties: Option<Uncertainties>,
-    /// Random scenes of these.
+    /// Results of random scenes with these uncertainties.
     pub carlo: Option<MonteCarlo>,
-    /// Which of the results is looked at.
+    /// Index of the result that is shown.
     pub output: usize,
-    /// How many random scenes are asked for, if another number was chosen.
+    /// Number of random scenes; `None` for the default.
     pub chosen_draws: Option<usize>,
 }
 
 impl SensitivityState {
-    /// How many random scenes are asked for.
+    /// Number of random scenes to solve.
     pub fn draws(&self) -> usize {
         self.chosen_draws.unwrap_or(DRAWS)
     }
 
-    /// `task` computes the derivatives. What was found before stays until it has.
+    /// Starts to track `task`, which computes the derivatives. The previous ones stay until it has ended.
     pub fn begin(&mut self, task: TaskOf<Derivatives>) {
         (self.share, self.derivatives, self.drawing) = (0.0, task.into(), Background::default());
     }
@@ -51,7 +51,7 @@ impl SensitivityState {
         (self.share, self.derivatives.failure, self.drawing) = (0.0, None, task.into());
     }
 
-    /// Takes what was found since the last time.
+    /// Takes progress and results since the last call.
     pub fn drain(&mut self) {
         let (shares, found) = self.derivatives.found();
         if let Some(found) = found {
@@ -68,7 +68,7 @@ impl SensitivityState {
         self.derivatives.failure.as_ref().or(self.drawing.failure.as_ref())
     }
 
-    /// Ends what goes on; what was found stays.
+    /// Cancels the running work; earlier results stay.
     pub fn cancel(&mut self) {
         self.derivatives.cancel();
         self.drawing.cancel();
@@ -79,12 +79,12 @@ impl SensitivityState {
         (self.derivatives.running() || self.drawing.running()).then_some(self.share)
     }
 
-    /// Whether they are of another scene than this.
+    /// Whether the results are of another scene than this.
     pub fn stale(&self, scene: &Scene) -> bool {
         self.found.as_ref().is_some_and(|found| !solved_alike(found.scene(), scene))
     }
 
-    /// Takes what is typed as the uncertainty of a key. Random scenes of others are dropped.
+    /// Sets the uncertainty of a key from typed text. Results of random scenes are dropped.
     pub fn type_uncertainty(&mut self, key: &'static str, text: String) {
         self.typed.remove(key);
         if !text.trim().is_empty() {
@@ -94,17 +94,17 @@ impl SensitivityState {
         (self.carlo, self.drawing) = (None, Background::default());
     }
 
-    /// What was typed for a key.
+    /// Typed uncertainty of a key; empty if there is none.
     pub fn typed(&self, key: &str) -> &str {
         self.typed.get(key).map_or("", |(text, _)| text.as_str())
     }
 
-    /// What is wrong with that.
+    /// Why the uncertainty of a key is refused; `None` if it is valid.
     pub fn refused(&self, key: &str) -> Option<&str> {
         self.typed.get(key)?.1.as_deref()
     }
 
-    /// What is wrong with all that was typed for keys of this scene.
+    /// Reasons why uncertainties of keys of this scene are refused.
     pub fn all_refused<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = &'a str> {
         let shown = self.typed.iter().filter(|(key, _)| scene.get(key).is_some());
         shown.filter_map(|(_, (_, refused))| refused.as_deref())

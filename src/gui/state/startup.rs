@@ -44,11 +44,11 @@ fn bytes(recording: &Recording) -> usize {
 /// A start-up, under way or ended.
 #[derive(Debug)]
 pub struct StartupState {
-    /// It tells each cycle, and returns how it ended.
+    /// The task; its messages are the cycles, its result is how it ended.
     pub work: Background<Cycle, Startup>,
     /// The scene that was started.
     pub scene: Scene,
-    /// What it poses.
+    /// The problem that the scene poses.
     pub problem: Problem,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
@@ -86,7 +86,7 @@ impl StartupState {
         }
     }
 
-    /// Takes what has been computed since the last time; ends it if `scene` is another one.
+    /// Takes progress and results since the last call; cancels the task if `scene` is another one.
     pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
@@ -116,7 +116,7 @@ impl StartupState {
         }
     }
 
-    /// Looks at cycle `number`, or at the nearest one that is kept, and no longer at the newest.
+    /// Shows cycle `number`, or the nearest one that is kept, and no longer follows the newest.
     pub fn stay_at(&mut self, number: usize) {
         self.follows_newest = false;
         self.choose(number);
@@ -128,7 +128,7 @@ impl StartupState {
         }
     }
 
-    /// Looks at the newest cycle from now on, or stays where it is.
+    /// Shows the newest cycle from now on, or stays at the present one.
     pub fn follow(&mut self, follow: bool) {
         self.follows_newest = follow;
         if let (true, Some(newest)) = (follow, self.kept().last()) {

@@ -1,4 +1,4 @@
-//! A sweep as the window has it: what is asked for, how far it is, and what was found.
+//! State of the sweep tab: the form, the progress, and the rows that are solved.
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, Values, Vary};
@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
 
-/// What is varied at first, along x and y: the first that a scene has.
+/// Default keys along x and y, in order of preference; the first that a scene has is taken.
 const FIRST: [&[&str]; 2] = [
     &["plate.frequency_khz", "film.min_spacing_nm", "surface.rms_nm"],
     &["plate.mean_gap_um", "motor.load_per_wave_n"],
@@ -29,7 +29,7 @@ const DIGITS: usize = 2;
 /// An end that the scene refuses comes nearer to the present value in this many steps.
 const STEPS: u32 = 24;
 
-/// What is to be varied along one axis, as it was typed.
+/// A varied parameter and its values, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisForm {
     /// Dotted key.
@@ -38,7 +38,7 @@ pub struct AxisForm {
     pub from: String,
     /// Last value.
     pub to: String,
-    /// How many.
+    /// Number of values.
     pub count: String,
     /// Equal ratios instead of equal steps.
     pub log: bool,
@@ -72,17 +72,17 @@ impl AxisForm {
         form
     }
 
-    /// Its ends, and the spacing between them; or what is wrong with an end.
+    /// Its ends and the spacing between them, or the fault of an end.
     pub fn ends(&self) -> Result<(f64, f64, Scale), String> {
         let parameter = Parameter::find(self.key).ok_or_else(|| format!("{} is not known", self.key))?;
         let scale = if self.log { Scale::Log } else { Scale::Linear };
         Ok((quantity_text::read(parameter, &self.from)?, quantity_text::read(parameter, &self.to)?, scale))
     }
 
-    /// What it says, if it says something.
+    /// The axis of a sweep that it describes.
     ///
     /// # Errors
-    /// What is wrong with it, in a sentence that tells what is allowed.
+    /// A sentence on the first fault and on what is allowed.
     pub fn vary(&self, scene: &Scene) -> Result<Vary, String> {
         let (from, to, scale) = self.ends()?;
         let counted = self.count.trim().parse::<usize>();
@@ -109,19 +109,19 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
     present
 }
 
-/// What is asked for.
+/// The form of the sweep tab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     /// Along x and, for a map, along y, which is kept while it is not asked for.
     pub axes: [AxisForm; 2],
     /// Whether a second parameter is varied.
     pub second: bool,
-    /// How every point is solved.
+    /// Fidelity of every point.
     pub fidelity: Fidelity,
 }
 
 impl Form {
-    /// What is asked for at first.
+    /// A form with defaults for `scene`.
     pub fn of(scene: &Scene) -> Self {
         let first = |axis: usize| {
             let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(FIRST[axis][0]);
@@ -130,12 +130,12 @@ impl Form {
         Self { axes: [first(0), first(1)], second: false, fidelity: Fidelity::default() }
     }
 
-    /// The axes that are asked for.
+    /// The axes in use.
     pub fn axes(&self) -> &[AxisForm] {
         &self.axes[..if self.second { 2 } else { 1 }]
     }
 
-    /// How many values another parameter is varied by at first.
+    /// Default number of values of another parameter.
     pub fn usual_count(&self) -> usize {
         if self.second { SIDE } else { LINE }
     }
@@ -157,7 +157,7 @@ pub fn varies(scene: &Scene, key: &str) -> bool {
     candidates(scene).any(|parameter| parameter.key == key)
 }
 
-/// What can be varied: numbers that have an effect here.
+/// Parameters that can be varied: numbers that have an effect in this scene.
 pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '_ {
     let number =
         |parameter: &&Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
@@ -175,12 +175,12 @@ pub struct Swept {
     pub published: Vec<Published>,
     /// Its number in this window.
     pub number: u64,
-    /// Whether it goes on.
+    /// Whether it is running.
     pub running: bool,
     /// Why it ended before it was done, if it was not cancelled.
     pub failure: Option<String>,
     started: Instant,
-    /// How many rows there were when it was begun or continued.
+    /// Number of rows when it was begun or continued.
     before: usize,
 }
 
@@ -202,7 +202,7 @@ impl Swept {
         Some(spent * (self.sweep.len() - self.rows.len()) as f64 / done as f64)
     }
 
-    /// Whether `scene` differs from the scene that was swept in more than what was varied.
+    /// Whether `scene` differs from the swept scene in more than the varied parameters.
     pub fn stale(&self, scene: &Scene) -> bool {
         let mut ours = self.sweep.scene().clone();
         (ours.name, ours.about) = (scene.name.clone(), scene.about.clone());
@@ -219,45 +219,45 @@ impl Swept {
         ours != *scene
     }
 
-    /// The scene's values of what was varied, if it has them.
+    /// The scene's values of the varied parameters, if it has them all.
     pub fn present(&self, scene: &Scene) -> Option<Vec<f64>> {
         self.sweep.axes().iter().map(|axis| scene.get(axis.parameter.key)?.as_number()).collect()
     }
 }
 
-/// What the tab knows.
+/// State of the sweep tab.
 #[derive(Debug, Default)]
 pub struct SweepState {
-    /// What is asked for; there is something as soon as a scene was seen.
+    /// The form; `None` until a scene was shown.
     pub form: Option<Form>,
-    /// What was asked for of the kind of scene before this one.
+    /// The form for the other kind of scene, to come back to.
     before: Option<Form>,
     /// The scene that the form was checked with; none once the form has changed.
     checked: Option<Scene>,
-    /// What is wrong with each axis that is asked for.
+    /// Fault of each axis in use; `None` if it is valid.
     pub faults: Vec<Option<String>>,
     quantity: Option<Quantity>,
     task: Option<(TaskOf<SweepWork>, Instant)>,
-    /// What was begun.
+    /// The newest sweep that was begun.
     pub swept: Option<Swept>,
     /// Why the last sweep that was asked for could not begin.
     pub refusal: Option<String>,
 }
 
 impl SweepState {
-    /// Whether its points are being made: there is no row to show yet.
+    /// Whether the points of a sweep are being built, before there is any row.
     pub fn building(&self) -> bool {
         self.task.is_some() && self.swept.as_ref().is_none_or(|swept| !swept.running)
     }
 
-    /// What is drawn of these.
+    /// The quantity to draw: the chosen one or a default, `among` those that there are.
     pub fn quantity(&self, among: &[Quantity]) -> Quantity {
         let main = [Quantity::Alpha, Quantity::MeanGap, Quantity::LoadRatio].into_iter();
         let wanted = self.quantity.into_iter().chain(main);
         wanted.into_iter().find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
     }
 
-    /// The scene is shown: what it does not have cannot be asked for, and what is asked for is checked, if anything changed.
+    /// Fits the form to `scene` and checks it, if either has changed.
     pub fn review(&mut self, scene: &Scene) {
         if self.checked.as_ref() == Some(scene) {
             return;
@@ -273,26 +273,26 @@ impl SweepState {
         self.checked = Some(scene.clone());
     }
 
-    /// Draws this from now on.
+    /// Chooses the quantity that is drawn.
     pub fn draw(&mut self, quantity: Quantity) {
         self.quantity = Some(quantity);
     }
 
-    /// Asks for this.
+    /// Replaces the form.
     pub fn ask(&mut self, form: Form) {
         (self.form, self.refusal, self.checked) = (Some(form), None, None);
         self.faults.clear();
     }
 
-    /// What is asked for, checked.
+    /// The axes of the form, checked.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The first fault of the form.
     pub fn asked(&self, scene: &Scene) -> Result<Vec<Vary>, String> {
         self.form.iter().flat_map(Form::axes).map(|axis| axis.vary(scene)).collect()
     }
 
-    /// It has begun, or goes on with the rows that there are.
+    /// Starts to track `task`, a new sweep or, if `goes_on`, the rest of the present one.
     pub fn begin(&mut self, task: TaskOf<SweepWork>, goes_on: bool, now: Instant) {
         self.refusal = None;
         self.task = Some((task, now));
@@ -301,7 +301,7 @@ impl SweepState {
         }
     }
 
-    /// Takes what has been built and solved since the last time.
+    /// Takes points and rows since the last call.
     pub fn drain(&mut self) {
         let Some((task, started)) = &self.task else { return };
         let (News { messages, end }, started) = (task.drain(), *started);

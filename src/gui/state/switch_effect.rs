@@ -1,4 +1,4 @@
-//! What a switch of the model changed: the results before it and after it, at one fidelity, beside the bound that the plan
+//! Effect of a switch of the model: the results before it and after it, at one fidelity, beside the bound that the plan
 //! had stated.
 
 use crate::fidelity::Fidelity;
@@ -18,7 +18,7 @@ struct Sample {
     decisions: Vec<Decision>,
 }
 
-/// A switch, and what it changed.
+/// Effect of one switch on α.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwitchEffect {
     /// The key that was switched.
@@ -31,7 +31,7 @@ pub struct SwitchEffect {
     pub after: f64,
     /// The stated numerical errors of both, together, absolute.
     pub errors: f64,
-    /// What the plan states as the bound of such a change, relative; 0 is exact.
+    /// Relative bound of the change, as stated by the plan; 0 is exact.
     pub bound: f64,
 }
 
@@ -56,7 +56,7 @@ pub struct SwitchHistory {
 }
 
 impl SwitchHistory {
-    /// The scene has changed otherwise: there is nothing to compare any more.
+    /// Forgets all results: the scene has changed by something else than a switch.
     pub fn edited(&mut self) {
         self.present.clear();
         self.switched = None;
@@ -84,7 +84,7 @@ impl SwitchHistory {
         });
     }
 
-    /// What the last switch changed, at the highest fidelity that both scenes were solved at.
+    /// Effect of the last switch, at the highest fidelity that both scenes were solved at.
     pub fn effect(&self) -> Option<SwitchEffect> {
         let (key, before) = self.switched.as_ref()?;
         let same = |sample: &&Sample| before.iter().any(|old| old.fidelity == sample.fidelity);

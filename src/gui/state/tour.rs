@@ -5,9 +5,9 @@
 pub struct Stop {
     /// The part that is highlighted.
     pub place: &'static str,
-    /// What it is.
+    /// Title of the part.
     pub title: &'static str,
-    /// What to do with it.
+    /// A few words on the part and its use.
     pub text: &'static str,
 }
 

@@ -1,4 +1,4 @@
-//! Error against time as the window has it: of which scene, how far, and what was found.
+//! State of the trade-off tab: the measurement of error against time, its progress, and its results.
 
 use super::background::Background;
 use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
@@ -10,7 +10,7 @@ use crate::problem::Numerics;
 use crate::scene::Scene;
 use crate::solve::{Method, Settings};
 
-/// What a setting is called that is none of the others.
+/// Name of the window's own setting, if it is none of the others.
 const PRESENT: &str = "present setting";
 
 /// The work of a measurement.
@@ -19,14 +19,14 @@ pub type TradeoffTask = Task<Progress, Vec<MeasuredSetting>>;
 /// A measurement, under way or ended.
 #[derive(Debug)]
 pub struct TradeoffState {
-    /// It tells what is measured so far.
+    /// The task; its messages are the settings measured so far.
     pub work: Background<Progress, Vec<MeasuredSetting>>,
     /// The scene that is measured.
     pub scene: Scene,
     started: Instant,
     /// Share of the work that is done, 0 to 1.
     pub share: f64,
-    /// What was found.
+    /// The results so far.
     pub tradeoff: Tradeoff,
 }
 
@@ -36,7 +36,7 @@ impl TradeoffState {
         Self { work: task.into(), scene, started, share: 0.0, tradeoff: Tradeoff::of(&[]) }
     }
 
-    /// Takes what has been measured since the last time.
+    /// Takes progress and results since the last call.
     pub fn drain(&mut self) {
         let (messages, found) = self.work.found();
         if let Some((runs, share)) = messages.into_iter().last() {

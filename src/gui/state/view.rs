@@ -1,9 +1,9 @@
-//! How results are looked at: nothing in here changes one.
+//! The view of the results: nothing in here changes a result.
 
 use crate::gui::derived::ring::Orbit;
 use crate::recording::Recording;
 
-/// What is in the middle of the window.
+/// A tab of the middle of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tab {
     /// The cycle of the present run, animated.
@@ -13,7 +13,7 @@ pub enum Tab {
     Compare,
     /// One parameter varied, or two.
     Sweep,
-    /// Of a motor, torque and power over speed; of a plate, what is known exactly beside what was computed.
+    /// For a motor, torque and power over speed; for a plate, exact beside computed results.
     Torque,
     /// The transient from rest.
     Startup,
@@ -23,7 +23,7 @@ pub enum Tab {
     Tradeoff,
     /// A motor's rotor by itself.
     Rotor,
-    /// What the results depend on, and how uncertain they are.
+    /// Sensitivities of the results, and their uncertainty.
     Sensitivity,
     /// Keys chosen to agree with measurements.
     Fit,
@@ -61,10 +61,10 @@ impl Tab {
     }
 }
 
-/// How the present run is looked at.
+/// View of the present run.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// What is in the middle.
+    /// The tab that is shown.
     pub tab: Tab,
     /// Error that is asked for in the trade-off, a share of the value.
     pub accuracy: f64,
@@ -72,7 +72,7 @@ pub struct View {
     pub budget: f64,
     /// Phase of the cycle shown, 0 ≤ phase < 1.
     pub phase: f64,
-    /// Whole cycles played so far: how far a rotor has turned.
+    /// Whole cycles played so far, for the turning of the rotor.
     pub cycles: f64,
     /// Whether the animation runs.
     pub playing: bool,
@@ -86,9 +86,9 @@ pub struct View {
     pub results: bool,
     /// x under the pointer in any view \[m\], read out by all of them.
     pub cursor_x: Option<f64>,
-    /// From where the ring is seen.
+    /// Direction that the ring is seen from.
     pub orbit: Orbit,
-    /// How many scenes were opened: each is shown from its beginning.
+    /// Number of scenes opened so far: panels scroll to the top for each.
     pub opened: u64,
 }
 

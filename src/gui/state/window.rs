@@ -38,7 +38,7 @@ const RECENT: usize = 10;
 pub struct State {
     /// The scene being edited.
     pub document: Document,
-    /// The same, checked and in SI units, since it was last changed; none if it is refused.
+    /// The problem that the scene poses, checked and in SI units; `None` if it is refused.
     pub problem: Option<Problem>,
     /// The most time that a solve may take, if that is limited: then the best so far is shown.
     pub budget: Option<Duration>,
@@ -46,15 +46,15 @@ pub struct State {
     pub rejected: RejectedEdits,
     /// The run on screen.
     pub run: Option<Arc<SolvedScene>>,
-    /// What the solver is doing.
+    /// Progress of the background solver.
     pub activity: Activity,
-    /// How results are looked at.
+    /// View of the results.
     pub view: View,
-    /// What the switches of the model changed.
+    /// Effects of the switches of the model.
     pub switches: SwitchHistory,
     /// Error against time, if it was measured.
     pub tradeoff: Option<TradeoffState>,
-    /// The export under way, and what the last one wrote.
+    /// The export in progress, and the files of the last one.
     pub exports: ExportState,
     /// Runs that were pinned to be compared.
     pub pins: Pins,
@@ -68,7 +68,7 @@ pub struct State {
     pub torque: TorqueState,
     /// The rotor by itself.
     pub rotor: RotorState,
-    /// What the results depend on.
+    /// The sensitivity analysis.
     pub sensitivity: SensitivityState,
     /// Lessons, tour and glossary.
     pub lessons: LessonState,
@@ -78,13 +78,13 @@ pub struct State {
     pub dropped: Option<Dropped>,
     /// The plate that is held, once its tab was shown.
     pub hold: Option<HoldState>,
-    /// What could not be done last with a file, opening or saving, and its path, for the next prompt.
+    /// Purpose and path of the last file that could not be opened or saved, for the next prompt.
     pub failed_path: Option<(Purpose, String)>,
-    /// The answers that a new motor was last made of.
+    /// Answers from which a new motor was last made.
     pub new_motor: Answers,
-    /// What makes a motor of them.
+    /// The task that makes a motor from them.
     pub making: Background<(), Scene>,
-    /// What is in the way until it is answered.
+    /// The modal dialog, if one is open.
     pub modal: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
     pub shortcuts: bool,
@@ -104,7 +104,7 @@ impl State {
         Self { document, lessons: LessonState::new(), dark: true, ..Self::default() }
     }
 
-    /// Says that something did not work.
+    /// Shows an error message.
     pub fn fail(&mut self, message: impl ToString) {
         self.modal = Some(Modal::Error(message.to_string()));
     }
@@ -130,7 +130,7 @@ impl State {
         self.hold.as_mut().filter(|_| self.view.tab == Tab::Hold)
     }
 
-    /// What moves in the middle: its frames are those of the timeline.
+    /// Recording that is animated in the present tab, whose frames the timeline shows.
     pub fn on_timeline(&self) -> Option<&Recording> {
         let pinned = || self.pins.runs.iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
         let recording = match self.view.tab {
@@ -201,7 +201,7 @@ impl State {
         }
     }
 
-    /// Lets the lesson look at what is on screen; whether it needs another frame soon.
+    /// Checks the lesson against what is on screen. Returns whether it needs another frame soon.
     pub fn observe(&mut self) -> bool {
         let Self { run, torque, startup, hold, document, lessons, .. } = self;
         let seen = OnScreen { run: run.as_ref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };

@@ -1,9 +1,9 @@
-//! What is computed once and drawn many times.
+//! Memoised results for drawing: computed once, drawn many times.
 
 use eframe::egui::{Context, Id, Ui};
 use std::sync::Arc;
 
-/// What `make` returns for `key`, kept under `name` as long as the key stays the same.
+/// Result of `make`, kept under `name` until `key` changes.
 pub fn once<K: PartialEq + Send + Sync + 'static, T: Send + Sync + 'static>(
     ui: &Ui,
     name: &str,
@@ -27,7 +27,7 @@ fn made_id() -> Id {
     Id::unique("squeezefilm, made")
 }
 
-/// How often something was computed: a redraw of what has not changed computes nothing, which a test asks for.
+/// Number of computations so far: tests check that a redraw without a change adds none.
 pub fn made(ctx: &Context) -> usize {
     ctx.data(|data| data.get_temp(made_id())).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! What every drawing function is given.
+//! The context that every drawing function is given.
 
 use super::highlight;
 use super::hint::Hint;
@@ -27,7 +27,7 @@ pub struct DrawContext<'a> {
 }
 
 impl<'a> DrawContext<'a> {
-    /// To draw `state` at this moment.
+    /// A context to draw `state` at the moment `now`.
     pub fn new(state: &'a State, now: Instant) -> Self {
         let commands = RefCell::default();
         Self { state, colours: palette(state.dark), now, commands, pointed_x: Cell::default() }
@@ -43,7 +43,7 @@ impl<'a> DrawContext<'a> {
         self.pointed_x.set(Some(x));
     }
 
-    /// All that was asked for, also that the pointer is elsewhere than before.
+    /// All commands, including one if the pointer has moved to another x.
     pub fn into_commands(self) -> Vec<Command> {
         let mut commands = self.commands.into_inner();
         let pointed = self.pointed_x.get();
@@ -58,7 +58,7 @@ impl<'a> DrawContext<'a> {
         ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
     }
 
-    /// What is wrong, a paragraph each; nothing of nothing.
+    /// Error messages, a paragraph each; nothing if there are none.
     pub fn alarm(&self, ui: &mut Ui, wrong: impl IntoIterator<Item = impl Into<String>>) {
         wrong.into_iter().for_each(|text| self.say(ui, text, self.colours.alarm));
     }
@@ -104,7 +104,7 @@ impl<'a> DrawContext<'a> {
         self.on_click(&ui.button(text).hint(about), command);
     }
 
-    /// The same, small, and called `name` by screen readers.
+    /// As [`Self::button`], small, and called `name` by screen readers.
     pub fn small_button(
         &self,
         ui: &mut Ui,
@@ -115,7 +115,7 @@ impl<'a> DrawContext<'a> {
         self.on_click(&ui.small_button(text).hint(about).accessible_name(name), command);
     }
 
-    /// How far some work is: a share from 0 to 1, in words, and the time that is left \[s\], if it is known.
+    /// A progress bar: the share done, 0 to 1, with words and the time that is left \[s\], if it is known.
     pub fn progress(&self, ui: &mut Ui, width: f32, share: f64, words: &str, left: Option<f64>) {
         let left = left.map_or_else(String::new, |left| format!(", {} left", rough(left)));
         ui.add(egui::ProgressBar::new(share as f32).desired_width(width).text(format!("{words}{left}")));
@@ -123,7 +123,7 @@ impl<'a> DrawContext<'a> {
         ui.ctx().request_repaint_after(Duration::from_secs(1));
     }
 
-    /// Says so if `run` is not of the present scene; whether it is not.
+    /// Shows a note if `run` is not of the present scene. Returns whether it is not.
     pub fn say_if_stale(&self, ui: &mut Ui, run: &SolvedScene) -> bool {
         let stale = self.state.stale(run);
         if stale && self.state.activity.failure.is_some() {
@@ -134,7 +134,7 @@ impl<'a> DrawContext<'a> {
         stale
     }
 
-    /// Says that the part of the window called `name` is at `rect`; it gets a ring if it is highlighted.
+    /// Records that the part of the window called `name` is at `rect`; draws a ring round it if it is highlighted.
     pub fn mark(&self, ui: &Ui, name: &str, rect: Rect) {
         highlight::remember(ui, name, rect);
         if self.state.lessons.highlights.has(name) {
@@ -142,7 +142,7 @@ impl<'a> DrawContext<'a> {
         }
     }
 
-    /// The same of a plot, whose ring stays within it, clear of the title above.
+    /// As [`Self::mark`], for a plot: the ring stays within it, clear of the title above.
     pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
         self.mark(ui, name, plot.shrink(theme::highlight::GAP + 0.5 * theme::highlight::GLOW));
     }

@@ -16,7 +16,7 @@ const LIST: f32 = 190.0;
 const ACCURACY: &str = "accuracy";
 const BUDGET: &str = "budget";
 
-/// A combo box that shows `present`, and what was chosen instead of it. `width` is that of the box; none is the usual one.
+/// A combo box that shows `present`; returns the choice if it is another. `width`: of the box; `None` is the usual width.
 pub fn choose(
     ui: &mut Ui,
     id: &'static str,
@@ -45,7 +45,7 @@ pub fn choose_target(ui: &mut Ui, present: Fidelity, width: f32, cx: &DrawContex
     })
 }
 
-/// The combo box, and what was chosen in its list. What was typed there is forgotten when it closes.
+/// The combo box, and the choice made in its list. Text typed there is forgotten when it closes.
 fn list<T>(
     ui: &mut Ui,
     (id, width): (&'static str, Option<f32>),
@@ -88,7 +88,7 @@ fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext
     chosen.or(typed.map(Fidelity::to)).filter(|fidelity| *fidelity != present)
 }
 
-/// What was typed into a field, and why it was refused, if it was.
+/// Text of a field, and why it was refused, if it was.
 type Typed = (String, Option<String>);
 
 /// A field whose text is taken when it is left.
@@ -100,7 +100,7 @@ struct Field {
 }
 
 impl Field {
-    /// What was typed in place of `present`, once it is read; text that cannot be read stays, with the reason beside it.
+    /// The value typed in place of `present`, once it is read; text that cannot be read stays, with the reason beside it.
     fn show<T>(
         &self,
         ui: &mut Ui,

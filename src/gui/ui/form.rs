@@ -64,19 +64,19 @@ pub(super) fn choices(
 
 /// A parameter with two values, as they are typed.
 pub(super) struct AxisRow<'a> {
-    /// How many values another parameter is varied by at first.
+    /// Default number of values when another parameter is chosen.
     pub(super) usual_count: usize,
-    /// What stands before it, what the parameter is for, and what it is called.
+    /// Text before the list, purpose of the parameter, and name of the list for screen readers.
     pub(super) parameter: [&'a str; 3],
-    /// What can be chosen, in groups with a title each; one without a title has no line for it.
+    /// Parameters to choose from, in groups; a group with an empty title has no heading.
     pub(super) groups: &'a dyn Fn() -> Vec<(&'static str, Vec<&'static Parameter>)>,
-    /// What the fields of both values are called, and what they are for.
+    /// Name and explanation of the fields of both values.
     pub(super) values: [(&'a str, &'a str); 2],
     /// Their width, in heights of the text.
     pub(super) width: f32,
-    /// What the field of their number is called, if there is one.
+    /// Name of the field for the number of values, if there is one.
     pub(super) count: Option<&'a str>,
-    /// What the box for equal ratios is called, and what it is for.
+    /// Name and explanation of the checkbox for equal ratios.
     pub(super) log: (&'a str, &'a str),
 }
 

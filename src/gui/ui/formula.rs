@@ -17,7 +17,7 @@ pub(super) struct Typeset {
     shapes: Vec<Shape>,
 }
 
-/// How a formula is set.
+/// Style of a formula.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     /// Height of the text \[points\].
@@ -222,7 +222,7 @@ impl Typeset {
         set
     }
 
-    /// What is drawn, moved from its left end on the baseline to `by`.
+    /// The shapes, with the left end of the baseline moved to `by`.
     pub(super) fn moved(&self, by: Vec2) -> impl Iterator<Item = Shape> + '_ {
         self.shapes.iter().cloned().map(move |mut shape| {
             shape.translate(by);

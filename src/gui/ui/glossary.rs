@@ -21,7 +21,7 @@ pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
     ctx.data(|data| data.get_temp::<Vec<String>>(unexplained_id())).unwrap_or_default()
 }
 
-/// What the glossary explains while the pointer rests on it.
+/// Shows a glossary entry while the pointer rests on a widget.
 pub trait Explained {
     /// Explains `word` beside the panel that is `ui`.
     fn explained(self, ui: &Ui, word: &str) -> Self;
@@ -44,7 +44,7 @@ pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui:
     ui.label(text).explained_here(ui, word)
 }
 
-/// What is drawn at `place`, the `number`th of its drawing, as something to point at.
+/// A hover area over a term at `place`; `number` tells apart the terms of one drawing.
 pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
     let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("About: {word}")));

@@ -21,7 +21,7 @@ pub enum Scope {
     Idle,
 }
 
-/// What is in the way of shortcuts.
+/// Conditions that block shortcuts.
 #[derive(Clone, Copy, Debug)]
 pub struct Obstacles {
     /// A question or the sheet of shortcuts is open.
@@ -30,16 +30,16 @@ pub struct Obstacles {
     pub typing: bool,
 }
 
-/// A shortcut, what it is called, and what it asks for.
+/// A shortcut: keys, description and command.
 #[derive(Clone, Copy, Debug)]
 pub struct Shortcut {
     /// The keys.
     pub keys: KeyboardShortcut,
-    /// Other keys for the same.
+    /// Alternative keys.
     pub also: Option<KeyboardShortcut>,
-    /// What it does.
+    /// Description, for the sheet of shortcuts and for hints.
     pub about: &'static str,
-    /// What it asks for.
+    /// The command.
     pub command: fn() -> Command,
     /// When it acts.
     pub scope: Scope,
@@ -218,7 +218,7 @@ fn name_on(mac: bool, keys: &KeyboardShortcut) -> String {
     if modifiers.is_empty() { key.to_owned() } else { format!("{modifiers}+{key}") }
 }
 
-/// What the keys that ask for `command` do, and the keys: "Undo (Ctrl+Z)".
+/// Description and keys of the shortcut for `command`: "Undo (Ctrl+Z)"; empty if there is none.
 pub fn about(command: &Command) -> String {
     asking_for(command).map(|found| format!("{} ({})", found.about, name(&found.keys))).unwrap_or_default()
 }

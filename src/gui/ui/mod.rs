@@ -1,4 +1,4 @@
-//! What is drawn: it reads the state and pushes commands, and changes nothing.
+//! The drawing code: it reads the state and pushes commands, and changes nothing.
 
 pub mod cache;
 pub mod chart;

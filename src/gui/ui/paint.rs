@@ -57,12 +57,12 @@ impl PlotStyle {
         self.palette.canvas.lerp_to_gamma(outline, 0.72)
     }
 
-    /// The same, which draws within `rect` only.
+    /// A copy that draws within `rect` only.
     pub(super) fn within(&self, rect: Rect) -> Self {
         self.clipped(self.painter.clip_rect().intersect(rect))
     }
 
-    /// The same, which draws on all of `clip`.
+    /// A copy with the clip rectangle `clip`.
     pub(super) fn clipped(&self, clip: Rect) -> Self {
         Self { painter: self.painter.with_clip_rect(clip), ..self.clone() }
     }
@@ -71,7 +71,7 @@ impl PlotStyle {
         self.painter.text(at, anchor, text, self.font.clone(), colour)
     }
 
-    /// What was written at `place` is explained by the glossary under `word`.
+    /// Marks the text at `place` as the glossary term `word`, to be explained on hover.
     pub(super) fn term(&self, place: Rect, word: &str) {
         self.terms.borrow_mut().push((place, word.to_owned()));
     }
@@ -130,7 +130,7 @@ impl PlotStyle {
         self.shaded(columns.map(|(x, one, other)| (x, one, other, colour)));
     }
 
-    /// The same with a colour for each column: (x, one y, other y, colour).
+    /// As [`Self::band`], with a colour for each column: (x, one y, other y, colour).
     pub(super) fn shaded(&self, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
         let mut mesh = Mesh::default();
         let (least, _) = columns.size_hint();
@@ -149,7 +149,7 @@ impl PlotStyle {
     }
 
     /// A title above `plot` with the colour bar and its ends at the right end of the same line.
-    /// `word`: what the glossary explains it under.
+    /// `word`: its glossary term.
     pub(super) fn title_with_bar(&self, plot: Rect, word: &str, titles: &[&str], range: [f64; 2]) {
         let ends = ends(range.map(|pascal| pascal / 1e3));
         // Of one value there is no scale.
@@ -162,7 +162,7 @@ impl PlotStyle {
         self.title_with_ends(plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
     }
 
-    /// The same with what is written at the ends of the bar.
+    /// As [`Self::title_with_bar`], with given texts at the ends of the bar.
     pub(super) fn title_with_ends(&self, plot: Rect, word: &str, titles: &[&str], ends: [&str; 2]) {
         let bottom = plot.top() - 2.0;
         let written = self.width(ends[0]) + self.width(ends[1]) + 2.0 * self.row;
@@ -220,14 +220,14 @@ pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
 
 /// Drawings below each other, with numbers left of them.
 pub(super) struct Column {
-    /// Where they are, the numbers left out.
+    /// Horizontal range of the drawings, without the numbers.
     pub(super) x: Rangef,
-    /// The end of the last one.
+    /// Bottom of the last drawing.
     pub(super) bottom: f32,
 }
 
 impl Column {
-    /// From the top of `area` on.
+    /// An empty column in `area`.
     pub(super) fn of(area: Rect, style: &PlotStyle) -> Self {
         let x = Rangef::new(area.left() + style.gutter, area.right() - 0.5 * style.row);
         Self { x, bottom: area.top() }
@@ -270,7 +270,7 @@ impl Axes {
         f64::from(self.rect.height()) / (self.y[1] - self.y[0])
     }
 
-    /// By how much y is drawn larger than x.
+    /// Factor by which y is drawn larger than x.
     pub(super) fn exaggeration(&self) -> f64 {
         self.points_per_metre() * (self.x[1] - self.x[0]) / f64::from(self.rect.width())
     }
@@ -350,7 +350,7 @@ pub(super) fn colour_between([low, high]: [f64; 2]) -> impl Fn(f64) -> Color32 {
     move |value| colours[((value - low) * per_unit).clamp(0.0, 255.0) as usize]
 }
 
-/// The same of pressures \[Pa\]; of those that are written as the same number there is one, since the rest is noise.
+/// The colour of a pressure \[Pa\] in this range. If both ends read the same, their difference is noise, and there is one colour.
 pub(super) fn pressure_colour(range: [f64; 2]) -> impl Fn(f64) -> Color32 {
     let [least, most] = ends(range.map(|pascal| pascal / 1e3));
     colour_between(if least == most { [range[0], f64::INFINITY] } else { range })

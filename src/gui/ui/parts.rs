@@ -1,4 +1,4 @@
-//! What tabs and panels are made of: the button to press next, tables, and columns that are scrolled.
+//! Building blocks of tabs and panels: the button to press next, tables, and columns that are scrolled.
 
 use super::context::DrawContext;
 use super::glossary;
@@ -30,7 +30,7 @@ pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: imp
     ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true).show(ui, |ui| grid.show(ui, rows));
 }
 
-/// Heads of columns, each with what the glossary explains it under; one without words is empty.
+/// Column heads, each with its glossary term; an empty term leaves the head unexplained.
 pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], colour: Color32) {
     for (head, word) in heads {
         let head = RichText::new(*head).color(colour);
@@ -47,7 +47,7 @@ pub fn scrolled(ui: &mut Ui, id: impl Hash + Debug, bar: f32, add: impl FnOnce(&
     scroll(ui, ScrollArea::vertical().id_salt(id), bar, add);
 }
 
-/// The same of what is shown from its beginning whenever `number` is another one.
+/// As [`scrolled`], but back at the top whenever `number` changes.
 pub fn scrolled_anew(ui: &mut Ui, id: &'static str, number: u64, bar: f32, add: impl FnOnce(&mut Ui)) {
     let key = Id::unique((id, "scrolled"));
     let last = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(key, number), number));

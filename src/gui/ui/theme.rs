@@ -50,7 +50,7 @@ pub fn run_colour(slot: usize, dark: bool) -> Color32 {
     rgb(colours[slot % colours.len()])
 }
 
-/// What the accent of the window is in a description of a chart.
+/// Stands for the accent colour of the window in the description of a chart.
 pub const ACCENT: Colour = Colour(0xf0, 0xe4, 0x42);
 
 /// The colour of the window that means what this one does on paper.
@@ -146,7 +146,7 @@ pub fn install_fonts(ctx: &egui::Context) {
 
 /// The ring round what is highlighted.
 pub mod highlight {
-    /// Between it and what it is round.
+    /// Gap between the ring and the highlighted part.
     pub const GAP: f32 = 3.0;
     /// Its width.
     pub const LINE: f32 = 2.0;
@@ -164,9 +164,9 @@ pub mod mathematics {
     pub const SCRIPT: f32 = 0.72;
     /// The sign of a sum on its own.
     pub const SUM: f32 = 1.5;
-    /// What is over and under a line in the middle of a text.
+    /// Numerator and denominator of a fraction within text.
     pub const FRACTION: f32 = 0.8;
-    /// The smallest \[points\].
+    /// Smallest size of glyphs \[points\].
     pub const LEAST: f32 = 8.5;
     /// Height of the middle of + and − above the baseline.
     pub const AXIS: f32 = 0.27;

@@ -13,9 +13,9 @@ type AskDialog = fn(Purpose, &DialogStart) -> Answer;
 #[derive(Debug)]
 pub struct Dialogs {
     ask: AskDialog,
-    /// A dialog over the window.
+    /// The window that dialogs are shown over.
     parent: Parent,
-    /// What the dialogs that are open are for.
+    /// Purposes of the open dialogs.
     open: Vec<Purpose>,
     sender: Sender<(Purpose, Answer)>,
     receiver: Receiver<(Purpose, Answer)>,

@@ -40,7 +40,7 @@ impl Updater {
         Some(run)
     }
 
-    /// The same with a name and a description that claim no more than is true of it.
+    /// As [`Self::shown`], retitled if the scene was changed since it was saved.
     fn named(&self) -> Option<SolvedScene> {
         let mut run = self.shown()?;
         run.scene.retitle(self.state.document.saved());
@@ -48,7 +48,7 @@ impl Updater {
         Some(run)
     }
 
-    /// What is exported, with its own share of all that it needs.
+    /// Content of an export, with owned or shared copies of its data; `None` if there is nothing to export.
     fn content(&self, export: Export) -> Option<Content> {
         let of_run = |what| Some(Content::Run(what, Box::new(self.named()?)));
         let of_sweep = |what: fn(Quantity) -> OfSweep| {

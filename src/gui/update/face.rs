@@ -1,4 +1,4 @@
-//! What is asked of measured faces, carried out.
+//! Carries out the commands of measured faces.
 
 use super::updater::Updater;
 use crate::digits::rounded;
@@ -9,7 +9,7 @@ use crate::scene::heights::keys_of;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The key of what roughness leaves of the gap at a hard stop.
+/// Key of the least gap that roughness leaves at a hard stop.
 const SPACING: &str = "film.min_spacing_nm";
 
 impl Updater {
@@ -26,7 +26,7 @@ impl Updater {
         }
     }
 
-    /// Gives the scene what follows from two faces like this one: as much as its laws ask for.
+    /// Gives the scene the roughness of two faces like this one: those of its keys that follow from it.
     pub(super) fn take_roughness(&mut self) {
         let Some(face) = self.state.face.found.as_ref() else { return };
         let scene = self.state.document.scene();

@@ -1,4 +1,4 @@
-//! What is asked of measurements and fits, carried out.
+//! Carries out the commands of measurements and fits.
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};

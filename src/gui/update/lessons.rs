@@ -1,4 +1,4 @@
-//! What is asked of lessons, carried out.
+//! Carries out the commands of lessons.
 
 use super::updater::Updater;
 use crate::gui::command::{Command, HoldCommand, LessonCommand};
@@ -37,7 +37,7 @@ impl Updater {
         }
     }
 
-    /// Lets the lesson look at what is on screen, and notes when what is done was done; whether it needs another frame soon.
+    /// Checks the lesson against what is on screen, and notes the time of what was done. Returns whether another frame is needed soon.
     pub fn observe(&mut self) -> bool {
         let soon = self.state.observe();
         if let Ok(since) = (self.platform.date)().duration_since(SystemTime::UNIX_EPOCH) {
@@ -131,7 +131,7 @@ impl Updater {
         }
     }
 
-    /// A step begins with a plate that was not moved, and with nothing started.
+    /// Puts the held plate to rest and clears the start-up, so that a step begins with neither.
     fn put_to_rest(&mut self) {
         if self.state.lessons.is_about(Tab::Hold) {
             self.hold(HoldCommand::Reset);
@@ -142,7 +142,7 @@ impl Updater {
         }
     }
 
-    /// Does in a tab what a lesson shows.
+    /// Carries out an action of a lesson's example in its tab.
     fn act(&mut self, act: Act) {
         match act {
             Act::Hold(gap) => {

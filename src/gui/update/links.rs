@@ -1,4 +1,4 @@
-//! Links: to what is shown, and to what is to be shown.
+//! Links: copies links to the present view, and follows links.
 
 use super::updater::Updater;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
@@ -79,7 +79,7 @@ impl Updater {
         }
     }
 
-    /// Shows what an address leads to that the user has gone to; says what is wrong with it.
+    /// Shows the target of an address that the user has gone to, or an error if it cannot be read.
     pub fn visit(&mut self, address: &str) {
         match Link::read(address) {
             Ok(link) => self.follow(link),

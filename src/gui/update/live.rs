@@ -1,4 +1,4 @@
-//! What is computed while one looks: a start-up, a plate in the hand, torque over speed, and the rotor.
+//! Computations that run while their tab is shown: a start-up, a held plate, torque over speed, and the rotor.
 
 use super::updater::Updater;
 use crate::fidelity::Fidelity;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 impl Updater {
-    /// Moves what is animated on by `elapsed` \[s\]; whether anything moves.
+    /// Advances animations by `elapsed` \[s\]. Returns whether anything moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
         let state = &mut self.state;
         if let Some(hold) = state.held() {
@@ -60,7 +60,7 @@ impl Updater {
         }
     }
 
-    /// Takes what the held plate did, and takes another one in hand if the scene is another.
+    /// Takes snapshots of the held plate; starts with another plate if the scene has changed.
     pub(super) fn update_hold(&mut self) {
         let state = &mut self.state;
         let scene = state.document.scene();

@@ -1,4 +1,4 @@
-//! What is asked of the pins, carried out.
+//! Carries out the commands of the pins.
 
 use super::updater::Updater;
 use crate::gui::command::PinCommand;

@@ -1,4 +1,4 @@
-//! What the window takes from outside: the clock and the date, what file dialogs answer, and how much is measured. Tests bring their own.
+//! The window's access to the outside: clock and date, file dialogs, and the effort of measurements. Tests bring their own.
 
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
@@ -13,22 +13,22 @@ use std::time::Duration;
 pub struct Platform {
     /// The present moment.
     pub now: fn() -> Instant,
-    /// The same as a date, for what is kept longer than a window.
+    /// The present date, for records that outlive the window.
     pub date: fn() -> SystemTime,
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
-    /// The file in which the window keeps what the next one begins with; none if it keeps nothing in a file.
+    /// File that keeps the state for the next window; `None` if it is not kept in a file.
     pub storage: Option<PathBuf>,
-    /// What to measure for the trade-off, and how long.
+    /// Settings to measure for the trade-off, and the effort.
     pub measure: fn(&Problem) -> (Vec<Candidate>, Effort),
 }
 
-/// What a file dialog begins with.
+/// Initial state of a file dialog.
 #[derive(Clone, Debug)]
 pub struct DialogStart {
     /// Name of the file, if one is to be written.
     pub name: String,
-    /// What it is shown over.
+    /// The window that it is shown over.
     pub parent: Parent,
 }
 

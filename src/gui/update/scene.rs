@@ -48,7 +48,7 @@ impl Updater {
         }
     }
 
-    /// Other numerics and another fidelity, as one edit.
+    /// Changes the numerics and the fidelity, as one edit.
     pub(super) fn use_setting(&mut self, target: Fidelity, numerics: Numerics) {
         let mut next = self.state.document.scene().clone();
         match next.set_numerics(&numerics).and_then(|()| next.check()) {
@@ -63,7 +63,7 @@ impl Updater {
         }
     }
 
-    /// Takes edits back, or makes them again.
+    /// Undoes or redoes an edit.
     pub(super) fn step_history(&mut self, step: fn(&mut Document) -> bool) {
         if step(&mut self.state.document) {
             self.scene_replaced();
@@ -80,7 +80,7 @@ impl Updater {
         }
     }
 
-    /// The same although work goes on.
+    /// As [`Self::proceed`], but without asking about unfinished work.
     pub(super) fn proceed_with_document(&mut self, next: Next) {
         let State { document, lessons, .. } = &self.state;
         let student = lessons.student_document(document);
@@ -108,7 +108,7 @@ impl Updater {
         lessons.student_document(document).is_dirty() || !self.state.unfinished().is_empty()
     }
 
-    /// The same without a question.
+    /// As [`Self::proceed`], without any question.
     pub(super) fn proceed_now(&mut self, next: Next) {
         match next {
             Next::Preset(name) => match presets::find(name) {
@@ -147,7 +147,7 @@ impl Updater {
         }
     }
 
-    /// Saves to this file, and goes on with what waited for it.
+    /// Saves to this file, then goes on to `then`.
     fn save_to(&mut self, path: &Path, then: Option<Next>) {
         match self.state.document.save(path) {
             Ok(()) => {
@@ -160,7 +160,7 @@ impl Updater {
         }
     }
 
-    /// Gives unsaved changes up, then goes on.
+    /// Discards unsaved changes, then goes on to `next`.
     pub(super) fn discard_then(&mut self, next: Next) {
         self.leave_lesson();
         if next == Next::Quit {

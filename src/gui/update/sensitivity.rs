@@ -1,4 +1,4 @@
-//! Derivatives and random scenes: computed.
+//! Carries out the commands of the sensitivity analysis.
 
 use super::updater::{REDRAW, Updater};
 use crate::gui::command::SensitivityCommand;
@@ -8,7 +8,7 @@ use crate::solve::Settings;
 use std::sync::Arc;
 
 impl Updater {
-    /// Does what is asked about what the results depend on.
+    /// Carries out a command of the sensitivity analysis.
     pub(super) fn sensitivity(&mut self, command: SensitivityCommand) {
         let document = &self.state.document;
         let (scene, fidelity) = (document.scene().clone(), document.target());

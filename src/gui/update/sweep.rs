@@ -1,4 +1,4 @@
-//! What is asked of the sweep, carried out.
+//! Carries out the commands of the sweep.
 
 use super::updater::{REDRAW, Updater};
 use crate::gui::command::SweepCommand;

@@ -1,4 +1,4 @@
-//! What carries commands out: the state that they change, the solver, the file dialogs, and the way to be drawn again.
+//! The updater, which carries out commands: it has the state that they change, the solver, the file dialogs, and the way to be redrawn.
 
 use super::dialogs::Dialogs;
 use super::platform::Platform;
@@ -64,13 +64,13 @@ impl Updater {
         Task::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
-    /// Says why something did not come of a file; its path is offered to whoever tries once more.
+    /// Shows an error about a file, whose path is suggested at the next try.
     pub(super) fn fail_at(&mut self, purpose: Purpose, path: &Path, error: impl ToString) {
         self.state.failed_path = Some((purpose, path.display().to_string()));
         self.state.fail(error);
     }
 
-    /// The scene in SI units; what is wrong with it is said.
+    /// The problem of the scene, in SI units; `None`, with an error message, if it is refused.
     pub(super) fn problem(&mut self) -> Option<Problem> {
         Problem::try_from(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
     }
@@ -101,14 +101,14 @@ impl Updater {
         }
     }
 
-    /// Another scene is on the table.
+    /// Follows a change of the whole scene: clears messages about edits, and solves it.
     pub(super) fn scene_replaced(&mut self) {
         self.state.rejected.clear();
         self.state.switches.edited();
         self.refine();
     }
 
-    /// Another scene, as one edit.
+    /// Replaces the scene, as one edit.
     pub(super) fn change_scene(&mut self, next: Scene) {
         let document = &mut self.state.document;
         if document.change(next, document.target()) {
@@ -116,7 +116,7 @@ impl Updater {
         }
     }
 
-    /// Gives the scene these numbers, as one edit; says what is wrong with them.
+    /// Gives the scene these values, by key, as one edit; shows an error if they are refused.
     pub(super) fn take_values<'k>(&mut self, values: impl IntoIterator<Item = (&'k str, f64)>) {
         let mut next = self.state.document.scene().clone();
         let set = values.into_iter().try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));

@@ -8,7 +8,7 @@ use crate::platform::Instant;
 use crate::problem::{Numerics, Plate};
 use std::time::Duration;
 
-/// How often the film is marched.
+/// Interval at which the film is marched.
 pub(super) const TICK: Duration = Duration::from_millis(20);
 /// Longest time of the clock that is made up for at once.
 const MOST: Duration = Duration::from_millis(60);
@@ -30,7 +30,7 @@ pub struct Snapshot {
     pub reading: Reading,
     /// Nodes along x ≥ 0, from the middle \[m\]; of a round plate, radii. There is one node across a strip or a round plate.
     pub x: Vec<f64>,
-    /// The same across.
+    /// Nodes along y ≥ 0, across the plate, from the middle \[m\].
     pub y: Vec<f64>,
     /// Absolute pressure \[Pa\], `[ix][iy]`; of a plate that was let go the mean since the snapshot before, as the force is.
     pub pressure: Vec<f64>,
@@ -40,7 +40,7 @@ pub struct Snapshot {
     pub failure: Option<String>,
 }
 
-/// What the hand asks for. Only the newest target counts.
+/// Request of the hand to a held plate. Only the newest counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
     pub(super) gap: f64,

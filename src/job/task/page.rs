@@ -40,7 +40,7 @@ impl<M: 'static, R: 'static> Task<M, R> {
         Ok(Self { line, told })
     }
 
-    /// What it has sent since the last time.
+    /// Messages and result since the last call.
     pub fn drain(&self) -> News<M, R> {
         let mut told = self.told.borrow_mut();
         News { messages: std::mem::take(&mut told.messages), end: told.end.take() }

@@ -63,7 +63,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
         Ok(Self { cancel, events: Some(events), thread: Some(thread) })
     }
 
-    /// What it has sent since the last time.
+    /// Messages and result since the last call.
     pub fn drain(&self) -> News<M, R> {
         let mut news = News { messages: Vec::new(), end: None };
         while let (Some(events), None) = (&self.events, &news.end) {

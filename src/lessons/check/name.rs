@@ -63,7 +63,7 @@ impl Name {
         }
     }
 
-    /// What it stands for, in words.
+    /// Description of the number or key, in words.
     pub fn words(self) -> String {
         match self {
             Self::Quantity(quantity) => quantity.words().to_owned(),

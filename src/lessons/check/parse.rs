@@ -204,7 +204,7 @@ impl Reader<'_> {
         Ok(factor)
     }
 
-    /// What is in a bracket that has been opened.
+    /// Reads the contents of an open bracket, and its closing one.
     fn bracketed(&mut self) -> Result<Expression, String> {
         let inside = self.sum()?;
         if self.takes(&Token::Sign(')')) { Ok(inside) } else { Err(self.unexpected("expected )")) }

@@ -10,7 +10,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// How files beside the lesson are found.
+/// Access to the files beside the lesson.
 #[derive(Clone, Copy)]
 pub(in crate::lessons) struct Beside<'a> {
     /// Finds a preset by the name of its file.
@@ -56,7 +56,7 @@ impl Reader<'_> {
         );
     }
 
-    /// Asks for a key that a block has to have; `what` says what it is.
+    /// Adds a fault if a block lacks a required key; `what` describes the key.
     pub(super) fn needs(&mut self, table: &Table<'_>, key: &str, what: &str) {
         if table.get(key).is_none() {
             self.key_fault(table.first_line(), table.block, key, format!(" is missing: {what}"));
@@ -116,7 +116,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What was read of a text of a key; `None` if it cannot be read.
+    /// The text of a key as it was read; `None`, with a fault added, if it could not be.
     fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, TextError>) -> Option<T> {
         read.map_err(|error| self.key_fault(line, table.block, key, format!(": {error}"))).ok()
     }

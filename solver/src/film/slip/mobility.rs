@@ -1,4 +1,4 @@
-//! What a slip law is.
+//! The trait that every slip law implements.
 
 /// A slip law: ψ and dψ/dZ, and where it holds.
 pub trait Mobility: Copy {

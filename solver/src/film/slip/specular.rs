@@ -1,4 +1,4 @@
-//! What specular reflection adds to the flow rate Q_P(D) between walls that reflect diffusely.
+//! Contribution of specular reflection to the flow rate Q_P(D) between walls that reflect diffusely.
 //!
 //! With Maxwell's boundary condition a share α of the molecules leaves a wall diffusely and the others as light from a mirror. The
 //! flow rate of the linearised BGK equation with it was computed by discrete ordinates, as `tests/boltzmann.rs` does again, and its

@@ -81,7 +81,7 @@ const RESOLVED: f64 = 8.0;
 const SAMPLED: f64 = 5.0;
 /// The solution and its derivatives by the order that are taken of each.
 const DERIVATIVES: usize = 4;
-/// What these leave out of a compliance at most, relative: a test asserts it.
+/// Bound of the relative error of a compliance from these; a test asserts it.
 const LEFT_OUT: f64 = 1e-5;
 /// Orders at which the finer mesh is corrected.
 const CORRECTED: usize = 7;
@@ -185,7 +185,7 @@ impl Section {
     }
 }
 
-/// What the corrections leave out of the change from mesh to mesh at most, at an order that is this share of the last: a test asserts it.
+/// Greatest share of the change from mesh to mesh that the corrections miss, at an order that is this share of the last: a test asserts it.
 fn not_refined(share: f64) -> f64 {
     0.03 + 0.22 * share
 }

@@ -22,13 +22,13 @@ use crate::numerics::gauss_legendre;
 /// Directions: r, θ, z.
 pub(super) const DIRECTIONS: usize = 3;
 
-/// What two nodes of an element have to do with each other.
+/// Stiffness and mass that couple two nodes of an element.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pair {
     /// Stiffness for order 1 but for its part with m², `[direction of the first node][of the second]` \[N/m per
     /// radian\].
     pub(super) base: [[f64; DIRECTIONS]; DIRECTIONS],
-    /// What is added to the diagonal for each m².
+    /// Addition to the diagonal of the stiffness for each m².
     pub(super) square: [f64; DIRECTIONS],
     /// Mass \[kg per radian\], for each direction.
     pub(super) mass: [f64; DIRECTIONS],

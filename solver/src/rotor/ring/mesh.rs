@@ -44,7 +44,7 @@ pub struct Element {
     pub part: usize,
 }
 
-/// What the nodes of a mesh with halved elements have to do with those of the mesh that was halved.
+/// Interpolation from the nodes of a mesh to those of the mesh with every element halved.
 pub(super) struct Halved {
     /// Nodes of the mesh that was halved.
     count: usize,
@@ -75,7 +75,7 @@ impl Halved {
         3 * self.count
     }
 
-    /// The same displacements on the finer mesh.
+    /// Interpolates displacements to the finer mesh.
     pub(super) fn finer(&self, moved: &[f64]) -> Vec<f64> {
         let (moved, _) = moved.as_chunks::<3>();
         let at = |(nodes, shares): &([usize; NODES], [f64; NODES])| {

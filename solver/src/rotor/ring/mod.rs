@@ -6,7 +6,7 @@
 //! u_r = U(r, z) cos mθ,   u_θ = V(r, z) sin mθ,   u_z = W(r, z) cos mθ
 //! ```
 //!
-//! What is left for each order m is a plane problem in three fields on the cross-section ([`section`]), solved with
+//! This leaves for each order m a plane problem in three fields on the cross-section ([`section`]), solved with
 //! quadratic elements (`element`) on a mesh that is dense at the contact and at corners ([`mesh`]), and with a sparse
 //! Cholesky factorisation (`solve`). From it follow the compliance of every harmonic of the wave ([`compliance`]) and
 //! the natural frequencies ([`modes`]).

@@ -63,7 +63,7 @@ impl Section {
         orders.par_iter().map(of_order).collect()
     }
 
-    /// What is added to squared frequencies \[1/s²\]: far below that of a wave as long as the ring is round, far above rounding.
+    /// Spectral shift of the squared frequencies \[1/s²\]: far below that of a wave as long as the ring is round, far above rounding.
     fn shift(&self) -> f64 {
         let squares = self.parts().iter().map(|part| part.material.youngs_modulus / part.material.density);
         let outer = self.parts().iter().map(|part| part.outer_radius).fold(0.0, f64::max);

@@ -49,7 +49,7 @@ impl<'de> Deserialize<'de> for Material {
 /// A rectangle of one material, turned round the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
-    /// What messages and drawings call it.
+    /// Name used in messages and drawings.
     pub name: String,
     /// Inner radius \[m\], positive.
     pub inner_radius: f64,
@@ -59,7 +59,7 @@ pub struct Part {
     pub bottom: f64,
     /// Height of its upper face \[m\].
     pub top: f64,
-    /// What it is made of.
+    /// Material of the part.
     pub material: Material,
 }
 
@@ -110,7 +110,7 @@ pub enum RingError {
     Part {
         /// Its name.
         part: String,
-        /// What is wrong and what is allowed.
+        /// The fault, and what is allowed.
         what: String,
     },
     /// Two parts share more than an edge.
@@ -136,7 +136,7 @@ pub enum RingError {
     Support {
         /// Which of the supports, from 1.
         number: usize,
-        /// What is wrong and what is allowed.
+        /// The fault, and what is allowed.
         what: String,
     },
     /// The stator touches where the section has no face.
@@ -156,7 +156,7 @@ pub enum RingError {
     Free {
         /// The motion in words.
         motion: &'static str,
-        /// What would hold it.
+        /// Supports that would hold it, in words.
         allowed: &'static str,
     },
     /// The mesh would be too large.

@@ -295,7 +295,7 @@ mod tests {
         (0..moved.len()).map(|i| constant[i] + order * (linear[i] + order * square[i])).collect()
     }
 
-    /// What a force of the size of single terms of K u is.
+    /// Magnitude of single terms of K u.
     fn scale(system: &System, moved: &[f64], order: f64) -> f64 {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |top: f64, x| top.max(x.abs()));
         let stiffest = largest(&mut system.pairs.iter().map(|pair| pair.base[0][0] + order * order * pair.square[0]));

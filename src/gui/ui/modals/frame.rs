@@ -1,9 +1,9 @@
-//! The frame of what is in the way, its heading, and what comes of it.
+//! The frame of modal dialogs, their heading, and their answer.
 
 use crate::gui::command::Command;
 use eframe::egui::{self, RichText, Ui};
 
-/// Around the contents.
+/// Margin around the contents \[points\].
 const MARGIN: i8 = 18;
 
 /// The frame of all modals: as that of a popup, with room inside.
@@ -11,10 +11,10 @@ pub fn frame(ctx: &egui::Context) -> egui::Frame {
     egui::Frame::popup(&ctx.global_style()).inner_margin(MARGIN)
 }
 
-/// What the user answered, once that is clear: commands for when the question is gone.
+/// Commands to carry out when the dialog is closed; `None` until it is answered.
 pub(super) type Answer = Option<Vec<Command>>;
 
-/// What is asked, in large letters.
+/// The heading, in large letters.
 pub(super) fn heading(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).heading()).wrap());
     ui.add_space(8.0);

@@ -13,12 +13,12 @@ fn search_id() -> Id {
     Id::unique("glossary, search")
 }
 
-/// Whether what is looked for is being typed.
+/// Whether the search field has the keyboard.
 pub fn is_searched(ctx: &egui::Context) -> bool {
     ctx.memory(|memory| memory.has_focus(search_id()))
 }
 
-/// Shows the glossary with what is looked for.
+/// Shows the glossary, searched for `query`.
 pub fn show(ctx: &egui::Context, query: &str, cx: &DrawContext<'_>) {
     let room = ctx.content_rect();
     let size = egui::vec2(SIZE[0].min(0.9 * room.width()), SIZE[1].min(0.75 * room.height()));

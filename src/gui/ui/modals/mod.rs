@@ -1,4 +1,4 @@
-//! What is over everything else: questions, the sheet of shortcuts, the tour, the glossary.
+//! Overlays: questions, the sheet of shortcuts, the tour, the glossary.
 
 pub mod frame;
 pub mod glossary;

@@ -57,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
     .inner
 }
 
-/// What is wrong with the answer to a question, or that it is needed, under the words that the question has here.
+/// Why the answer to a question is refused or missing, with the question's words; `None` if it is valid.
 fn complaint(question: &Question, answers: &Answers) -> Option<String> {
     let answer = answers.get(question.name).map_or("", |answer| answer.trim());
     match (answer, question.otherwise) {

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf, is_separator};
 
 const WIDTH: f32 = 460.0;
 
-/// Shows what is in the way, if anything is.
+/// Shows the open modal dialog, if there is one.
 pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     let Some(modal) = &cx.state.modal else { return };
     let response = egui::Modal::new(Id::unique("question")).frame(frame(ctx)).show(ctx, |ui| {

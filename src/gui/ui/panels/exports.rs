@@ -1,4 +1,4 @@
-//! How far an export is, or what it wrote.
+//! Progress of an export, or the files that it wrote.
 
 use crate::gui::command::Command;
 use crate::gui::ui::context::DrawContext;
@@ -7,7 +7,7 @@ use eframe::egui::{self, RichText};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// One line above the status: how far an export is, or what it wrote.
+/// One line above the status: progress of an export, or the files that it wrote.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let exports = &cx.state.exports;
     if let Some(running) = &exports.running {
@@ -36,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     }
 }
 
-/// Where the files are.
+/// The files that were written, in words.
 fn summary(paths: &[PathBuf]) -> String {
     match paths {
         [] => "Nothing to write".to_owned(),

@@ -40,7 +40,7 @@ pub struct Field<'a> {
     pub value: Option<&'a Value>,
     /// Name for screen readers.
     pub name: &'a str,
-    /// What an empty field says.
+    /// Placeholder of an empty field.
     pub hint: &'static str,
     /// Why the last text was refused.
     pub refused: Option<&'a str>,

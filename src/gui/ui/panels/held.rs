@@ -9,7 +9,7 @@ use crate::gui::ui::parts::scrolled;
 use crate::hold::leak_time;
 use eframe::egui;
 
-/// Shows what is read off `hold`.
+/// Shows the readings of `hold`.
 pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let (plate, now) = (&hold.plate, hold.shown());
     let (reading, ambient) = (now.reading, plate.gas.ambient_pressure);

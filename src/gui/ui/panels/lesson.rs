@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// How far the lesson is: a dot for each step, a ring for one that was skipped.
+/// Progress of the lesson: a dot for each step, a ring for one that was skipped.
 fn dots(ui: &mut Ui, running: &RunningLesson, lesson: &Lesson, cx: &DrawContext<'_>) {
     let steps = lesson.steps.len();
     ui.horizontal(|ui| {
@@ -146,7 +146,7 @@ fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// What came of the lesson: a score, and each step with its answer.
+/// Recap of the lesson: the score, and each step with its answer.
 fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) {
     let score = Score::of(lesson.steps.iter().zip(work));
     let [points, all] = score.points();

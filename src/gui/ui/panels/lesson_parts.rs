@@ -1,4 +1,4 @@
-//! What a step of a lesson asks, has one do, and explains, in tinted boxes.
+//! The question, the task and the explanation of a lesson's step, in tinted boxes.
 
 use crate::gui::command::LessonCommand;
 use crate::gui::state::lessons::NUMBER;
@@ -10,7 +10,7 @@ use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
 use crate::scene::quantity_text;
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
 
-/// What the box of a question is called.
+/// Title of the box of a question.
 fn title(kind: Kind) -> &'static str {
     match kind {
         Kind::Predict => "What do you expect?",
@@ -19,7 +19,7 @@ fn title(kind: Kind) -> &'static str {
     }
 }
 
-/// What the button that keeps to an answer is called.
+/// Label of the button that commits an answer.
 pub(super) fn commit_label(kind: Kind) -> &'static str {
     if kind == Kind::Calculate { "This is my result" } else { "This is my prediction" }
 }
@@ -224,7 +224,7 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
     });
 }
 
-/// Asks what was seen.
+/// The question about what was observed.
 fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, unmarked: bool, open: bool, cx: &DrawContext<'_>) {
     let look = Look::reading(ui);
     let Answer::Choice { choices: all, .. } = &observe.answer else { return };

@@ -80,7 +80,7 @@ fn take(ui: &egui::Ui, entry: Response, command: impl Into<Command>, cx: &DrawCo
     }
 }
 
-/// What can be exported, in groups.
+/// Kinds of export, grouped for the menu.
 const EXPORTS: &[&[Export]] = &[
     &[Export::Data, Export::Figures, Export::Fields, Export::Animation, Export::Report],
     COMPARISON,
@@ -89,11 +89,11 @@ const EXPORTS: &[&[Export]] = &[
     &[Export::Sensitivity],
     FIT,
 ];
-/// What can be exported of the pinned runs.
+/// Exports of the pinned runs.
 pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport];
-/// What can be exported of the sweep.
+/// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
-/// What can be exported of a fit.
+/// Exports of a fit.
 pub const FIT: &[Export] = &[Export::Fit];
 
 /// A button with a menu of exports.

@@ -1,4 +1,4 @@
-//! Panels: what is around the middle of the window.
+//! The panels around the middle of the window.
 
 pub mod exports;
 pub mod field;

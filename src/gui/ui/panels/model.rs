@@ -1,5 +1,5 @@
-//! The plan in the window: what was decided about each part of the model, what that changes at most, and a switch to decide
-//! otherwise. After a switch, what it changed.
+//! The plan in the window: the decision on each part of the model, the bound of its effect, and a switch to decide otherwise.
+//! After a switch, its effect.
 
 use crate::analysis::decision;
 use crate::analysis::tradeoff::without_grid;
@@ -41,7 +41,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     ui.add_space(4.0);
 }
 
-/// What a switch changed, beside what the plan had stated.
+/// Effect of the last switch, beside the bound that the plan had stated.
 fn changed(ui: &mut egui::Ui, change: &SwitchEffect, cx: &DrawContext<'_>) {
     let colour = if change.held() { cx.colours.good } else { cx.colours.alarm };
     let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.16);
@@ -100,7 +100,7 @@ fn at_most(share: f64) -> String {
     format!("{up:.decimals$} %")
 }
 
-/// What a decision leaves out at most; nothing of a grid, whose error is stated elsewhere.
+/// Bound of a decision's effect; empty for a grid, whose error is stated elsewhere.
 fn bound(decision: &Decision) -> String {
     if decision.key().is_none() && decision.effect == 0.0 {
         return String::new();
@@ -108,7 +108,7 @@ fn bound(decision: &Decision) -> String {
     if decision.effect > 0.0 { format!("≤ {}", at_most(decision.effect)) } else { "exact".to_owned() }
 }
 
-/// What the scene says for a key.
+/// The choice in the scene for a key; empty if it is not a choice.
 fn asked(scene: &Scene, key: &str) -> String {
     match scene.get(key) {
         Some(Value::Text(name)) => name,
@@ -142,7 +142,7 @@ impl Columns {
     }
 }
 
-/// What a switch can be set to.
+/// Options of a switch.
 fn options(parameter: &Parameter) -> &'static [&'static str] {
     match parameter.kind {
         ParameterKind::Choice { options, .. } => options,

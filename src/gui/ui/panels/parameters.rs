@@ -16,7 +16,7 @@ use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
 
-/// What the eye meets first.
+/// Keys of the main parameters, listed first.
 const MAIN: &[&str] = &[
     "film.min_spacing_nm",
     "surface.rms_nm",
@@ -46,7 +46,7 @@ const FOLLOWING_DIGITS: usize = 4;
 const SHORTEST_SLIDER: f32 = 40.0;
 /// Size of notes relative to the text.
 const NOTE_SIZE: f32 = 0.88;
-/// Between the frame of the main group and what is in it.
+/// Margin between the frame of the main group and its contents.
 const FRAME_MARGIN: i8 = 6;
 
 /// Shows the parameters of the scene, and at each why its last edit was rejected.
@@ -59,7 +59,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// What every row needs.
+/// Data shared by all rows.
 struct Panel<'a> {
     scene: &'a Scene,
     plan: &'a [Decision],
@@ -376,7 +376,7 @@ impl Panel<'_> {
         quiet(ui, self.cx, "Edit the table in its file and give the file again");
     }
 
-    /// What is refused, and what has no effect.
+    /// Notes below a parameter: why an edit is refused, and that it has no effect.
     fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
         if let Some(message) = self.cx.state.rejected.of(parameter.key) {
             let prefix = format!("{} = ", parameter.key);

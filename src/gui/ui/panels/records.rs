@@ -8,7 +8,7 @@ use crate::scene::edges::with_edge;
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, RichText};
 
-/// What a pixel of dragging changes of a length \[mm\].
+/// Change of a length per point of dragging \[mm\].
 const SPEED: f64 = 0.02;
 
 /// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that an edit makes of them.

@@ -18,7 +18,7 @@ use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2}
 
 /// Widest field for a label, in heights of the text.
 const WIDEST_LABEL: f32 = 16.0;
-/// Between a pin's parts.
+/// Margin and gaps between the parts of a pin \[points\].
 const CHIP_MARGIN: i8 = 4;
 const CHIP_GAP: f32 = 5.0;
 /// With more runs than this, or in a tab narrower than their columns, differences stand below the values instead of beside
@@ -61,7 +61,7 @@ fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
     note(ui, cx);
 }
 
-/// What became of the last request.
+/// Outcome of the last request.
 fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (text, colour) = match &cx.state.pins.note {
         Some(Note::Remark(text)) => (text, cx.colours.quiet),
@@ -71,7 +71,7 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
     cx.say(ui, text, colour);
 }
 
-/// What adds a pin.
+/// Buttons that add a pin.
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
     let empty = cx.state.pins.pins.is_empty();
@@ -81,7 +81,7 @@ fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
-/// Who is pinned: the legend of all drawings.
+/// The pins, as the legend of all drawings.
 fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     ui.horizontal_wrapped(|ui| {

@@ -1,4 +1,4 @@
-//! Keys chosen to agree with measurements, or for the optimum of a number: the table, what is asked for, and what was found.
+//! The fit tab: parameters fitted to measurements, or optimised for a result: the table, the form, and the result.
 
 use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, percent, signed, significant, with_error};
@@ -85,7 +85,7 @@ fn question(found: &Found) -> String {
     }
 }
 
-/// What is looked for: agreement with measurements, or the optimum of a number, within limits on others.
+/// Choice of the goal: agreement with measurements, or the optimum of a number, within limits on others.
 fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
     const KINDS: [(Sought, &str); 3] = [
         (Sought::Agreement, "agreement with measurements"),
@@ -140,7 +140,7 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
     });
 }
 
-/// What stands in the tab while there is nothing to see.
+/// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
     "Which values of some parameters agree best with what was measured, and how sure are they?",
     "The first line of the table names its columns. Keys of the scene, such as film.min_spacing_nm, are the conditions of each line. \
@@ -149,7 +149,7 @@ const INTRODUCTION: &[&str] = &[
     "Nothing is solved before you ask.",
 ];
 
-/// The keys that are to be chosen, each with its bounds and what is wrong with it.
+/// The keys to be chosen, each with its bounds and its fault.
 fn keys(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
     let mut less = None;
     for i in 0..form.axes.len() {
@@ -163,7 +163,7 @@ fn keys(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
     less.map(|i| form.axes.remove(i));
 }
 
-/// One key with its bounds; whether it is no longer to be chosen.
+/// One key with its bounds. Returns whether it was removed.
 fn key(ui: &mut Ui, form: &mut FitForm, i: usize, cx: &DrawContext<'_>) -> bool {
     let (scene, of) = (cx.state.document.scene(), format!("parameter {}", i + 1));
     let row = AxisRow {
@@ -215,11 +215,11 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     }
 }
 
-/// Charts of what was found, and the words for its numbers.
+/// Charts of the result, and the words for its numbers.
 #[derive(Default)]
 struct Drawn {
     panels: Vec<Panel>,
-    /// Of an optimum, what is sought and what is limited.
+    /// Numbers of an optimum in words: the one that is sought, then the limited ones.
     words: Vec<String>,
 }
 
@@ -264,7 +264,7 @@ fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, heigh
     rows(ui, measured, found, cx);
 }
 
-/// What is done with the values that were found.
+/// Buttons that take over or export the values found.
 fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         let about = "Gives the scene these values: one edit, which can be undone";
@@ -354,7 +354,7 @@ fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
     Chart { name, height: named.max(0.7 * height), panel: residuals, words: (Some(word), word) }.show(ui);
 }
 
-/// The measurements beside what is computed.
+/// The measurements beside the computed values.
 fn rows(ui: &mut Ui, measured: &Measured, found: &Fitted, cx: &DrawContext<'_>) {
     ui.add_space(4.0);
     table(ui, "measurements", 4, 10.0, |ui| {

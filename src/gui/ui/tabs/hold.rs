@@ -12,9 +12,9 @@ use crate::hold::leak_time;
 use crate::scene::quantity_text;
 use eframe::egui::{self, Slider, TextStyle};
 
-/// What a motor is changed for.
+/// Preset that is offered while the scene is a motor.
 const PRESET: &str = "plate-crossover";
-/// Below this share of what was asked for, the film is said to be slower.
+/// Share of the requested pace below which the film is reported to be slower.
 const SLOW: f64 = 0.85;
 /// Decimals of the gap in µm.
 const GAP_DECIMALS: usize = 3;

@@ -1,4 +1,4 @@
-//! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
+//! The tabs of the middle of the window, one shown at a time. The motion is drawn by `views`, the others here.
 
 pub mod compare;
 mod dropped;

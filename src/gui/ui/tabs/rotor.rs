@@ -29,9 +29,9 @@ const SHOWN: usize = 64;
 const MAGNIFIED: f64 = 0.06;
 /// Nodes of an element round its sides, from one corner to the same again.
 const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
-/// How near to an edge the pointer takes it \[points\].
+/// Distance from an edge within which the pointer takes it \[points\].
 const REACH: f32 = 5.0;
-/// What a dragged edge is rounded to \[mm\].
+/// Rounding of a dragged edge \[mm\].
 const STEP: f64 = 0.01;
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -211,7 +211,7 @@ fn section(
     });
 }
 
-/// What the length at this place of a part is called.
+/// Name of a length of a part, by its place in the part's table.
 fn label(which: usize) -> &'static str {
     ["Inner radius", "Outer radius", "Bottom", "Top"].get(which).copied().unwrap_or_default()
 }
@@ -254,7 +254,7 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, t
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
 }
 
-/// Where it is held.
+/// Draws the supports of the ring.
 fn supports(painter: &egui::Painter, scale: Axes, cx: &DrawContext<'_>) {
     let Some(Value::Records(supports)) = cx.state.document.scene().get("rotor.support") else { return };
     for [inner, outer, low, high] in supports.iter().filter_map(|support| lengths(support)) {

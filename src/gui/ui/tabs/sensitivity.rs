@@ -1,4 +1,4 @@
-//! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
+//! The sensitivity tab: how much each result changes with every parameter, and how uncertain it is if the parameters are.
 
 use crate::analysis::sensitivity::{Sensitivity, Uncertainties};
 use crate::digits::{percent, short, significant};
@@ -67,14 +67,14 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
     });
 }
 
-/// What stands in the tab while there is nothing to see.
+/// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
     "Which parameters matter, and how well do they have to be known?",
     "Every parameter is changed a little, up and down, and the scene solved each time. Give parameters an uncertainty, and see how \
          uncertain the results are. Nothing is computed before you ask.",
 ];
 
-/// Which of the results is looked at.
+/// Choice of the result that is shown.
 fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for (i, output) in found.outputs.iter().enumerate() {

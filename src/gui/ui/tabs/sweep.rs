@@ -1,4 +1,4 @@
-//! One parameter varied, or two: what is asked for, the points as they are solved, and any number of their results.
+//! The sweep tab: the form for one or two parameters, the points as they are solved, and the result that is shown of them.
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
@@ -38,7 +38,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     swept::show(ui, &Plotted { swept, quantity, present: present.as_deref() }, cx);
 }
 
-/// The form, with what is wrong with it.
+/// The form, with its faults.
 fn ask(ui: &mut Ui, form: &mut Form, cx: &DrawContext<'_>) {
     for i in 0..form.axes().len() {
         ui.push_id(i, |ui| {
@@ -123,7 +123,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     });
 }
 
-/// What is drawn of the points: changing it solves nothing.
+/// Choice of the result that is drawn; changing it solves nothing.
 fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     let swept = cx.state.sweep.swept.as_ref().map(|swept| swept.sweep.problem());
     let Some(problem) = swept.or(cx.state.problem.as_ref()) else { return };
@@ -138,14 +138,14 @@ fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// What stands in the tab while there is nothing to see.
+/// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
     "How do the results of this scene change with one of its parameters, or with two?",
     "Choose what to vary and start. Every point is a solve of its own, with its own stated error; click one to \
          make its scene the present one. Nothing is solved before you ask.",
 ];
 
-/// Of what the points are, and what is wrong with some.
+/// State of the sweep: whether it is of the present scene, and how many points failed.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
     let name = &swept.sweep.scene().name;
     let stale = swept.stale(cx.state.document.scene());

@@ -187,7 +187,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     });
 }
 
-/// What else follows, in sentences.
+/// Further results, in sentences.
 fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
     let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
     cx.note(ui, format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));

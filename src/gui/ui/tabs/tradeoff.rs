@@ -22,7 +22,7 @@ use egui_plot::HoverPosition;
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
 const LEAST_LINES: f32 = 12.0;
-/// What can be asked for: per cent, and ms.
+/// Ranges of the targets: accuracy \[%\] and time \[ms\].
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
 
@@ -79,14 +79,14 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// What stands in the tab while there is nothing to see.
+/// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
     "How exact can this scene be solved, and how fast, on this machine?",
     "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
          background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
 ];
 
-/// Of what, and whether that still is the scene.
+/// State of the measurement: whether it is of the present scene, was cancelled, or failed.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
         cx.alarm(ui, [format!("Measured on “{}” before the scene changed; measure again", measured.scene.name)]);

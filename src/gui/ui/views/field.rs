@@ -13,7 +13,7 @@ const MOST_ROWS: usize = 96;
 /// Texels along x.
 const MOST_COLUMNS: usize = 2048;
 
-/// What a picture shows: as long as it stays, the texture does too.
+/// Key of a picture of the field: as long as it is the same, the texture is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stamp {
     /// Number of the run and its fidelity.

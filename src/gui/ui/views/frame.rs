@@ -31,7 +31,7 @@ pub(super) struct Frame<'a, T> {
 }
 
 impl<'a, T> Frame<'a, T> {
-    /// `run`, if it is of what `pick` picks, at the phase of `view`; `name`: as what its curves are kept from frame to frame.
+    /// `run` at the phase of `view`; `None` if its scenario is not the one that `pick` picks. `name`: under which its curves are cached.
     pub(super) fn of(
         ui: &Ui,
         name: &str,

@@ -19,11 +19,11 @@ const FEWEST: usize = 8;
 /// Error bands are drawn up to this many times the range of the values: the first ones may be known badly.
 const WIDEST_BAND: f64 = 0.5;
 
-/// What a plot shows of a cycle: a number, times a factor.
+/// Curve of a plot over the cycles: a result, times a factor.
 struct Curve {
     /// Long to short.
     titles: [&'static str; 3],
-    /// What the glossary explains it under.
+    /// Its glossary term.
     word: &'static str,
     of: (Quantity, f64),
 }
@@ -49,7 +49,7 @@ const PRESSURE: Curve = Curve {
     of: (Quantity::MaxPressure, 1.0),
 };
 const OF_MOTOR: &[(Curve, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
-/// Without room for three: what is left out is in the words above.
+/// Curves where there is no room for three; the text above has the number left out.
 const OF_MOTOR_NARROW: &[(Curve, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
 const NARROW: f32 = 36.0;
 /// The gap of a plate is given.

@@ -234,7 +234,7 @@ fn map(ui: &Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     y_labels(style, &axes);
 }
 
-/// What was read off lately, against time. `of`: the value and its error; `reach`: what the axis holds at least; `rest`: the value at rest.
+/// Recent readings against time. `of`: the value and its error; `reach`: least range of the axis; `rest`: the value at rest.
 fn chart(
     ui: &mut Ui,
     style: &PlotStyle,
@@ -265,7 +265,7 @@ fn chart(
     });
 }
 
-/// How far the charts go back.
+/// Labels of the time axis: how far the charts go back.
 fn time_labels(style: &PlotStyle, chart: Rect, window: f64) {
     let top = chart.bottom() + 1.0;
     let text = format!("{} ago", time(window));

@@ -73,7 +73,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// Takes the whole width and this height.
+/// Allocates the whole width and this height.
 fn take(ui: &mut Ui, height: f32) -> Rect {
     let size = vec2(ui.available_width().min(6000.0), height.min(20_000.0));
     ui.allocate_exact_size(size, Sense::hover()).0
@@ -91,12 +91,12 @@ impl Along {
         Self { alike: lengths.all(|length| (length / first - 1.0).abs() < SAME), first }
     }
 
-    /// What a metre of a run of this length is on the axis.
+    /// Units of the axis per metre, for a run of this length \[m\].
     fn metre(&self, length: f64) -> f64 {
         if self.alike { 1.0 } else { 1.0 / length }
     }
 
-    /// What a unit of the axis is in the numbers that are written.
+    /// Factor from units of the axis to the numbers that are written.
     fn written(&self) -> f64 {
         if self.alike { 1e3 } else { 1.0 }
     }
@@ -107,7 +107,7 @@ impl Along {
         (chart.response, x)
     }
 
-    /// What a metre of the first run is, which the x that all views have is of.
+    /// Units of the axis per metre of the first run, to which the x shared by all views refers.
     fn of_first(&self) -> f64 {
         self.metre(self.first)
     }
@@ -234,7 +234,7 @@ fn key_beside(painter: &Painter, map: Rect, colour: Color32) {
     painter.rect_filled(strip, 1.0, colour);
 }
 
-/// What a map is, for screen readers.
+/// Describes a map for screen readers.
 fn map_name(ui: &Ui, rect: Rect, label: &str, range: [f64; 2]) {
     let [low, high] = range.map(|pressure| number(pressure / 1e3));
     named(ui, rect, &format!("Pressure map of {label}, colours from {low} to {high} kPa"), Sense::hover());

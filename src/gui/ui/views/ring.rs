@@ -17,7 +17,7 @@ use eframe::egui::{self, CursorIcon, EventFilter, Key, Rect, Response, Sense, St
 use std::f32::consts::PI;
 
 const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
-/// What a screen reader is told besides.
+/// Further description for screen readers.
 const ABOUT: &str = "All waves of the ring, with teeth coloured by the pressure of the film. The rotor is lifted off, and the ring is drawn wider than it \
      is. Arrow keys turn it while it has the keyboard, Home puts it back.";
 /// A key turns it by this much \[rad\].
@@ -63,7 +63,7 @@ pub(super) fn draw(
     response.on_hover_and_drag_cursor(CursorIcon::Grab);
 }
 
-/// From where it is seen after what mouse and keyboard did in this frame, if they did anything.
+/// Orbit after the input of mouse and keyboard in this frame; `None` if there was none.
 fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
     if response.double_clicked() {
         return Some(Orbit::default());

@@ -30,7 +30,7 @@ pub fn show(
     }
 }
 
-/// What the views draw of `run`, if it is of what `pick` picks.
+/// The frame of `run` to draw; `None` if its scenario is not the one that `pick` picks.
 fn frame<'a, T>(
     ui: &Ui,
     run: &'a SolvedScene,

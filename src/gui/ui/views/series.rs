@@ -11,22 +11,22 @@ use egui_plot::LineStyle;
 /// One curve of a small chart.
 pub(super) struct Trace<'a> {
     pub(super) curve: &'a Curve,
-    /// By how much of a cycle the curve is ahead.
+    /// Phase that the curve is ahead, in cycles.
     pub(super) lag: f64,
     /// Added to the values.
     pub(super) offset: f64,
     pub(super) colour: Color32,
-    /// Of the run that this one is compared with: dashed.
+    /// Whether it belongs to the run compared with, and is dashed.
     pub(super) behind: bool,
 }
 
 /// A small chart over the cycle.
 pub(super) struct Series<'a> {
-    /// What tells it from other charts.
+    /// Unique name of the chart.
     pub(super) name: &'a str,
-    /// With the unit, long to short.
+    /// Titles with the unit, long to short; the longest that fits is written.
     pub(super) titles: &'a [&'a str],
-    /// What the glossary explains it under.
+    /// Its glossary term.
     pub(super) word: &'a str,
     /// Shown at the right end of the title, if it fits.
     pub(super) legend: &'a [(&'a str, Color32)],

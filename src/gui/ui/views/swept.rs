@@ -35,7 +35,7 @@ const NAME: &str = "Sweep: point to read a value, click to make its scene the pr
 const MARK: f64 = 5.0;
 /// Significant digits of a value that is varied, at most.
 const DIGITS: usize = 6;
-/// How near the pointer has to be.
+/// Distance within which a point takes the pointer \[points\].
 const NEAR: f32 = 40.0;
 /// Lines of equal value, about.
 const LEVELS: usize = 7;
@@ -46,14 +46,14 @@ const MANY_SIZES: f64 = 300.0;
 /// An axis of values that reach below this share of the greatest begins at zero.
 const FROM_ZERO: f64 = 0.6;
 
-/// What is drawn.
+/// A sweep to draw, the quantity shown, and the present scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Plotted<'a> {
     /// The sweep, with its rows so far.
     pub swept: &'a Swept,
-    /// What is read off them.
+    /// The quantity shown.
     pub quantity: Quantity,
-    /// Where the present scene is.
+    /// The present scene's values of the varied parameters, if it has them.
     pub present: Option<&'a [f64]>,
 }
 
@@ -95,7 +95,7 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
         [x, y] => map(ui, plotted, [x, y]),
         _ => return,
     };
-    // What is drawn follows the pointer of the frame before, which is this one while it rests.
+    // The drawing follows the pointer of the frame before, which is this one while it rests.
     let Some(row) = pointed else { return };
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     cx.on_click(&response, SweepCommand::Open(row.point));
@@ -104,12 +104,12 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
     });
 }
 
-/// What is varied, explained where it is named.
+/// Explanation of a varied parameter, shown on hover.
 fn about(axis: &Axis) -> String {
     format!("{}\n{}", axis.parameter.about, axis.parameter.key)
 }
 
-/// One parameter, as a chart over all of `ui`: its response, and the row that is pointed at.
+/// A chart over one parameter, filling `ui`. Returns its response, and the row under the pointer.
 fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Option<&'a Row>) {
     let (swept, quantity) = (plotted.swept, plotted.quantity);
     let drawn = once(ui, "curve", (swept.number, swept.rows.len(), quantity), || {
@@ -198,7 +198,7 @@ fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
     (places, edges)
 }
 
-/// What is drawn of a sweep over two parameters, places and values on their scales.
+/// Drawing data of a sweep over two parameters, places and values on their scales.
 struct Drawn {
     panel: Panel,
     /// Least and greatest value.

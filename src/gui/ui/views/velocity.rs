@@ -49,7 +49,7 @@ impl<T> Place<'_, T> {
         if high - low < STILL { [-STILL, STILL] } else { [low, high] }
     }
 
-    /// Draws the profile at the instant shown into `rect`; `x`: what is written for the place \[m\].
+    /// Draws the profile at the instant shown into `rect`; `x`: its place as it is written \[m\].
     pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, x: f64) {
         let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
