@@ -71,22 +71,48 @@ impl Steps {
     }
 }
 
-/// An axis of fewer decades than this has ticks at 2 and 5 too.
-const FEW_DECADES: f64 = 2.5;
+/// A round number on a logarithmic axis: a digit times a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decimal {
+    /// From 1 to 9.
+    pub digit: u32,
+    /// Of ten.
+    pub exponent: i32,
+    /// Whether it has a label.
+    pub major: bool,
+}
 
-/// Ticks of a logarithmic axis, as log₁₀ and ascending: about `most` powers of ten, and, if these are few and `between` is true, 2 and 5
-/// times each of them.
-pub fn decades(range: [f64; 2], most: f64, between: bool) -> Vec<f64> {
-    let count = range[1] - range[0];
-    if !count.is_finite() || count <= 0.0 {
-        return Vec::new();
+impl Decimal {
+    /// The number, to the last bit as it is read from a text.
+    pub fn value(self) -> f64 {
+        format!("{}e{}", self.digit, self.exponent).parse().unwrap_or(f64::NAN)
     }
-    let every = (count / most.max(1.0)).ceil().max(1.0);
-    let steps: &[f64] = if between && count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
-    ((range[0] / every).floor() as i64..=(range[1] / every).ceil() as i64)
-        .flat_map(|k| steps.iter().map(move |step| k as f64 * every + step.log10()))
-        .filter(|value| (range[0] - 1e-9..=range[1] + 1e-9).contains(value))
-        .collect()
+}
+
+/// Round numbers over a `range` of log₁₀, ascending, about `most` of them with labels: powers of ten, and 2 and 5 times each where there is room.
+/// `None` where fewer than two would have one: the axis is short enough for equal steps.
+pub fn decades(range: [f64; 2], most: usize) -> Option<Vec<Decimal>> {
+    let count = range[1] - range[0];
+    if !count.is_finite() {
+        return None;
+    }
+    let every = ((count / most as f64).ceil() as i32).max(1);
+    let labelled: &[u32] = if count * 3.0 <= most as f64 + 0.5 { &[1, 2, 5] } else { &[1] };
+    let digits = if every == 1 { 1..=9 } else { 1..=1 };
+    let found: Vec<Decimal> = (range[0].floor() as i32..=range[1].ceil() as i32)
+        .map(|exponent| (exponent, exponent.rem_euclid(every) == 0))
+        // So many decades that a tick for each would be a bar.
+        .filter(|(_, labels)| *labels || count <= 40.0)
+        .flat_map(|(exponent, labels)| {
+            let digits = digits.clone();
+            digits.map(move |digit| Decimal { digit, exponent, major: labels && labelled.contains(&digit) })
+        })
+        .filter(|number| {
+            let place = f64::from(number.exponent) + f64::from(number.digit).log10();
+            (range[0] - 1e-9 * count..=range[1] + 1e-9 * count).contains(&place)
+        })
+        .collect();
+    (found.iter().filter(|number| number.major).count() > 1).then_some(found)
 }
 
 /// The least of 1, 2, 5 × 10ⁿ that is not below `value`.
@@ -128,11 +154,16 @@ mod tests {
 
     #[test]
     fn decades_are_thinned_where_they_are_many_and_filled_where_they_are_few() {
-        assert_eq!(decades([-1.5, 3.4], 10.0, true), [-1.0, 0.0, 1.0, 2.0, 3.0]);
-        assert_eq!(decades([-4.0, 5.0], 3.0, false), [-3.0, 0.0, 3.0]);
-        assert_eq!(decades([0.0, 1.0], 9.0, true), [0.0, 2f64.log10(), 5f64.log10(), 1.0]);
-        for range in [[0.0, 0.0], [f64::NEG_INFINITY, f64::INFINITY]] {
-            assert!(decades(range, 4.0, true).is_empty());
+        let labelled = |range, most| -> Option<Vec<f64>> {
+            let major = decades(range, most)?.into_iter().filter(|number| number.major);
+            Some(major.map(Decimal::value).collect())
+        };
+        assert_eq!(labelled([-1.5, 3.4], 10), Some(vec![0.1, 1.0, 10.0, 100.0, 1000.0]));
+        assert_eq!(labelled([-4.0, 5.0], 3), Some(vec![1e-3, 1.0, 1e3]));
+        assert_eq!(labelled([0.0, 1.0], 9), Some(vec![1.0, 2.0, 5.0, 10.0]));
+        assert_eq!(decades([0.0, 2.0], 4).map(|numbers| numbers.len()), Some(19));
+        for range in [[0.0, 0.0], [0.02, 0.3], [f64::NEG_INFINITY, f64::INFINITY]] {
+            assert_eq!(decades(range, 4), None);
         }
     }
 

@@ -12,7 +12,7 @@ use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::tradeoff::TradeoffState;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
-use squeezefilm::job::task::Task;
+use squeezefilm::job::task::BackgroundTask;
 use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -331,7 +331,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
 
 #[test]
 fn a_panic_of_a_measurement_ends_it_and_is_told() {
-    let task = Task::start("test", None, |_| (), |_, _| panic!("out of luck")).unwrap();
+    let task = BackgroundTask::start("test", None, |_| (), |_, _| panic!("out of luck")).unwrap();
     let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
     for _ in 0..6000 {
         state.drain();

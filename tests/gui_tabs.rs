@@ -19,7 +19,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::format::uncertain;
 use squeezefilm::gui::state::dialogs::Answer;
-use squeezefilm::gui::state::fit::Found;
+use squeezefilm::gui::state::fit::FitResult;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
 use squeezefilm::gui::state::view::Tab;
@@ -716,7 +716,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
     until(&mut window, "the optimum", |app| app.state().fit.found.is_some());
     let state = window.known();
     let (_, found) = state.fit.found.as_ref().unwrap();
-    let Found::Optimum(optimum) = &**found else { panic!("an optimum") };
+    let FitResult::Optimum(optimum) = &**found else { panic!("an optimum") };
     // Torque grows with the load, and the share of the air falls.
     assert!((optimum.lines[0].value - 3.0).abs() < 0.01 && optimum.value.value > 0.3, "{:?}", optimum.value);
     assert!(optimum.limited[0].value < 0.3);

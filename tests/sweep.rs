@@ -4,7 +4,7 @@
 use serde_json::Value;
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::sweep::{Part, Row, Sweep, Vary};
+use squeezefilm::analysis::sweep::{Part, Sweep, SweepRow, Vary};
 use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::atomic::Lock;
 use squeezefilm::control::Cancel;
@@ -33,19 +33,19 @@ fn sweep_of(changes: &[(&str, &str)], preset: &str, vary: &[&str]) -> Sweep {
     Sweep::new(&scene, &vary, &DRAFT).unwrap()
 }
 
-fn with_threads(threads: usize, sweep: &Sweep) -> Vec<Row> {
+fn with_threads(threads: usize, sweep: &Sweep) -> Vec<SweepRow> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| sweep.run(&[], &Cancel::new(), &|_| ()))
 }
 
-fn csv_of(sweep: &Sweep, rows: &[Row]) -> String {
+fn csv_of(sweep: &Sweep, rows: &[SweepRow]) -> String {
     let mut text = Vec::new();
     write_csv(sweep, rows, &mut text).unwrap();
     String::from_utf8(text).unwrap()
 }
 
 /// What is kept of a part, or of the whole that is not complete.
-fn saved_text(sweep: &Sweep, part: Part, rows: &[Row]) -> String {
+fn saved_text(sweep: &Sweep, part: Part, rows: &[SweepRow]) -> String {
     let mut text = Vec::new();
     saved::write(sweep, part, rows, &[], &mut text).unwrap();
     String::from_utf8(text).unwrap()
@@ -79,7 +79,7 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
                 assert!(apart < 0.3 * stated, "point {point}: {apart:.1e} apart, stated {stated:.1e}");
             }
         }
-        let yields = |row: &Row| row.outside.contains(&"contact-stress");
+        let yields = |row: &SweepRow| row.outside.contains(&"contact-stress");
         assert_eq!(rows.iter().map(yields).collect::<Vec<_>>()[..2], [sweep.len() == 2, false]);
         for threads in [2, 3, 8] {
             assert_eq!(with_threads(threads, sweep), rows, "{threads} threads");

@@ -3,7 +3,7 @@
 use crate::scene::Scene;
 use crate::{Counted, How, apart_on_all_cores, scene_error, solve_error};
 use pyo3::prelude::*;
-use squeezefilm::analysis::sweep::{Part, Row, Sweep, Vary};
+use squeezefilm::analysis::sweep::{Part, Sweep, SweepRow, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::saved;
 use squeezefilm::export::sweep::write_csv;
@@ -20,12 +20,12 @@ fn sweep_of(scene: &Scene, axes: Axes, how: &How, part: Part) -> PyResult<Sweep>
 }
 
 /// Solves a part of a sweep, and returns its rows. Reports the share that is done.
-fn solved(sweep: &Sweep, part: Part, cancel: &Cancel, tell: crate::Tell<'_>) -> Vec<Row> {
+fn solved(sweep: &Sweep, part: Part, cancel: &Cancel, tell: crate::Tell<'_>) -> Vec<SweepRow> {
     let (done, all) = (Counted::default(), sweep.points_of(part).len());
     sweep.run_part(part, &[], cancel, &|_| done.one_more(all, tell))
 }
 
-fn csv(sweep: &Sweep, rows: &[Row]) -> PyResult<String> {
+fn csv(sweep: &Sweep, rows: &[SweepRow]) -> PyResult<String> {
     let mut table = Vec::new();
     write_csv(sweep, rows, &mut table).map_err(solve_error)?;
     Ok(String::from_utf8_lossy(&table).into_owned())

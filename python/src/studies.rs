@@ -7,7 +7,7 @@ use squeezefilm::analysis::error::AnalysisError;
 use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured, Model};
 use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::control::Cancel;
-use squeezefilm::export::sensitivity::Found;
+use squeezefilm::export::sensitivity::SensitivityStudy;
 use squeezefilm::export::{fall as fallen, fit as fitted, json, startup as export};
 use squeezefilm::fall::{Cycle as Fallen, fall};
 use squeezefilm::hold::{Hold, REACH};
@@ -52,7 +52,7 @@ pub(crate) fn sensitivity(
             0 => None,
             _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
         };
-        let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
+        let found = SensitivityStudy { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
         Ok(json::document(&found.object(), &[]))
     })?
 }
@@ -154,7 +154,7 @@ pub(crate) fn startup(
         }
         let mut rows = Vec::new();
         let mut each = |cycle: transient::Cycle| {
-            let row = export::Row::of(&problem, &cycle);
+            let row = export::CycleRow::of(&problem, &cycle);
             tell(row.share(&settings));
             export::place(&mut rows, cycle.number, row);
         };

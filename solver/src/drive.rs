@@ -26,7 +26,7 @@
 use crate::estimate::Estimate;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
-use crate::solution::{MotorResult, Performance, Point};
+use crate::solution::{MotorResult, OperatingPoint, Performance};
 use std::f64::consts::TAU;
 
 /// Speeds from rest to the stator's greatest speed, equally spaced, among which the greatest power is looked for.
@@ -376,11 +376,11 @@ impl<'a> Scaled<'a> {
         })
     }
 
-    fn point(&self, speed: f64) -> Point {
+    fn point(&self, speed: f64) -> OperatingPoint {
         let v0 = self.motor.stator_speed();
         if v0 == 0.0 && speed == 0.0 {
             // Nothing slides.
-            return Point::default();
+            return OperatingPoint::default();
         }
         // A stator that does not move along the ring holds the rotor, whichever way it turns.
         let (v, per_ratio) = if v0 > 0.0 { (speed / v0, v0) } else { (speed.signum() * 2.0, 0.5 * speed.abs()) };
@@ -393,7 +393,7 @@ impl<'a> Scaled<'a> {
         let force = unit * per_radius;
         let (at, loss) = near[1].1[0];
         let driven = unit.value > 0.0 && efficiency(v, at, loss).is_some();
-        Point {
+        OperatingPoint {
             speed,
             torque: scaled(unit, 1.0, &|_, (s0, _), _| s0),
             output: scaled(force, speed.abs(), &|v, (s0, _), _| v * s0 * per_ratio),

@@ -21,7 +21,7 @@ const SLOWEST_ACROSS: f64 = 0.6;
 pub const EXACTING: f64 = 4e-3;
 
 /// The state of a scene on one grid.
-pub trait State {
+pub trait GridState {
     /// The headline.
     fn headline(&self) -> Mean;
 
@@ -42,9 +42,9 @@ pub trait State {
 }
 
 /// A scene that can be solved on any grid.
-pub trait Scene {
+pub trait GridSolver {
     /// Its state on one grid.
-    type Level: State;
+    type Level: GridState;
     /// Why it cannot be solved.
     type Error;
     /// Share of the error asked for that the nodes across may have.
@@ -67,12 +67,12 @@ pub trait Scene {
     ) -> Result<(Status, Self::Level), Self::Error>;
 
     /// Whether the headline is as accurate as `plan` asks, or further grids would not make it so.
-    fn settled(&self, plan: &Plan, found: &Found<Self::Level>) -> bool;
+    fn settled(&self, plan: &Plan, found: &SolvedGrids<Self::Level>) -> bool;
 }
 
 /// Course of a solve: the grids that converged, coarse to fine, and how the last one ended.
 #[derive(Debug)]
-pub struct Found<L> {
+pub struct SolvedGrids<L> {
     /// How the last grid ended.
     pub status: Status,
     /// States on the grids that converged.
@@ -117,7 +117,7 @@ impl<R: Default> Periodic<R> {
     }
 }
 
-impl<L: State> Found<L> {
+impl<L: GridState> SolvedGrids<L> {
     /// How it was reached, without numbers and fields; `stats` is what it cost.
     pub fn reached<R: Default>(&self, mut stats: Stats) -> Periodic<R> {
         if let Some(level) = self.levels.last() {
@@ -173,12 +173,12 @@ impl<T> Nested<T> {
 /// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
 /// the best so far is what there is. A polynomial across the width can oscillate to negative pressure. A scene that fails this way
 /// is solved with finite volumes, which keep the pressure positive.
-pub fn climb<S: Scene>(
+pub fn climb<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
-    last: Option<&Found<S::Level>>,
+    last: Option<&SolvedGrids<S::Level>>,
     cancel: &Cancel,
-) -> Result<Found<S::Level>, S::Error> {
+) -> Result<SolvedGrids<S::Level>, S::Error> {
     let found = climb_once(scene, plan, last, cancel);
     if !plan.spectral || matches!(&found, Ok(found) if !matches!(found.status, Status::NotConverged { .. })) {
         return found;
@@ -188,15 +188,15 @@ pub fn climb<S: Scene>(
 }
 
 /// As [`climb`], by this plan alone.
-pub fn climb_once<S: Scene>(
+pub fn climb_once<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
-    last: Option<&Found<S::Level>>,
+    last: Option<&SolvedGrids<S::Level>>,
     cancel: &Cancel,
-) -> Result<Found<S::Level>, S::Error> {
+) -> Result<SolvedGrids<S::Level>, S::Error> {
     let (status, spectral) = (Status::Converged, plan.spectral);
     let (levels, headlines, grids) = (Vec::new(), Vec::new(), Vec::new());
-    let mut found = Found { status, levels, headlines, grids, spectral, narrower: None, before: 0.0 };
+    let mut found = SolvedGrids { status, levels, headlines, grids, spectral, narrower: None, before: 0.0 };
     let mut across = plan.grids.first().map_or(0, |grid| grid.across);
     if plan.spectral && plan.grids.len() > 1 {
         let first = last.map_or(across, |last| last.levels[0].across()).max(2);
@@ -272,7 +272,7 @@ pub struct Marched {
 
 /// Marches each of `levels`, coarse to fine, by one `cycle`, which hands over the state as its frames are known and returns the largest
 /// change of ln Z; `lines` are the fields of a coarser grid, with which `recorded` makes those of the finest one.
-pub fn march_cycle<L: State, E>(
+pub fn march_cycle<L: GridState, E>(
     levels: &mut [L],
     stats: &mut Stats,
     mut cycle: impl FnMut(&mut L, &mut Stats, &mut dyn FnMut(&L)) -> Result<f64, E>,
@@ -306,12 +306,12 @@ pub fn error_across(change: f64, before: f64) -> f64 {
 }
 
 /// Solves the coarsest grid with more and more nodes across, at least `first`, until one less hardly matters; how many that are.
-fn settle_across<S: Scene>(
+fn settle_across<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
     first: usize,
-    last: Option<&Found<S::Level>>,
-    found: &mut Found<S::Level>,
+    last: Option<&SolvedGrids<S::Level>>,
+    found: &mut SolvedGrids<S::Level>,
 ) -> Result<usize, S::Error> {
     let mut across = first;
     let coarsest = plan.grids[0];

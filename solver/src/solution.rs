@@ -97,7 +97,7 @@ pub struct MotorResult {
 
 /// The motor at one speed of its rotor; the whole ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct OperatingPoint {
     /// Surface speed of the rotor \[m/s\].
     pub speed: f64,
     /// Torque on the rotor \[N m\].
@@ -128,9 +128,9 @@ pub struct Performance {
     /// Its speed \[m/s\].
     pub max_efficiency_speed: Option<Estimate>,
     /// At the rotor speed of the scene.
-    pub present: Point,
+    pub present: OperatingPoint,
     /// From rest to the stator's greatest speed, ascending; empty where only the numbers were asked for.
-    pub curve: Vec<Point>,
+    pub curve: Vec<OperatingPoint>,
 }
 
 /// How a plate floats under its load.

@@ -57,7 +57,7 @@ impl Both {
 
 /// A row of Table I by both methods.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct ReproducedRow {
     /// As published.
     pub published: PublishedRow,
     /// As computed here.
@@ -66,7 +66,7 @@ pub struct Row {
 
 /// α at a frequency, converged.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct FrequencyPoint {
     /// Frequency \[kHz\].
     pub frequency_khz: f64,
     /// The result, or why there is none.
@@ -77,20 +77,20 @@ pub struct Point {
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// The rows of Table I, in the paper's order.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ReproducedRow>,
     /// The fundamental case without sliding: the wedge term left out.
     pub no_sliding: Both,
     /// The fundamental case with a rotor [`SOFTER`] times as compliant.
     pub softer: Both,
     /// Fig. 10.
-    pub frequencies: Vec<Point>,
+    pub frequencies: Vec<FrequencyPoint>,
     /// How the converged values were solved.
     pub settings: Settings,
 }
 
 impl Reproduction {
     /// The row of a preset.
-    pub fn row(&self, preset: &str) -> Option<&Row> {
+    pub fn row(&self, preset: &str) -> Option<&ReproducedRow> {
         self.rows.iter().find(|row| row.published.preset == preset)
     }
 
@@ -167,7 +167,7 @@ pub fn reproduce(
         let (paper, ours) = (next(), next());
         Ok(Both { problem: Problem::try_from(&scene)?, scene, paper, ours })
     };
-    let row = |(published, scene)| Ok(Row { published, both: pair(scene)? });
+    let row = |(published, scene)| Ok(ReproducedRow { published, both: pair(scene)? });
     let rows = published().into_iter().zip(scenes).map(row).collect::<Result<Vec<_>, SceneError>>()?;
     let (no_sliding, softer) = (pair(no_sliding)?, pair(softer)?);
     let point = |frequency_khz| {
@@ -175,7 +175,7 @@ pub fn reproduce(
             (Status::Converged, Outcome::Motor(result)) => Ok(result),
             _ => Err("not converged".to_owned()),
         });
-        Point { frequency_khz, solved }
+        FrequencyPoint { frequency_khz, solved }
     };
     let frequencies = frequencies.into_iter().map(point).collect();
     Ok(Reproduction { rows, no_sliding, softer, frequencies, settings: ours })

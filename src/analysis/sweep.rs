@@ -36,7 +36,7 @@ use std::time::Duration;
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct SweepRow {
     /// Which point, from 0; the last axis varies fastest.
     pub point: usize,
     /// The value of each axis there.
@@ -54,7 +54,7 @@ pub struct Row {
 }
 
 /// The median of a quantity's stated errors over the rows that converged; 0 where it has none.
-pub fn typical_error(rows: &[Row], quantity: Quantity) -> f64 {
+pub fn typical_error(rows: &[SweepRow], quantity: Quantity) -> f64 {
     let sound = rows.iter().filter(|row| row.status == RunStatus::Converged);
     let mut errors: Vec<f64> = sound.filter_map(|row| row.numbers.get(quantity.error()?)).collect();
     errors.sort_by(f64::total_cmp);
@@ -230,7 +230,7 @@ impl Sweep {
     /// Solves every point that is not in `done`, several at a time on rayon's pool, and returns all rows there are, those
     /// in `done` included, in the order of the points: if it was cancelled, fewer than [`Sweep::len`]. `finished` is
     /// told of each new row, from whichever thread.
-    pub fn run(&self, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+    pub fn run(&self, done: &[SweepRow], cancel: &Cancel, finished: &(dyn Fn(&SweepRow) + Sync)) -> Vec<SweepRow> {
         self.run_part(Part::WHOLE, done, cancel, finished)
     }
 
@@ -241,15 +241,21 @@ impl Sweep {
     }
 
     /// As [`Sweep::run`], of the points of a part alone.
-    pub fn run_part(&self, part: Part, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+    pub fn run_part(
+        &self,
+        part: Part,
+        done: &[SweepRow],
+        cancel: &Cancel,
+        finished: &(dyn Fn(&SweepRow) + Sync),
+    ) -> Vec<SweepRow> {
         let points = self.points_of(part);
-        let mut rows: Vec<Option<Row>> = vec![None; points.len()];
+        let mut rows: Vec<Option<SweepRow>> = vec![None; points.len()];
         for row in done {
             if let Some(place) = row.point.checked_sub(points.start).and_then(|place| rows.get_mut(place)) {
                 *place = Some(row.clone());
             }
         }
-        let solved: Vec<Vec<Row>> = part
+        let solved: Vec<Vec<SweepRow>> = part
             .chunks(&self.axes)
             .into_par_iter()
             .map(|number| {
@@ -276,7 +282,7 @@ impl Sweep {
     /// The first point of a chunk starts cold, the others from their neighbour: fewer rounds, the same result to a fraction
     /// of its stated error. A chunk that was cut short is solved again from its first point, so that neither threads nor
     /// a cancelled run change a result.
-    fn solve_chunk(&self, chunk: Range<usize>, cancel: &Cancel, finished: &dyn Fn(&Row)) -> Vec<Row> {
+    fn solve_chunk(&self, chunk: Range<usize>, cancel: &Cancel, finished: &dyn Fn(&SweepRow)) -> Vec<SweepRow> {
         let mut rows = Vec::new();
         let mut warm = Warm::default();
         let settings = Settings { record: Record::Numbers, ..self.settings };
@@ -285,7 +291,7 @@ impl Sweep {
                 break;
             }
             let problem = self.problem_at(point);
-            let mut row = Row {
+            let mut row = SweepRow {
                 point,
                 values: self.values(point),
                 status: RunStatus::Waiting,

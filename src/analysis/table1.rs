@@ -13,14 +13,14 @@ use crate::solve::{Method, Settings};
 
 /// One row: what was published, and what came of it here.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct Table1Row {
     /// As published.
     pub published: PublishedRow,
     /// As computed, or why not.
     pub run: ComparedRun,
 }
 
-impl Row {
+impl Table1Row {
     /// The numbers; `None` if it was not computed.
     pub fn result(&self) -> Option<&MotorResult> {
         match &self.run.solved.as_ref().ok()?.outcome {
@@ -40,13 +40,13 @@ impl Row {
 /// scene as by `--set`; `finished` is told of each run as it ends, from whichever thread.
 ///
 /// # Errors
-/// Faults of `changes`, before anything is solved. A row that fails is a [`Row`] that says so.
+/// Faults of `changes`, before anything is solved. A row that fails is a [`Table1Row`] that says so.
 pub fn rows(
     changes: &[(String, String)],
     settings: &Settings,
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
-) -> Result<Vec<Row>, SceneError> {
+) -> Result<Vec<Table1Row>, SceneError> {
     let scene = |row: &PublishedRow| {
         let mut scene = presets::find(&row.preset)?;
         if settings.method == Method::Auto {
@@ -58,7 +58,7 @@ pub fn rows(
     let (problems, scenes): (Vec<_>, Vec<_>) =
         published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
     let runs = each(&scenes, problems, settings, cancel, finished);
-    Ok(published().into_iter().zip(runs).map(|(published, run)| Row { published, run }).collect())
+    Ok(published().into_iter().zip(runs).map(|(published, run)| Table1Row { published, run }).collect())
 }
 
 /// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their

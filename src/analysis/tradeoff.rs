@@ -15,7 +15,7 @@ mod measure;
 
 pub use candidates::{Candidate, Family, candidates, without_grid};
 pub(super) use curve::quantile;
-pub use curve::{Point, Target, Tradeoff};
+pub use curve::{Target, Tradeoff, TradeoffPoint};
 pub use measure::{Effort, MeasuredSetting, measure};
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::exit::{CliError, Exit};
 use super::options::{OutputOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
-use crate::analysis::reproduce::{Both, Reproduction, Row, number_of_solves, reproduce};
+use crate::analysis::reproduce::{Both, ReproducedRow, Reproduction, number_of_solves, reproduce};
 use crate::control::Cancel;
 use crate::digits::duration;
 use crate::export::animation::{Options, cycle, frames};
@@ -98,7 +98,7 @@ fn text(all: &Reproduction) -> String {
     let mut columns = Columns::new();
     columns.row(["row", "published", "paper's algorithm", "converged"]);
     let share = |solved| Both::result(solved).map_or_else(|| "failed".to_owned(), |result| result.alpha.to_string());
-    for Row { published, both } in &all.rows {
+    for ReproducedRow { published, both } in &all.rows {
         columns.row([
             published.row.clone(),
             format!("{:.3}", published.published_alpha),

@@ -9,7 +9,7 @@ use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncer
 use crate::digits::{capitalised, duration, percent, significant};
 use crate::export::files;
 use crate::export::json;
-use crate::export::sensitivity::Found;
+use crate::export::sensitivity::SensitivityStudy;
 use crate::problem::Problem;
 use crate::scene::show_text;
 use crate::solve::{Method, check};
@@ -118,7 +118,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(warning) = carlo.as_ref().and_then(warning) {
         terminal::warning(&warning);
     }
-    let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
+    let found = SensitivityStudy { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
     terminal::result(arguments.common.output.json, || json::document(&found.object(), command), || text(&found));
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = &folder {
@@ -154,7 +154,7 @@ fn warning(carlo: &MonteCarlo) -> Option<String> {
 const NOTHING: f64 = 1e-9;
 
 /// For people: elasticities by key, and what uncertain keys make of the results.
-fn text(found: &Found<'_>) -> String {
+fn text(found: &SensitivityStudy<'_>) -> String {
     let sensitivity = found.sensitivity;
     let (problem, outputs) = (&sensitivity.problem, sensitivity.outputs);
     let name = show_text(&sensitivity.scene().name);
@@ -218,7 +218,7 @@ fn text(found: &Found<'_>) -> String {
     text
 }
 
-fn uncertain(found: &Found<'_>) -> String {
+fn uncertain(found: &SensitivityStudy<'_>) -> String {
     let sensitivity = found.sensitivity;
     let problem = &sensitivity.problem;
     let given = found.uncertainties.iter().map(|(parameter, at, given)| {

@@ -13,7 +13,7 @@ use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::startup::{Row, figure, object, place, steady, validity, warnings, write_csv};
+use crate::export::startup::{CycleRow, figure, object, place, steady, validity, warnings, write_csv};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -82,10 +82,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (cycles, tolerance) = (cycles(usual.cycles), arguments.tolerance);
     let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
-    let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
+    let (mut rows, mut loads): (Vec<CycleRow>, Vec<Vec<f64>>) = Default::default();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
-            let row = Row::of(&problem, &cycle);
+            let row = CycleRow::of(&problem, &cycle);
             let main = significant(row.numbers.main().value, 4);
             if row.cycle > rows.len() {
                 bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
@@ -126,7 +126,7 @@ const SHOWN: usize = 8;
 
 fn text(
     (scene, problem): (&Scene, &Problem),
-    rows: &[Row],
+    rows: &[CycleRow],
     (ended, validity): (&Startup, &[Excess]),
     steady: Option<Estimate>,
 ) -> String {

@@ -8,7 +8,7 @@ use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Part, Row, Sweep, Values, Vary};
+use crate::analysis::sweep::{Axis, Part, Sweep, SweepRow, Values, Vary};
 use crate::atomic::{Lock, WriteError, write_file};
 use crate::digits::{duration, significant};
 use crate::estimate::Estimate;
@@ -174,7 +174,7 @@ fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
 }
 
 /// Prints the rows, for people or as JSON. What that leads to.
-pub(super) fn tell(sweep: &Sweep, rows: &[Row], json: bool, command: &[String]) -> Exit {
+pub(super) fn tell(sweep: &Sweep, rows: &[SweepRow], json: bool, command: &[String]) -> Exit {
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
             let place = place(sweep, row);
@@ -241,7 +241,7 @@ impl<'a> Saved<'a> {
     }
 
     /// The rows that were solved before.
-    fn left_over(&self) -> Result<Vec<Row>, CliError> {
+    fn left_over(&self) -> Result<Vec<SweepRow>, CliError> {
         let path = self.out.path.join(unfinished(self.part));
         let fault = |fault: String| {
             let way_out = "give another folder, or --restart to begin anew";
@@ -254,14 +254,14 @@ impl<'a> Saved<'a> {
         saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault)
     }
 
-    fn save_unfinished(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
+    fn save_unfinished(&self, rows: &[SweepRow]) -> Result<PathBuf, WriteError> {
         let path = self.out.path.join(unfinished(self.part));
         let part = self.part.unwrap_or(Part::WHOLE);
         write_file(&path, |out| saved::write(self.sweep, part, rows, self.out.command, out))?;
         Ok(path)
     }
 
-    fn save(&self, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
+    fn save(&self, rows: &[SweepRow], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
@@ -287,13 +287,13 @@ impl Drop for Saved<'_> {
 }
 
 /// `film.min_spacing_nm = 100`: where a row is.
-fn place(sweep: &Sweep, row: &Row) -> String {
+fn place(sweep: &Sweep, row: &SweepRow) -> String {
     let at = |(axis, value): (&Axis, &f64)| format!("{} = {}", axis.parameter.key, axis.text(*value));
     sweep.axes().iter().zip(&row.values).map(at).collect::<Vec<_>>().join(", ")
 }
 
 /// The table for people.
-fn text(sweep: &Sweep, rows: &[Row]) -> String {
+fn text(sweep: &Sweep, rows: &[SweepRow]) -> String {
     let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
     let how = effort(sweep.settings(), sweep.budget);
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
@@ -355,7 +355,7 @@ const SHOWN: [Quantity; 12] = [
 /// Relative error below which a number may stand without it.
 const WELL_KNOWN: f64 = 0.1;
 
-fn number(Row { numbers, .. }: &Row, quantity: Quantity) -> String {
+fn number(SweepRow { numbers, .. }: &SweepRow, quantity: Quantity) -> String {
     // Of two numbers that say the same only the first shows its error, and the load of a plate that floats is given.
     let floats = || numbers.get(Quantity::MeanGap).is_some();
     let said = quantity == Quantity::FilmLoad || quantity == Quantity::LoadRatio && floats();
@@ -382,7 +382,7 @@ mod tests {
         let row = |point: usize, status: RunStatus| {
             let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
             let stopped_by = Some(if point == 0 { StoppedBy::Budget } else { StoppedBy::Accuracy });
-            Row { point, values: sweep.values(point), status, stopped_by, numbers, outside }
+            SweepRow { point, values: sweep.values(point), status, stopped_by, numbers, outside }
         };
         let mut rows = vec![row(0, RunStatus::Converged)];
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Solved);

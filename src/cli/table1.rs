@@ -7,7 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
-use crate::analysis::table1::{Row, rows};
+use crate::analysis::table1::{Table1Row, rows};
 use crate::atomic::{Staged, check_for_results};
 use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let rows = solved?;
 
     // The worst of the rows decides.
-    let exit = Exit::worst(rows.iter().map(|Row { run, .. }| match check(&run.problem, &settings) {
+    let exit = Exit::worst(rows.iter().map(|Table1Row { run, .. }| match check(&run.problem, &settings) {
         Err(error) if run.solved.is_err() && error.is_bad_input() => Exit::BadInput,
         _ => Exit::from(&run.status()),
     }));
@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::note(&format!("cancelled; reached was\n\n{human}"));
         return Ok(exit);
     }
-    for Row { published, run } in &rows {
+    for Table1Row { published, run } in &rows {
         match &run.solved {
             Err(error) => terminal::error(&format!("{}: {error}", published.row)),
             Ok(solution) => solution.warnings.iter().for_each(|warning| {
@@ -93,7 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 }
 
 /// A row. Errors are estimated numerical ones, absolute; a difference is that of the film loads. What was not computed, or is not finite, is null.
-fn object(row: &Row, settings: &Settings) -> Value {
+fn object(row: &Table1Row, settings: &Settings) -> Value {
     let published = &row.published;
     let result = row.result();
     json!({
@@ -116,7 +116,7 @@ fn object(row: &Row, settings: &Settings) -> Value {
 }
 
 /// The table for people, with what to know about it below.
-fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> String {
+fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -> String {
     let how = match settings.method {
         Method::Paper => "the paper's algorithm at the paper's own meshes".to_owned(),
         Method::Auto => format!("mesh-converged, {}", effort(settings, None)),
@@ -179,7 +179,7 @@ mod tests {
     use crate::solution::{MotorResult, Outcome, Solution, Status};
     use std::sync::Arc;
 
-    fn rows_that_ended(statuses: &[Status]) -> Vec<Row> {
+    fn rows_that_ended(statuses: &[Status]) -> Vec<Table1Row> {
         let run = |status: &Status| {
             let alpha = Estimate { value: 0.25, error: f64::INFINITY };
             let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
@@ -197,7 +197,11 @@ mod tests {
             let problem = Problem::try_from(&scene).unwrap();
             ComparedRun::new(String::new(), scene, problem, Ok(Arc::new(solution)))
         };
-        published().into_iter().zip(statuses).map(|(published, status)| Row { published, run: run(status) }).collect()
+        published()
+            .into_iter()
+            .zip(statuses)
+            .map(|(published, status)| Table1Row { published, run: run(status) })
+            .collect()
     }
 
     #[test]

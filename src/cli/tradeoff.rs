@@ -7,7 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
+use crate::analysis::tradeoff::{Effort, Target, Tradeoff, TradeoffPoint, candidates, measure};
 use crate::digits::{duration, parse_duration, percent, significant};
 use crate::export::files::Files;
 use crate::export::tradeoff::{figure, object, settings};
@@ -157,7 +157,7 @@ fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     text
 }
 
-fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
+fn cells(point: &TradeoffPoint, judged: Quantity, reference: bool) -> Vec<String> {
     let run = &point.run;
     let shown = |value: Option<f64>, show: &dyn Fn(f64) -> String| value.map_or_else(String::new, show);
     let count = |quantity: Quantity| shown(run.numbers.get(quantity), &|count| count.to_string());

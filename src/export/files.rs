@@ -10,7 +10,7 @@ use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Row, Sweep};
+use crate::analysis::sweep::{Sweep, SweepRow};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
@@ -321,7 +321,12 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<V
 
 /// Writes the files of `squeezefilm sweep --out` into a folder.
 /// `shown`: the quantity of the figure.
-pub fn swept(folder: &Folder<'_>, swept: &Sweep, rows: &[Row], shown: Quantity) -> Result<Vec<PathBuf>, WriteError> {
+pub fn swept(
+    folder: &Folder<'_>,
+    swept: &Sweep,
+    rows: &[SweepRow],
+    shown: Quantity,
+) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
     files.json("sweep.json", &sweep::object(swept, rows))?;
@@ -364,7 +369,7 @@ pub fn optimum(
 }
 
 /// Writes the files of `squeezefilm sensitivity --out` into a folder.
-pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::Found<'_>) -> Result<Vec<PathBuf>, WriteError> {
+pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::SensitivityStudy<'_>) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
     files.json("sensitivity.json", &found.object())?;

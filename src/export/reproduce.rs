@@ -9,12 +9,12 @@ pub use figures::figures;
 pub use report::report;
 pub use statements::{Statement, statements};
 
-use crate::analysis::reproduce::{Both, Point, Reproduction, Row};
+use crate::analysis::reproduce::{Both, FrequencyPoint, ReproducedRow, Reproduction};
 use serde_json::{Value, json};
 
 /// A row of Table I as published, by the paper's algorithm on its own meshes, and converged; a difference is that of the film loads. What was not
 /// computed is null.
-pub fn row_object(row: &Row) -> Value {
+pub fn row_object(row: &ReproducedRow) -> Value {
     let (paper, ours) = (Both::result(&row.both.paper), Both::result(&row.both.ours));
     let published = &row.published;
     json!({
@@ -46,7 +46,7 @@ pub fn object(all: &Reproduction) -> Value {
 }
 
 /// A point of Fig. 10: α with its estimated numerical error, converged.
-fn point(point: &Point) -> Value {
+fn point(point: &FrequencyPoint) -> Value {
     let mut object = json!({ "frequency_khz": point.frequency_khz });
     super::estimates::add(&mut object, "alpha", "", point.solved.as_ref().ok().map(|result| result.alpha));
     object

@@ -8,7 +8,7 @@ use super::sweep::{BETWEEN, FIRST, STOPPED_BY, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::analysis::sweep::{MOST_POINTS, Part, Row, Sweep, Vary, digest};
+use crate::analysis::sweep::{MOST_POINTS, Part, Sweep, SweepRow, Vary, digest};
 use crate::analysis::validity::NAMES;
 use crate::scene::Scene;
 use crate::solution::StoppedBy;
@@ -43,7 +43,7 @@ struct Head {
 }
 
 /// Writes rows of a part of a sweep, to go on with or to be joined. `command`: the command line that solves the whole, if there is one.
-pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &mut dyn Write) -> io::Result<()> {
+pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], out: &mut dyn Write) -> io::Result<()> {
     let fingerprint = sweep.fingerprint();
     let head = Head {
         sweep: fingerprint.clone(),
@@ -83,7 +83,7 @@ fn head(text: &str) -> Result<Head, String> {
 ///
 /// # Errors
 /// Why they are no such rows. A row too many, twice, or changed since it was written, is damage.
-pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, String> {
+pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<SweepRow>, String> {
     let (fingerprint, head) = (sweep.fingerprint(), head(text)?);
     if head.sweep != fingerprint {
         return Err(ANOTHER.to_owned());
@@ -95,14 +95,14 @@ pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, String> {
 }
 
 /// The rows of a text, all of these `points`.
-fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<Row>, String> {
+fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<SweepRow>, String> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(COMMENT)).from_reader(text.as_bytes());
     let found = reader.headers().map_err(|error| damaged(2, error))?;
     if !found.iter().eq(header(sweep).iter().map(String::as_str).chain([CHECK])) {
         return Err(ANOTHER.to_owned());
     }
     let (quantities, mut there) = (sweep.quantities(), vec![false; points.len()]);
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<SweepRow> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), &error))?;
         let line = record.position().map_or(0, csv::Position::line);
@@ -148,7 +148,7 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point), status, stopped_by, numbers, outside });
+        rows.push(SweepRow { point, values: sweep.values(point), status, stopped_by, numbers, outside });
     }
     Ok(rows)
 }
@@ -159,7 +159,7 @@ pub struct Joined {
     /// The sweep.
     pub sweep: Sweep,
     /// A row for each of its points, in order.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SweepRow>,
     /// The command line that solves it at once; empty if there is none.
     pub command: Vec<String>,
 }
@@ -189,7 +189,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
         ));
     }
     let fingerprint = sweep.fingerprint();
-    let mut found: Vec<Option<Vec<Row>>> = vec![None; of];
+    let mut found: Vec<Option<Vec<SweepRow>>> = vec![None; of];
     for (name, text) in parts {
         let head = head(text).map_err(|error| fault(name, error))?;
         if head.sweep != fingerprint {
@@ -238,7 +238,7 @@ mod tests {
     use super::*;
     use crate::export::sweep::tests::{rows, sweep};
 
-    fn saved(sweep: &Sweep, part: Part, rows: &[Row]) -> String {
+    fn saved(sweep: &Sweep, part: Part, rows: &[SweepRow]) -> String {
         let mut text = Vec::new();
         write(sweep, part, rows, &["squeezefilm".to_owned()], &mut text).unwrap();
         String::from_utf8(text).unwrap()
@@ -298,7 +298,7 @@ mod tests {
             all.sort_by_key(|row| row.point);
             let mut parts: Vec<(String, String)> = Part::all(4)
                 .map(|part| {
-                    let rows: Vec<Row> =
+                    let rows: Vec<SweepRow> =
                         all.iter().filter(|row| ours.points_of(part).contains(&row.point)).cloned().collect();
                     (format!("{part}.csv"), saved(&ours, part, &rows))
                 })

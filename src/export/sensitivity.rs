@@ -13,7 +13,7 @@ use std::io::{self, Write};
 
 /// Results of a sensitivity analysis: derivatives, uncertainties of the keys, and random draws, if there are any.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'a> {
+pub struct SensitivityStudy<'a> {
     /// Results and derivatives.
     pub sensitivity: &'a Sensitivity,
     /// Uncertain keys; may be none.
@@ -40,7 +40,7 @@ fn spread(spread: Spread) -> Value {
     })
 }
 
-impl Found<'_> {
+impl SensitivityStudy<'_> {
     /// The object of `--json`. What is not known is null.
     pub fn object(&self) -> Value {
         let sensitivity = self.sensitivity;

@@ -30,7 +30,7 @@ fn numbers() -> impl Iterator<Item = Quantity> {
 
 /// One cycle. Its errors are those that the grids show.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct CycleRow {
     /// From 1.
     pub cycle: usize,
     /// Time at its end.
@@ -44,7 +44,7 @@ pub struct Row {
 }
 
 /// The numbers under the names that they have elsewhere, but for `load_ratio`; what its scene does not have is null.
-impl Serialize for Row {
+impl Serialize for CycleRow {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let mut row = to.serialize_map(None)?;
         row.serialize_entry("cycle", &self.cycle)?;
@@ -58,7 +58,7 @@ impl Serialize for Row {
     }
 }
 
-impl Row {
+impl CycleRow {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
         Self {
@@ -84,7 +84,7 @@ pub fn object(
     (scene, problem): (&Scene, &Problem),
     settings: &Settings,
     ended: &Startup,
-    rows: &[Row],
+    rows: &[CycleRow],
     wall_s: f64,
 ) -> Value {
     let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
@@ -151,7 +151,7 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 }
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
-pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_csv(problem: &Problem, rows: &[CycleRow], out: &mut dyn Write) -> io::Result<()> {
     let mut text = Vec::new();
     csv::rows(rows, &mut text)?;
     let text = String::from_utf8(text).map_err(io::Error::other)?;
@@ -170,10 +170,10 @@ pub(super) fn periodic(value: f64) -> Mark {
 }
 
 /// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
-pub fn figure(problem: &Problem, rows: &[Row], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
+pub fn figure(problem: &Problem, rows: &[CycleRow], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
     let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
-    let at = |row: &Row| (row.cycle as f64, row.numbers.main());
+    let at = |row: &CycleRow| (row.cycle as f64, row.numbers.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
     let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))

@@ -7,7 +7,7 @@ use super::csv::{number, words};
 use super::estimates;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Quantity, force_unit};
-use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
+use crate::analysis::sweep::{Axis as SweepAxis, Sweep, SweepRow, typical_error};
 use crate::analysis::table1::Published;
 use crate::digits::significant;
 use crate::export::figure::{
@@ -39,7 +39,7 @@ pub(super) fn header(sweep: &Sweep) -> Vec<String> {
 }
 
 /// Cells of a row. Every row carries the fingerprint of its sweep.
-pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &Row) -> Vec<String> {
+pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &SweepRow) -> Vec<String> {
     let mut cells = vec![fingerprint.to_owned(), row.point.to_string()];
     cells.extend(sweep.axes().iter().zip(&row.values).map(|(axis, value)| match axis.words.is_empty() {
         true => number(*value),
@@ -56,7 +56,7 @@ pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &Row) -> Vec<String>
 }
 
 /// Writes the rows as CSV, the header first; what is not there is empty.
-pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_csv(sweep: &Sweep, rows: &[SweepRow], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
     let fingerprint = sweep.fingerprint();
@@ -65,7 +65,7 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
 }
 
 /// The object of `--json`: a sweep, its points so far, of which the last axis varies fastest, and the published values of Table I in its plane.
-pub fn object<'a>(sweep: &'a Sweep, rows: &'a [Row]) -> impl Serialize + 'a {
+pub fn object<'a>(sweep: &'a Sweep, rows: &'a [SweepRow]) -> impl Serialize + 'a {
     let (scene, settings) = (sweep.scene(), sweep.settings());
     Object {
         preset: &scene.name,
@@ -100,7 +100,7 @@ struct Object<'a> {
 /// Made into JSON one after the other: there may be a hundred thousand.
 struct Rows<'a> {
     sweep: &'a Sweep,
-    rows: &'a [Row],
+    rows: &'a [SweepRow],
 }
 
 impl Serialize for Rows<'_> {
@@ -126,7 +126,7 @@ fn json_value(axis: &SweepAxis, value: f64) -> Value {
 }
 
 /// One point: its keys, its status, the names of the limits of the model that it exceeds, and its quantities by name.
-fn row_object(axes: &[SweepAxis], quantities: &[Quantity], row: &Row) -> Value {
+fn row_object(axes: &[SweepAxis], quantities: &[Quantity], row: &SweepRow) -> Value {
     let keys = axes.iter().zip(&row.values).map(|(axis, value)| (axis.parameter.key, json_value(axis, *value)));
     let how = [
         (STATUS, row.status.to_string().into()),
@@ -139,7 +139,7 @@ fn row_object(axes: &[SweepAxis], quantities: &[Quantity], row: &Row) -> Value {
 
 /// A quantity of the sweep as a figure. Over one key: with its error as a band, and below the [`primary`] one a second. Over two: a
 /// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
-pub fn figure(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
+pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
     let worst = |error: Quantity| {
         let worst = rows.iter().filter_map(|row| row.numbers.get(error)).fold(0.0, f64::max);
@@ -172,8 +172,8 @@ pub fn figure(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
             let range = noise.unwrap_or(if least < most { Range::Fixed(least, most) } else { Range::Auto });
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
-                let of_value: Vec<Row> =
-                    of_value.map(|row| Row { values: row.values[1..].to_vec(), ..row.clone() }).collect();
+                let of_value: Vec<SweepRow> =
+                    of_value.map(|row| SweepRow { values: row.values[1..].to_vec(), ..row.clone() }).collect();
                 let mut panel = map_panel(sweep, &of_value, [x, y], quantity, range.clone());
                 panel.title = format!("{} = {} {}", first.parameter.words(), first.text(*value), first.parameter.unit);
                 figure.panels.push(panel.height(46.0));
@@ -221,12 +221,12 @@ fn figure_axis(axis: &SweepAxis) -> Axis {
 const FEW: usize = 40;
 
 /// One quantity over one key, with a gap where a point has no value, or is still to be solved.
-pub(crate) fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -> Panel {
-    let mut points: Vec<(f64, Option<&Row>)> = x.values.iter().map(|value| (*value, None)).collect();
+pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quantity: Quantity) -> Panel {
+    let mut points: Vec<(f64, Option<&SweepRow>)> = x.values.iter().map(|value| (*value, None)).collect();
     rows.iter().for_each(|row| points[row.point].1 = Some(row));
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let sound = |row: &&Row| row.status == RunStatus::Converged;
-    let number = |row: &Option<&Row>, of: Quantity| row.and_then(|row| row.numbers.get(of)).unwrap_or(f64::NAN);
+    let sound = |row: &&SweepRow| row.status == RunStatus::Converged;
+    let number = |row: &Option<&SweepRow>, of: Quantity| row.and_then(|row| row.numbers.get(of)).unwrap_or(f64::NAN);
     let colour = Colour::FILM;
     let mut panel =
         Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit(sweep.problem())).including([0.0]));
@@ -283,7 +283,7 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
 /// `rows` are those of the map, with the values of its two axes alone.
 pub(crate) fn map_panel(
     sweep: &Sweep,
-    rows: &[Row],
+    rows: &[SweepRow],
     [x, y]: [&SweepAxis; 2],
     quantity: Quantity,
     range: Range,
@@ -327,12 +327,12 @@ pub(super) mod tests {
         Sweep::new(&presets::find("fundamental").unwrap(), &[vary.parse().unwrap()], &Settings::default()).unwrap()
     }
 
-    pub(in crate::export) fn rows(sweep: &Sweep) -> Vec<Row> {
+    pub(in crate::export) fn rows(sweep: &Sweep) -> Vec<SweepRow> {
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.1 + 0.2);
         numbers.set(Quantity::AlphaError, 1e-300);
         let failed = RunStatus::Failed("film, step 3: no \"solution\",\nat all".to_owned());
-        let row = |point: usize, status: RunStatus| Row {
+        let row = |point: usize, status: RunStatus| SweepRow {
             point,
             values: sweep.values(point),
             stopped_by: (status == RunStatus::Converged).then_some(StoppedBy::Budget),
@@ -361,7 +361,7 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = |point: usize, numbers: Numbers| Row {
+        let row = |point: usize, numbers: Numbers| SweepRow {
             point,
             values: plane.values(point),
             status: RunStatus::Converged,
@@ -376,7 +376,7 @@ pub(super) mod tests {
         assert_eq!(known, [5]);
 
         // Of nothing there is no range, and what differs by less than its error has one colour.
-        let range = |rows: &[Row]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
+        let range = |rows: &[SweepRow]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
             Layer::Map(ref map) => map.range.clone(),
             _ => panic!("no map"),
         };

@@ -5,7 +5,7 @@ use super::csv::Table;
 use super::estimates;
 use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
-use crate::solution::{Performance, Point};
+use crate::solution::{OperatingPoint, Performance};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -44,7 +44,7 @@ fn side(curves: &TorqueCurves, found: &Performance) -> Value {
 
 /// At the rotor speed of the scene: power given to the rotor, heat of friction, and the output over what the stator gives, null where
 /// the rotor is not driven.
-fn present(curves: &TorqueCurves, point: &Point) -> Value {
+fn present(curves: &TorqueCurves, point: &OperatingPoint) -> Value {
     let mut object = json!({ "speed_rpm": curves.rpm(point.speed) });
     estimates::add(&mut object, "torque", "_nm", Some(point.torque));
     estimates::add(&mut object, "output", "_w", Some(point.output));

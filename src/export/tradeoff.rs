@@ -1,7 +1,7 @@
 //! Error against time as JSON and as CSV, with the same names, and as a figure.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Family, Point, Target, Tradeoff};
+use crate::analysis::tradeoff::{Family, Target, Tradeoff, TradeoffPoint};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ fn choice(tradeoff: &Tradeoff, target: Target) -> Value {
 
 /// One object for each setting, a row of the CSV, in the order of the curve. What is not known is null, or empty.
 pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
-    let setting = |(i, point): (usize, &Point)| {
+    let setting = |(i, point): (usize, &TradeoffPoint)| {
         let run = &point.run;
         let count = |quantity| run.numbers.get(quantity).map(|count| count as u64);
         json!({
@@ -76,7 +76,7 @@ pub fn words(family: Family) -> (&'static str, Colour) {
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
 /// names at the fidelities, and rings of this name and colour round some settings.
 pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize])) -> Panel {
-    let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
+    let place = |point: &TradeoffPoint| Some([point.median, 100.0 * point.error?]);
     let label = format!("error of {}", tradeoff.of_what());
     // Room for points and names at the ends.
     let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());

@@ -20,9 +20,9 @@ impl Work for DropWork {
     const NAME: &'static str = "drop";
     type Message = Cycle;
     /// How the drop ended.
-    type Found = Fall;
+    type Output = Fall;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Output>, String> {
         let mut each = |cycle| tell(cycle);
         let found = fall(&self.posed.problem, self.fidelity, CYCLES, Settings::default().tolerance, &mut each, cancel);
         let ended = found.map_err(|error| error.to_string())?;

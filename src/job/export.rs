@@ -5,7 +5,7 @@ use super::{SolvedScene, fit};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
-use crate::analysis::sweep::{Row, Sweep};
+use crate::analysis::sweep::{Sweep, SweepRow};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::tradeoff::Tradeoff;
 use crate::control::Cancel;
@@ -87,11 +87,11 @@ pub enum Content {
     /// Several runs.
     Runs(OfRuns, Vec<ComparedRun>),
     /// A sweep, and its rows.
-    Sweep(OfSweep, Arc<Sweep>, Vec<Row>),
+    Sweep(OfSweep, Arc<Sweep>, Vec<SweepRow>),
     /// Sensitivities, the uncertainties of keys, and random scenes.
     Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>),
     /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
-    Fit(String, Box<Posed>, Arc<fit::Found>),
+    Fit(String, Box<Posed>, Arc<fit::FitResult>),
     /// Error against time of the scene of this name.
     Tradeoff(OfTradeoff, String, Tradeoff),
     /// The record of what a student did.
@@ -114,9 +114,9 @@ impl Work for Files {
     /// Pictures of an animation drawn so far, and their total.
     type Message = (usize, usize);
     /// The paths of the files that were written.
-    type Found = Vec<PathBuf>;
+    type Output = Vec<PathBuf>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Result<Option<Self::Output>, String> {
         let control = Control { cancel, drawn: &|drawn, all| tell((drawn, all)) };
         match write(&self.path, self.content, &control) {
             Ok(paths) => Ok(Some(paths)),
@@ -142,14 +142,14 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => figure(&swept::figure(&sweep, &rows, quantity))?,
         Content::Sensitivity(sensitivity, uncertainties, carlo) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
-            let found = sensitivity::Found { sensitivity: &sensitivity, uncertainties, carlo };
+            let found = sensitivity::SensitivityStudy { sensitivity: &sensitivity, uncertainties, carlo };
             files::sensitivity(&folder(path, BESIDE_DATA), &found)?
         }
         Content::Fit(name, posed, found) => {
             let (out, preset, problem) = (folder(path, BESIDE_DATA), name.as_str(), &posed.problem);
             match &*found {
-                fit::Found::Fit(measured, fitted) => files::fitted(&out, problem, preset, fitted, measured)?,
-                fit::Found::Optimum(found) => files::optimum(&out, problem, preset, found)?,
+                fit::FitResult::Fit(measured, fitted) => files::fitted(&out, problem, preset, fitted, measured)?,
+                fit::FitResult::Optimum(found) => files::optimum(&out, problem, preset, found)?,
             }
         }
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
@@ -278,7 +278,7 @@ mod tests {
         let goal = Goal::new(&scene, "mean_load_ratio", true, &[]).unwrap();
         let optimum = optimise(&scene, &bounds, &goal, &draft(), (1, &cancel, &|_, _| ())).unwrap().unwrap();
         let posed = Posed::try_from(optimum.scene.clone()).unwrap();
-        let found = Arc::new(fit::Found::Optimum(optimum));
+        let found = Arc::new(fit::FitResult::Optimum(optimum));
         let content = || Content::Fit(scene.name.clone(), Box::new(posed.clone()), Arc::clone(&found));
         assert!(made_twice("fit", &content) > 3);
 

@@ -28,9 +28,9 @@ impl Work for FaceWork {
     const NAME: &'static str = "face";
     type Message = ();
     /// The heights after levelling, with roughness and summits.
-    type Found = (HeightMap, Texture);
+    type Output = (HeightMap, Texture);
 
-    fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Output>, String> {
         let Self { path, bytes } = self;
         let bytes = bytes.map_or_else(|| read_bytes(&path, LARGEST), Ok);
         let found = bytes.and_then(text).map_err(|error| error.to_string());

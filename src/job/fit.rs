@@ -14,14 +14,14 @@ const STARTS: usize = 16;
 
 /// Result of a fit to measurements, or of the search for an optimum.
 #[derive(Debug, Serialize, Deserialize)]
-pub enum Found {
+pub enum FitResult {
     /// A fit, and the measurements that were fitted.
     Fit(Arc<Measured>, Fitted),
     /// An optimum.
     Optimum(Optimum),
 }
 
-impl Found {
+impl FitResult {
     /// The scene with the values that were found.
     pub fn scene(&self) -> &Scene {
         match self {
@@ -61,20 +61,20 @@ impl Work for FitWork {
     const NAME: &'static str = "fit";
     /// Number of points tried, and the least χ² or the best value so far.
     type Message = (usize, f64);
-    type Found = Found;
+    type Output = FitResult;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, f64)) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, f64)) + Sync)) -> Result<Option<Self::Output>, String> {
         let Self { scene, measured, bounds, goal, settings } = self;
         let told = |points: usize, best: f64| tell((points, best));
         let solve = || {
             if let Some(goal) = &goal {
                 let found = optimise(&scene, &bounds, goal, &settings, (STARTS, cancel, &told))?;
-                return Ok(found.map(Found::Optimum));
+                return Ok(found.map(FitResult::Optimum));
             }
             let Some(measured) = measured else { return Ok(None) };
             let model = Model::new(&scene, &bounds, &settings)?.under(&measured)?;
             let found = fit(&model, &measured, STARTS, cancel, &told)?;
-            Ok(found.map(|fitted| Found::Fit(measured, fitted)))
+            Ok(found.map(|fitted| FitResult::Fit(measured, fitted)))
         };
         pooled(solve).map_err(|error: AnalysisError| error.to_string())
     }

@@ -64,7 +64,7 @@ impl Line {
     pub(super) fn ask<W: Work>(
         &self,
         work: &W,
-        mut told: impl FnMut(Sent<W::Message, W::Found>) + 'static,
+        mut told: impl FnMut(Sent<W::Message, W::Output>) + 'static,
     ) -> io::Result<()> {
         *self.listener.borrow_mut() = Some(Box::new(move |news| {
             told(match news {

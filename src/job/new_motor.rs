@@ -14,9 +14,9 @@ pub struct NewMotorWork(pub Answers);
 impl Work for NewMotorWork {
     const NAME: &'static str = "new-motor";
     type Message = ();
-    type Found = Scene;
+    type Output = Scene;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Output>, String> {
         agreeing(&self.0, cancel).map(|motor| Some(motor.scene))
     }
 }

@@ -36,9 +36,9 @@ pub(super) struct Step {
 impl Work for Step {
     const NAME: &'static str = "solve";
     type Message = Progress;
-    type Found = Timed;
+    type Output = Timed;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Output>, String> {
         WARM.with_borrow_mut(|warm| {
             let warm = warm.entry(self.fidelity).or_default();
             let effort = (self.fidelity, self.budget);
@@ -183,7 +183,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
 }
 
 /// Handles a message of the worker about request `number`.
-fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Sent<Progress, <Step as Work>::Found>) {
+fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Sent<Progress, <Step as Work>::Output>) {
     let mut this = shared.borrow_mut();
     let Some(running) = this.running.as_mut().filter(|running| running.number == number) else { return };
     let fidelity = running.at.0;

@@ -20,9 +20,9 @@ pub struct PinWork {
 impl Work for PinWork {
     const NAME: &'static str = "pin";
     type Message = ();
-    type Found = ComparedRun;
+    type Output = ComparedRun;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Output>, String> {
         let settings = Settings { fidelity: self.fidelity, ..Settings::default() };
         // Every scene is solved by this method, and a run that was cancelled has nobody who waits for it.
         let solved = runs(&[self.scene], &settings, cancel, &|_| ()).ok().filter(|_| !cancel.is_cancelled());

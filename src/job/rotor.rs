@@ -13,9 +13,9 @@ pub struct RotorWork(pub Posed);
 impl Work for RotorWork {
     const NAME: &'static str = "rotor";
     type Message = ();
-    type Found = RotorCurves;
+    type Output = RotorCurves;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Output>, String> {
         let Scenario::Motor(motor) = &self.0.problem.scenario else { return Ok(None) };
         RotorCurves::of(motor, cancel).map_err(|error| error.to_string())
     }

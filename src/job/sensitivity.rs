@@ -27,9 +27,9 @@ impl Work for Derivatives {
     const NAME: &'static str = "sensitivity";
     /// The share that is done, 0 to 1.
     type Message = f64;
-    type Found = Box<Sensitivity>;
+    type Output = Box<Sensitivity>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Output>, String> {
         let count = AtomicUsize::new(0);
         let solved = |all: usize| tell(one_more(&count, all));
         let none: [&str; 0] = [];
@@ -55,9 +55,9 @@ impl Work for Draws {
     const NAME: &'static str = "monte-carlo";
     /// The share that is done, 0 to 1.
     type Message = f64;
-    type Found = MonteCarlo;
+    type Output = MonteCarlo;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<Option<Self::Output>, String> {
         let Self { sensitivity, uncertainties, draws, seed } = self;
         let count = AtomicUsize::new(0);
         let solved = || tell(one_more(&count, draws));

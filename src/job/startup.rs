@@ -22,9 +22,9 @@ impl Work for StartupWork {
     const AHEAD: Option<usize> = Some(AHEAD);
     type Message = Cycle;
     /// How the start-up ended.
-    type Found = Startup;
+    type Output = Startup;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Result<Option<Self::Output>, String> {
         // Kept are also those that wait to be taken, and the one that the thread holds while it waits for room.
         let settings = Settings { kept: self.settings.kept + AHEAD + 1, ..self.settings };
         startup::startup(&self.posed.problem, &settings, &mut |cycle| tell(cycle), cancel)

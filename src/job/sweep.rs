@@ -1,7 +1,7 @@
 //! A sweep, in the background.
 
 use super::work::{Work, pooled};
-use crate::analysis::sweep::{Row, Sweep, Vary};
+use crate::analysis::sweep::{Sweep, SweepRow, Vary};
 use crate::control::Cancel;
 use crate::scene::Scene;
 use crate::solve::Settings;
@@ -14,7 +14,7 @@ pub enum SweepMessage {
     /// The points are built.
     Built(Arc<Sweep>),
     /// A point is solved.
-    Solved(Box<Row>),
+    Solved(Box<SweepRow>),
 }
 
 /// A sweep, as it is sent to the thread or worker that computes it. The points are built there, unless they are known, and solved.
@@ -23,16 +23,16 @@ pub enum SweepWork {
     /// A sweep to be built, of at most 100 000 points: the scene, the keys that are varied, and how it is solved.
     New(Scene, Vec<Vary>, Settings),
     /// A sweep whose points are built, and the rows that are solved already.
-    Known(Arc<Sweep>, Vec<Row>),
+    Known(Arc<Sweep>, Vec<SweepRow>),
 }
 
 impl Work for SweepWork {
     const NAME: &'static str = "sweep";
     type Message = SweepMessage;
     /// All rows in order.
-    type Found = Vec<Row>;
+    type Output = Vec<SweepRow>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Result<Option<Self::Output>, String> {
         let (sweep, done) = match self {
             Self::New(scene, vary, settings) => {
                 let sweep = Arc::new(Sweep::new(&scene, &vary, &settings).map_err(|error| error.in_place())?);

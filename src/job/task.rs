@@ -7,12 +7,12 @@ mod page;
 mod thread;
 
 #[cfg(target_arch = "wasm32")]
-pub use page::Task;
+pub use page::BackgroundTask;
 #[cfg(not(target_arch = "wasm32"))]
-pub use thread::Task;
+pub use thread::BackgroundTask;
 
 pub use super::work::News;
 use super::work::Work;
 
 /// The task that does the work `W`.
-pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
+pub type TaskOf<W> = BackgroundTask<<W as Work>::Message, <W as Work>::Output>;

@@ -14,9 +14,9 @@ pub struct TorqueWork(pub Arc<SolvedScene>);
 impl Work for TorqueWork {
     const NAME: &'static str = "torque";
     type Message = ();
-    type Found = TorqueCurves;
+    type Output = TorqueCurves;
 
-    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Result<Option<Self::Output>, String> {
         let SolvedScene { problem, fidelity, solution, .. } = &*self.0;
         TorqueCurves::of(problem, *fidelity, solution, cancel).map_err(|error| format!("without film, {error}"))
     }

@@ -31,9 +31,9 @@ impl Work for TradeoffWork {
     const NAME: &'static str = "measure";
     type Message = Progress;
     /// All settings with their results.
-    type Found = Vec<MeasuredSetting>;
+    type Output = Vec<MeasuredSetting>;
 
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Found>, String> {
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Result<Option<Self::Output>, String> {
         let started = (self.now)();
         let clock = || (self.now)().duration_since(started).as_secs_f64();
         let mut each = |runs: &[MeasuredSetting], share| tell((runs.to_vec(), share));

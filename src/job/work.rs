@@ -15,10 +15,10 @@ pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     /// A message on the way.
     type Message: Serialize + DeserializeOwned + Send + 'static;
     /// The result.
-    type Found: Serialize + DeserializeOwned + Send + 'static;
+    type Output: Serialize + DeserializeOwned + Send + 'static;
 
     /// Does the work. It checks `cancel`, and sends messages through `tell`. `None` if it was cancelled before it found anything.
-    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Result<Option<Self::Found>, String>;
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Result<Option<Self::Output>, String>;
 }
 
 /// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.

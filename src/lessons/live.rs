@@ -4,7 +4,7 @@
 use crate::analysis::exact::{self, Harmonic};
 use crate::analysis::quantity::{Quantity, numbers};
 use crate::analysis::torque::TorqueCurves;
-use crate::export::startup::Row;
+use crate::export::startup::CycleRow;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
 use crate::scene::Belongs;
@@ -71,7 +71,7 @@ impl Readings {
     }
 
     /// Takes the numbers of a cycle of a start-up.
-    pub fn read_cycle(&mut self, row: &Row) {
+    pub fn read_cycle(&mut self, row: &CycleRow) {
         self.set(Live::Cycles, row.cycle as f64);
         self.set(Live::Remaining, row.remaining.unwrap_or(f64::INFINITY));
         for (live, number) in [(Live::StartAlpha, Quantity::Alpha), (Live::StartLoadRatio, Quantity::LoadRatio)] {

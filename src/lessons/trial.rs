@@ -7,7 +7,7 @@ use super::text::readings;
 use crate::analysis::quantity::Numbers;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::{Cancel, Progress};
-use crate::export::startup::Row;
+use crate::export::startup::CycleRow;
 use crate::fidelity::Fidelity;
 use crate::hold::{Hold, leak_time};
 use crate::plan::Plan;
@@ -295,7 +295,7 @@ fn start_up(run: &Tried, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), Str
     // A cycle may be computed again on finer grids: it then replaces the earlier one.
     let mut cycles = BTreeMap::new();
     let mut each = |cycle: startup::Cycle| {
-        cycles.insert(cycle.number, Row::of(&run.problem, &cycle));
+        cycles.insert(cycle.number, CycleRow::of(&run.problem, &cycle));
     };
     startup(&run.problem, &settings, &mut each, cancel).map_err(|error| error.to_string())?;
     for row in cycles.values() {

@@ -18,7 +18,7 @@ pub(super) struct Rough {
 
 /// Solution at one node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct RoughNode {
     /// q \[N/m\].
     pub(super) force: f64,
     /// −dq/ds \[N/m²\].
@@ -48,7 +48,7 @@ impl Rough {
     }
 
     /// Node `i` with s \[m\], trapped gas `gas` p_aζ and what is subtracted from its force, `ambient` B \[N/m\], on the local compliance C_∞.
-    pub(super) fn node(&self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> Found {
+    pub(super) fn node(&self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> RoughNode {
         let rms = self.law.summits().rms;
         // Contact and film's force, each with its slope, and h.
         let forces = |d: f64| {
@@ -97,6 +97,6 @@ impl Rough {
         } else {
             (contact + film, contact)
         };
-        Found { force, stiffness, thickness, contact, separation: d }
+        RoughNode { force, stiffness, thickness, contact, separation: d }
     }
 }

@@ -13,7 +13,7 @@ use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
 use crate::film::stepper::{Film, FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
-use crate::ladder::State;
+use crate::ladder::GridState;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
@@ -535,7 +535,7 @@ impl MotorLevel {
     }
 }
 
-impl State for MotorLevel {
+impl GridState for MotorLevel {
     /// α.
     fn headline(&self) -> Mean {
         Mean { all: self.alpha(), shared: self.mean_film_load_of(2) / self.load }

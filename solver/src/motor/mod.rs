@@ -18,7 +18,7 @@ pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_means};
-use crate::ladder::{self, Found, Marched, Nested, Scene, TransientCycle, climb, climb_once, march_cycle};
+use crate::ladder::{self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, march_cycle};
 use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
@@ -55,7 +55,7 @@ pub type Periodic = ladder::Periodic<MotorResult>;
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
 #[derive(Debug, Default)]
 pub struct Warm {
-    found: Option<Found<MotorLevel>>,
+    found: Option<SolvedGrids<MotorLevel>>,
 }
 
 impl Warm {
@@ -140,7 +140,7 @@ pub fn touching(
     cancel: &Cancel,
 ) -> Option<Periodic> {
     let unrefined = Plan { most_grids: plan.grids.len(), ..plan.clone() };
-    let mut last: Option<Found<MotorLevel>> = None;
+    let mut last: Option<SolvedGrids<MotorLevel>> = None;
     for heavier in HEAVIER {
         let plan = if heavier > 1.0 { &unrefined } else { plan };
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
@@ -177,7 +177,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve
     /// may take. Over asperities, whose contact problems cost many times as much, that would be too much.
-    fn march(&mut self, plan: &Plan) -> Option<Found<MotorLevel>> {
+    fn march(&mut self, plan: &Plan) -> Option<SolvedGrids<MotorLevel>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
         let rough = self.motor.surface.asperities.is_some();
@@ -191,7 +191,7 @@ impl Search<'_> {
     }
 }
 
-impl Scene for Search<'_> {
+impl GridSolver for Search<'_> {
     type Level = MotorLevel;
     type Error = MotorError;
     const WIDTH_AIM: f64 = 0.3;
@@ -258,7 +258,7 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn settled(&self, plan: &Plan, found: &Found<MotorLevel>) -> bool {
+    fn settled(&self, plan: &Plan, found: &SolvedGrids<MotorLevel>) -> bool {
         // Over asperities there is contact everywhere, however little.
         if self.motor.surface.asperities.is_none() && may_open(found) {
             return false;
@@ -333,20 +333,20 @@ const OPENING: f64 = 0.5;
 
 /// Whether every node touches at every instant on the finest grid, and the contact load in between may vanish. Such grids agree, α being 0 on
 /// all of them, and only finer ones tell what the film does where faces part.
-fn may_open(found: &Found<MotorLevel>) -> bool {
+fn may_open(found: &SolvedGrids<MotorLevel>) -> bool {
     let [.., before, now] = &found.levels[..] else { return false };
     let now = now.least_contact();
     now > 0.0 && before.least_contact() - now > OPENING * now
 }
 
 /// α with what the grids tell of its error.
-fn of_grids(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {
+fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let Estimate { value, error } = extrapolate_means(&found.headlines);
     Estimate { value, error: error * plan.irregular }
 }
 
 /// α with its error.
-fn stated(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {
+fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
@@ -364,7 +364,7 @@ fn stated(plan: &Plan, found: &Found<MotorLevel>) -> Estimate {
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
-fn finish(motor: &Motor, plan: &Plan, found: &Found<MotorLevel>, stats: Stats) -> Periodic {
+fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: Stats) -> Periodic {
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();

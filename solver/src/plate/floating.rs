@@ -16,7 +16,7 @@ use crate::control::{Cancel, Observer};
 use crate::digits::brief;
 use crate::estimate::Estimate;
 use crate::film::cycle::Interrupted;
-use crate::ladder::{Found, climb};
+use crate::ladder::{SolvedGrids, climb};
 use crate::memory::{self, Excess};
 use crate::plan::Plan;
 use crate::problem::{GRAVITY, HIGHEST, Plate};
@@ -160,7 +160,7 @@ struct Way<'a> {
     plate: Plate,
     load: f64,
     /// The last solve, to start the next from.
-    warm: Option<Found<PlateLevel>>,
+    warm: Option<SolvedGrids<PlateLevel>>,
     stats: Stats,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
@@ -170,7 +170,7 @@ struct Way<'a> {
 struct Sought {
     x: f64,
     slope: f64,
-    found: Found<PlateLevel>,
+    found: SolvedGrids<PlateLevel>,
     plan: Plan,
 }
 
@@ -179,7 +179,7 @@ impl Way<'_> {
         Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
     }
 
-    fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, Found<PlateLevel>), FloatError> {
+    fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, SolvedGrids<PlateLevel>), FloatError> {
         // The last solve is kept beside this one.
         let need = memory::plate(plate, plan);
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;

@@ -9,7 +9,7 @@ use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::slip::SlipLaw;
 use crate::film::stepper::{Film, FilmState};
 use crate::film::trapped::edge_height;
-use crate::ladder::State;
+use crate::ladder::GridState;
 use crate::numerics::{anderson::Anderson, grading};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
@@ -350,7 +350,7 @@ impl PlateLevel {
     }
 }
 
-impl State for PlateLevel {
+impl GridState for PlateLevel {
     /// Mean load over all frames, and over those of the next coarser grid \[N\].
     fn headline(&self) -> Mean {
         let nx = self.cycle.grid().x.len();

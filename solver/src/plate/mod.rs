@@ -15,7 +15,7 @@ pub use transient::PlateTransient;
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_smooth};
 use crate::film::cycle::Interrupted;
-use crate::ladder::{self, Found, Nested, Scene, State, climb};
+use crate::ladder::{self, GridSolver, GridState, Nested, SolvedGrids, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::solution::{PlateResult, Stats, Status};
@@ -63,7 +63,7 @@ fn turned<'a>(plate: &'a Plate, plan: &Plan) -> Cow<'a, Plate> {
 }
 
 /// The numbers, their error and the fields of a plate, turned as the plan says, from what each grid gave, coarse to fine.
-fn finish(plate: &Plate, plan: &Plan, found: &Found<PlateLevel>, stats: Stats) -> Periodic {
+fn finish(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>, stats: Stats) -> Periodic {
     let mut periodic: Periodic = found.reached(stats);
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
@@ -105,12 +105,12 @@ fn gas_force(plate: &Plate, load: f64) -> f64 {
 }
 
 /// Mean load \[N\] with the error of its grids alone.
-fn of_grids(found: &Found<PlateLevel>) -> Estimate {
+fn of_grids(found: &SolvedGrids<PlateLevel>) -> Estimate {
     extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, PlateLevel::unit))
 }
 
 /// Mean load with its error \[N\].
-fn stated(plate: &Plate, plan: &Plan, found: &Found<PlateLevel>) -> Estimate {
+fn stated(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estimate {
     let estimate = of_grids(found);
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
@@ -135,7 +135,7 @@ struct Search<'a> {
     stats: &'a mut Stats,
 }
 
-impl Scene for Search<'_> {
+impl GridSolver for Search<'_> {
     type Level = PlateLevel;
     type Error = Interrupted;
     /// Small, so that spring and damping are as accurate as the mean.
@@ -165,7 +165,7 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn settled(&self, plan: &Plan, found: &Found<PlateLevel>) -> bool {
+    fn settled(&self, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> bool {
         let whole = stated(self.plate, plan, found);
         let unit = found.levels.last().map_or(0.0, PlateLevel::unit);
         whole.error <= plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
@@ -173,7 +173,7 @@ impl Scene for Search<'_> {
 }
 
 /// Changes of [`numbers`] on the coarsest grid with one node less across.
-fn width_errors(plate: &Plate, found: &Found<PlateLevel>) -> [f64; 5] {
+fn width_errors(plate: &Plate, found: &SolvedGrids<PlateLevel>) -> [f64; 5] {
     let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 5] };
     let of = |level: &PlateLevel| {
         let (lines, _) = level.fields(plate, false);

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// A setting on the curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct TradeoffPoint {
     /// The setting, with its measured solves.
     pub run: MeasuredSetting,
     /// Median time \[s\]; NaN before the first run.
@@ -39,7 +39,7 @@ pub enum Target {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tradeoff {
     /// All settings, in the order they were measured.
-    pub points: Vec<Point>,
+    pub points: Vec<TradeoffPoint>,
     /// Which of them the others are judged by: the one that states the least error.
     pub reference: Option<usize>,
     /// The number that is judged: α, a plate's film load, or the mean gap of one that floats.
@@ -66,7 +66,7 @@ impl Tradeoff {
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let truth = reference.and_then(|(i, error)| Some((value(&runs[i])?, error)));
         let scale = truth.map(|(truth, _)| truth.abs().max(f64::MIN_POSITIVE));
-        let mut points: Vec<Point> = runs
+        let mut points: Vec<TradeoffPoint> = runs
             .iter()
             .enumerate()
             .map(|(i, run)| {
@@ -78,7 +78,7 @@ impl Tradeoff {
                     (distance + error) / scale.unwrap_or(1.0)
                 });
                 let stated = stated(run).zip(scale).map(|(stated, scale)| stated / scale);
-                Point {
+                TradeoffPoint {
                     run: run.clone(),
                     median: quantile(&times, 0.5),
                     quartiles: (quantile(&times, 0.25), quantile(&times, 0.75)),

@@ -4,7 +4,7 @@
 use super::axis::{Range, Scale, extent};
 use super::colour::{Colour, Colours};
 use crate::digits::{self, signed};
-use crate::ticks::Steps;
+use crate::ticks::{Decimal, Steps, decades};
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
 const MARGIN: f64 = 0.05;
@@ -164,45 +164,22 @@ pub(super) fn fixed(value: f64, places: usize) -> String {
 }
 
 fn logarithmic(range: &Scaled, most: usize) -> Ticks {
-    let (first, last) = (range.from.log10().floor() as i32, range.to.log10().ceil() as i32);
-    let decades = range.to.log10() - range.from.log10();
-    let most_f = most as f64;
     // Too short for a decade's labels: values as on a linear axis.
-    if decades < 0.5 {
+    let Some(numbers) = decades([range.from.log10(), range.to.log10()], most) else {
         let plain = Scaled { scale: Scale::Linear, ..*range };
         return Ticks::new(&plain, most.min(4), false);
-    }
-    let every = ((decades / most_f).ceil() as i32).max(1);
-    // Between decades there is room for 2 and 5 only on a short axis.
-    let labelled: &[i32] = if decades * 3.0 <= most_f + 0.5 { &[1, 2, 5] } else { &[1] };
+    };
     let plain = range.from >= 0.999e-3 && range.to <= 1.001e4;
-    let mut ticks = Vec::new();
-    for exponent in first..=last {
-        let major = exponent.rem_euclid(every) == 0;
-        // So many decades that a tick for each would be a bar.
-        if !major && decades > 40.0 {
-            continue;
-        }
-        let digits: &[i32] = if every == 1 { &[1, 2, 3, 4, 5, 6, 7, 8, 9] } else { &[1] };
-        for digit in digits {
-            // The literal's value, not a product's.
-            let at: f64 = format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN);
-            if range.holds(at) {
-                let label = (major && labelled.contains(digit)).then(|| decade(*digit, exponent, plain));
-                ticks.push(Tick { at, label });
-            }
-        }
-    }
-    Ticks { ticks, power: 0 }
+    let tick = |number: Decimal| Tick { at: number.value(), label: number.major.then(|| decade(number, plain)) };
+    Ticks { ticks: numbers.into_iter().map(tick).collect(), power: 0 }
 }
 
-fn decade(digit: i32, exponent: i32, plain: bool) -> String {
+fn decade(number: Decimal, plain: bool) -> String {
     if plain {
-        let places = usize::try_from(-exponent).unwrap_or(0);
-        return fixed(f64::from(digit) * 10f64.powi(exponent), places);
+        return fixed(number.value(), usize::try_from(-number.exponent).unwrap_or(0));
     }
-    let raised = power(exponent);
-    if digit == 1 { raised } else { format!("{digit}×{raised}") }
+    let raised = power(number.exponent);
+    if number.digit == 1 { raised } else { format!("{}×{raised}", number.digit) }
 }
 
 /// `10^{−3}`.

@@ -11,7 +11,7 @@ use crate::export::figure::{Axis, Figure, Legend, Line, Marker, Panel, Points, R
 use crate::problem::{Motor, Plate, rpm};
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
-use crate::solution::{Performance, Point};
+use crate::solution::{OperatingPoint, Performance};
 
 /// One run: of a motor, or of a plate.
 #[derive(Clone, Copy, Debug)]
@@ -173,7 +173,7 @@ fn stacked<const N: usize>(title: &str, panels: [Panel; N], caption: String) -> 
 pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
     let speed = |run: &MotorRun<'_>, speed: f64| rpm(speed, run.scene.contact_radius);
     let fastest = runs.iter().map(|run| speed(run, run.scene.stator_speed())).fold(f64::MIN_POSITIVE, f64::max);
-    let panel = |title: &str, name: &str, unit: &str, value: fn(&Point) -> f64| {
+    let panel = |title: &str, name: &str, unit: &str, value: fn(&OperatingPoint) -> f64| {
         let values = performances.iter().flat_map(|found| &found.curve).map(value);
         let (unit, scale) = prefixed(span(values, 0.0)[1], unit);
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);

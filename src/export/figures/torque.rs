@@ -4,12 +4,12 @@ use super::series::rest;
 use super::unit::prefixed;
 use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
-use crate::solution::{Performance, Point};
+use crate::solution::{OperatingPoint, Performance};
 
 /// Torque–speed curves with the film and without, power and heat, efficiency; the rotor speed of the scene is marked.
 pub fn torque(curves: &TorqueCurves) -> Figure {
     let (wet, dry) = (&curves.with_film, &curves.without_film);
-    let most = |value: fn(&Point) -> f64| {
+    let most = |value: fn(&OperatingPoint) -> f64| {
         wet.curve.iter().chain(&dry.curve).map(value).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
@@ -18,13 +18,13 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     let fastest = curves.rpm(curves.stator_speed).max(f64::MIN_POSITIVE);
     let x = || Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
     // What brakes the rotor is below the axes.
-    let curve = |of: &Performance, value: &dyn Fn(&Point) -> f64| -> Vec<[f64; 2]> {
+    let curve = |of: &Performance, value: &dyn Fn(&OperatingPoint) -> f64| -> Vec<[f64; 2]> {
         of.curve.iter().map(|point| [curves.rpm(point.speed), value(point)]).collect()
     };
     let wet_style = Style::solid(Colour::FILM);
     let dry_style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
     let errors = wet.curve.iter().filter(|point| point.torque.error.is_finite()).map(|point| {
-        let Point { torque, speed, .. } = point;
+        let OperatingPoint { torque, speed, .. } = point;
         [curves.rpm(*speed), (torque.value - torque.error) * torques, (torque.value + torque.error) * torques]
     });
     let top = |value: f64| if value > 0.0 { 1.08 * value } else { 1.0 };
@@ -42,7 +42,7 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
             curve(wet, &|point| point.friction.value * powers),
             Style::solid(Colour::STATOR).dash(Dash::DashDot),
         ));
-    let percent = |point: &Point| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);
+    let percent = |point: &OperatingPoint| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);
     let mut third = Panel::new("(c) efficiency", x(), Axis::new("efficiency", "%").fixed(0.0, 100.0))
         .layer(Line::new("without film", curve(dry, &percent), dry_style))
         .layer(Line::new("with film", curve(wet, &percent), wet_style));

@@ -95,7 +95,7 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
 
 /// α over the frequency, with the published points.
 fn frequencies(all: &Reproduction) -> Figure {
-    let value = |point: &crate::analysis::reproduce::Point| {
+    let value = |point: &crate::analysis::reproduce::FrequencyPoint| {
         point.solved.as_ref().map_or(Estimate::exact(f64::NAN), |result| result.alpha)
     };
     let band = all.frequencies.iter().map(|point| {

@@ -3,7 +3,7 @@
 use super::figures::figures;
 use super::statements::{share, statements};
 use crate::analysis::decision::{effort, sentences};
-use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
+use crate::analysis::reproduce::{Both, FIELDS, ReproducedRow, Reproduction};
 use crate::analysis::validity::outside;
 use crate::digits::change;
 use crate::export::compare::{again, limits};
@@ -146,7 +146,7 @@ fn shares(all: &Reproduction, number: u32) -> String {
 }
 
 /// `tooth width 1.16 mm`, as the paper names the rows.
-fn row_name(row: &Row) -> String {
+fn row_name(row: &ReproducedRow) -> String {
     match row.published.preset.as_str() {
         "fundamental" => "Fundamental case".to_owned(),
         "doubled-mesh" => "p = 101, q = 21, N = 361".to_owned(),

@@ -1,11 +1,11 @@
 //! Background work that belongs to a tab.
 
-use crate::job::task::{News, Task};
+use crate::job::task::{BackgroundTask, News};
 
 /// A background task and the outcome of the last one.
 #[derive(Debug)]
 pub struct Background<M, R> {
-    task: Option<Task<M, R>>,
+    task: Option<BackgroundTask<M, R>>,
     /// Whether the last one was told to end.
     pub cancelled: bool,
     /// Why the last one failed, if it did.
@@ -18,8 +18,8 @@ impl<M, R> Default for Background<M, R> {
     }
 }
 
-impl<M, R> From<Task<M, R>> for Background<M, R> {
-    fn from(task: Task<M, R>) -> Self {
+impl<M, R> From<BackgroundTask<M, R>> for Background<M, R> {
+    fn from(task: BackgroundTask<M, R>) -> Self {
         Self { task: Some(task), ..Self::default() }
     }
 }
@@ -42,7 +42,7 @@ impl<M, R> Background<M, R> {
 impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
     /// Messages and result since the last call; drops the task when it has ended.
     pub(super) fn news(&mut self) -> News<M, R> {
-        let news = self.task.as_ref().map_or(News { messages: Vec::new(), end: None }, Task::drain);
+        let news = self.task.as_ref().map_or(News { messages: Vec::new(), end: None }, BackgroundTask::drain);
         if news.end.is_some() {
             self.task = None;
         }

@@ -15,7 +15,7 @@ pub struct RunningExport {
     /// The kind of export.
     pub export: Export,
     /// The task; its messages count the pictures of an animation that are drawn.
-    pub work: Background<<Files as Work>::Message, <Files as Work>::Found>,
+    pub work: Background<<Files as Work>::Message, <Files as Work>::Output>,
     /// When it began.
     pub started: Instant,
     /// Pictures drawn so far, and their total.

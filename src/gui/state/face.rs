@@ -1,7 +1,7 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
 use super::background::Background;
-use crate::job::task::Task;
+use crate::job::task::BackgroundTask;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub struct Face {
 }
 
 /// Reads a face: its heights and what they come to.
-pub type FaceTask = Task<(), (HeightMap, Texture)>;
+pub type FaceTask = BackgroundTask<(), (HeightMap, Texture)>;
 
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]

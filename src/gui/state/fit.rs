@@ -5,8 +5,8 @@ use super::document::solved_alike;
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
+pub use crate::job::fit::FitResult;
 use crate::job::fit::FitWork;
-pub use crate::job::fit::Found;
 use crate::job::task::TaskOf;
 use crate::job::work::Work;
 use crate::problem::Problem;
@@ -57,13 +57,13 @@ pub struct FitState {
     /// Fault of the limits; `None` if they are valid.
     pub goal_fault: Option<String>,
     /// The search; its messages carry the number of points tried and the best value so far.
-    pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Found>,
+    pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Output>,
     /// The scene that it searches for.
     asked: Option<Scene>,
     /// Number of points tried, and the least χ² or the best value so far.
     pub told: Option<(usize, f64)>,
     /// The result, and the scene that it was searched for.
-    pub found: Option<(Scene, Arc<Found>)>,
+    pub found: Option<(Scene, Arc<FitResult>)>,
 }
 
 impl FitForm {
@@ -154,8 +154,8 @@ impl FitState {
     pub fn asks_for_another(&self) -> bool {
         let FitForm { sought, quantity, .. } = &self.form;
         self.found.as_ref().is_some_and(|(_, found)| match &**found {
-            Found::Fit(..) => *sought != Sought::Agreement,
-            Found::Optimum(found) => {
+            FitResult::Fit(..) => *sought != Sought::Agreement,
+            FitResult::Optimum(found) => {
                 let Goal { quantity: of, greatest, limits } = &found.goal;
                 let asked = if *greatest { Sought::Greatest } else { Sought::Least };
                 let limits = limits.iter().map(|(limit, _)| limit.clone()).collect();

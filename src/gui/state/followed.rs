@@ -6,7 +6,7 @@ use crate::analysis::rotor::RotorCurves;
 use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::job::task::Task;
+use crate::job::task::BackgroundTask;
 use crate::problem::{Motor, RotorCompliance, Scenario};
 use crate::rotor::Wave;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ impl<K, T> Default for Followed<K, T> {
 
 impl<K: Clone, T: Send + 'static> Followed<K, T> {
     /// Follows `of`, whose result `task` computes. The previous result stays until then.
-    pub fn follow(&mut self, of: K, task: Option<Task<(), T>>) {
+    pub fn follow(&mut self, of: K, task: Option<BackgroundTask<(), T>>) {
         self.asked = Some(of);
         task.into_iter().for_each(|task| self.work = task.into());
     }

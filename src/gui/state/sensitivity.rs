@@ -18,8 +18,8 @@ pub const SEED: u64 = 1;
 /// Derivatives, uncertainties and random scenes.
 #[derive(Debug, Default)]
 pub struct SensitivityState {
-    derivatives: Background<<Derivatives as Work>::Message, <Derivatives as Work>::Found>,
-    drawing: Background<<Draws as Work>::Message, <Draws as Work>::Found>,
+    derivatives: Background<<Derivatives as Work>::Message, <Derivatives as Work>::Output>,
+    drawing: Background<<Draws as Work>::Message, <Draws as Work>::Output>,
     share: f64,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,

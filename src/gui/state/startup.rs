@@ -2,7 +2,7 @@
 
 use super::background::Background;
 use super::document::solved_alike;
-use crate::export::startup::{Row, place};
+use crate::export::startup::{CycleRow, place};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
@@ -55,7 +55,7 @@ pub struct StartupState {
     /// Its number in this window.
     pub count: u64,
     /// All cycles, in order.
-    pub points: Vec<Row>,
+    pub points: Vec<CycleRow>,
     /// Runs that are kept, by the number of their cycle.
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
@@ -100,7 +100,7 @@ impl StartupState {
 
     fn take(&mut self, cycle: Cycle) {
         let newest = cycle.number > self.points.len();
-        place(&mut self.points, cycle.number, Row::of(&self.problem, &cycle));
+        place(&mut self.points, cycle.number, CycleRow::of(&self.problem, &cycle));
         let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));

@@ -1,7 +1,7 @@
 //! State of the sweep tab: the form, the progress, and the rows that are solved.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, Values, Vary};
+use crate::analysis::sweep::{Axis, MOST_VALUES, Sweep, SweepRow, Values, Vary};
 use crate::analysis::table1::Published;
 use crate::digits::rounded;
 use crate::fidelity::Fidelity;
@@ -170,7 +170,7 @@ pub struct Swept {
     /// The sweep.
     pub sweep: Arc<Sweep>,
     /// The rows there are, in the order of the points.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SweepRow>,
     /// Published points of Table I in its plane.
     pub published: Vec<Published>,
     /// Its number in this window.

@@ -3,7 +3,7 @@
 use super::background::Background;
 use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
-use crate::job::task::Task;
+use crate::job::task::BackgroundTask;
 use crate::job::tradeoff::Progress;
 use crate::platform::Instant;
 use crate::problem::Numerics;
@@ -14,7 +14,7 @@ use crate::solve::{Method, Settings};
 const PRESENT: &str = "present setting";
 
 /// The work of a measurement.
-pub type TradeoffTask = Task<Progress, Vec<MeasuredSetting>>;
+pub type TradeoffTask = BackgroundTask<Progress, Vec<MeasuredSetting>>;
 
 /// A measurement, under way or ended.
 #[derive(Debug)]

@@ -1,19 +1,16 @@
-//! What charts have in common.
+//! Charts of the tabs: a panel as figures describe it, with its axes, names and legend.
 
 use super::glossary::{self, Explained};
 use super::hint::text_width;
-use super::paint::{PlotStyle, widened};
+use super::plot::{between, dots, framed, level, line, marks, numbered, tick, upright};
 use super::theme::on_screen;
 use crate::digits::{power_of_ten, short};
 use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Panel, Scale, Shape, ends};
-use crate::gui::derived::scales::span;
 use crate::ticks::{Steps, decades};
-use eframe::egui::{
-    self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, Stroke, TextStyle, UiBuilder, Visuals, pos2, vec2,
-};
+use eframe::egui::{self, Color32, Rect, RichText, Stroke, TextStyle, Visuals, vec2};
 use egui_plot::{
-    AxisHints, FilledArea, GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotMemory,
-    PlotPoint, PlotPoints, PlotResponse, PlotTransform, PlotUi, Points, VLine,
+    AxisHints, GridInput, GridMark, HoverPosition, LineStyle, MarkerShape, Plot, PlotPoint, PlotResponse,
+    PlotTransform, PlotUi,
 };
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
@@ -28,71 +25,19 @@ const WIDTH: f32 = 2.0;
 const DIGITS: usize = 4;
 /// Values of a logarithmic axis up to this many decades from 1 are written out.
 const PLAIN_DECADES: f64 = 3.5;
-/// A curve is drawn as exactly as this share of its size.
-const STRAIGHT: f64 = 5e-4;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
-
-fn id(name: &str) -> Id {
-    Id::unique(("chart", name))
-}
-
-/// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
-fn framed<'a, R>(
-    ui: &mut egui::Ui,
-    (name, plot): (&str, Plot<'a>),
-    [x, y]: [[f64; 2]; 2],
-    add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
-) -> PlotResponse<R> {
-    // A new chart starts with automatic ranges, as after a double click.
-    let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
-    let ([left, right], [bottom, top]) = (widened(x), widened(y));
-    plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
-        if fresh {
-            plot.set_auto_bounds(true);
-        }
-        add(plot)
-    })
-}
-
-/// A line that does not answer to the pointer. As one path a solid one would be drawn thinner where it is steep, and with spikes where it
-/// turns: it is a chain of segments.
-pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
-    let style = if style == LineStyle::Solid { LineStyle::Dashed { length: 1e6 } } else { style };
-    let size = [0, 1].map(|k| span(points.iter().map(|point| point[k]))).map(|[low, high]| high - low);
-    let mut kept = Vec::new();
-    thin(points, size, &mut kept);
-    kept.extend(points.last());
-    Line::new("", PlotPoints::from(kept)).color(colour).width(width).style(style).allow_hover(false)
-}
-
-/// Keeps of a curve of this size the points that straight lines between others would miss, but for the last one (Ramer 1972).
-fn thin(points: &[[f64; 2]], size: [f64; 2], kept: &mut Vec<[f64; 2]>) {
-    let [first, .., last] = points else { return };
-    let from_first = |point: &[f64; 2]| [0, 1].map(|k| (point[k] - first[k]) / size[k].max(f64::MIN_POSITIVE));
-    let [dx, dy] = from_first(last);
-    let off = |point: &[f64; 2]| {
-        let [x, y] = from_first(point);
-        let part = ((x * dx + y * dy) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (x - part * dx).hypot(y - part * dy)
-    };
-    let furthest = (1..points.len() - 1).max_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])));
-    match furthest.filter(|i| off(&points[*i]) > STRAIGHT) {
-        Some(i) => [&points[..=i], &points[i..]].into_iter().for_each(|part| thin(part, size, kept)),
-        None => kept.push(*first),
-    }
-}
 
 /// A chart of a tab, over its whole width, whose axes are explained on hover: a panel as figures describe it, in the colours of the window.
 /// Points that have a name tell their values; other values are read below it.
 pub(super) struct Chart<'n> {
-    /// What tells it from other charts, and screen readers what it is.
+    /// Unique name, also read by screen readers.
     pub(super) name: &'n str,
     /// Its height, with the axis below.
     pub(super) height: f32,
     /// Axes, and what is drawn, but for maps. Axes have these ranges until they are zoomed.
     pub(super) panel: &'n Panel,
-    /// What the glossary explains the axis below under, if it does, and the one at the left.
+    /// Glossary terms of the axis below, if it has one, and of the axis at the left.
     pub(super) words: (Option<&'n str>, &'n str),
 }
 
@@ -110,7 +55,7 @@ impl<'n> Chart<'n> {
         self.show_over(ui, change, |_| ())
     }
 
-    /// The same over what `ground` draws.
+    /// As [`Self::show_with`], over a background that `ground` draws.
     pub(super) fn show_over(
         self,
         ui: &mut egui::Ui,
@@ -171,19 +116,18 @@ fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
     let least = if axis.whole { least.max(1.0) } else { least };
     match axis.scale {
         _ if !axis.names.is_empty() => axis.names.iter().map(|(at, _)| by_one(*at)).collect(),
-        Scale::Log if from.abs().max(to.abs()) < PLAIN_DECADES => log_marks([from, to], most),
-        Scale::Log => decades([from, to], most, false).into_iter().map(by_one).collect(),
+        Scale::Log => log_marks([from, to], most),
         Scale::Linear if least.is_finite() && least > 0.0 => marks(Steps::apart([from, to], least)),
         Scale::Linear => Vec::new(),
     }
 }
 
-/// How a value is written: as a mark of an axis with such steps, or without steps with all its digits.
+/// Text of a value: as a mark of an axis with steps of this size, or with all its digits if that is 0.
 fn written(axis: &Axis, value: f64, step_size: f64) -> String {
     let name = axis.names.iter().find(|(at, _)| *at == value);
     match (name, axis.scale) {
         (Some((_, name)), _) => name.clone(),
-        (None, Scale::Log) if value.abs() > PLAIN_DECADES => power_of_ten(value.round()),
+        (None, Scale::Log) if value.abs() > PLAIN_DECADES && value.fract() == 0.0 => power_of_ten(value),
         (None, Scale::Log) => short(10f64.powf(value), DIGITS),
         (None, Scale::Linear) if step_size == 0.0 => short(value, DIGITS),
         (None, Scale::Linear) => tick(GridMark { value, step_size }),
@@ -275,141 +219,6 @@ fn shape(shape: Shape) -> MarkerShape {
     }
 }
 
-/// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn
-/// with the right button, and back with a double click. The wheel alone scrolls the tab that it is in.
-fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
-    // The spacers leave room for every number: none is to fade because others are near.
-    let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
-    Plot::new(name.to_owned())
-        .id(id(name))
-        .height(height)
-        .allow_scroll(false)
-        .allow_axis_zoom_drag(false)
-        .show_crosshair(false)
-        .custom_x_axes(x)
-        .custom_y_axes(y)
-        .show_x(false)
-        .show_y(false)
-        .label_formatter(|_| None)
-        .set_margin_fraction(egui::Vec2::ZERO)
-}
-
-/// A chart that stands among drawings of the painter, with the size of its text.
-pub(super) struct Inset<'a> {
-    /// What tells it from other charts, and screen readers what it is.
-    pub(super) name: &'a str,
-    /// Where its curves are. Its numbers are left of it, and below.
-    pub(super) rect: Rect,
-    /// Ranges of the axes until they are zoomed.
-    pub(super) bounds: [[f64; 2]; 2],
-    /// Name of the axis below; `None` if its numbers are below another drawing, empty if it is
-    /// written elsewhere.
-    pub(super) below: Option<&'a str>,
-}
-
-impl<'a> Inset<'a> {
-    pub(super) fn show(
-        &self,
-        ui: &mut egui::Ui,
-        style: &PlotStyle,
-        add: impl FnOnce(&mut PlotUi<'a>) + 'a,
-    ) -> PlotResponse<()> {
-        let Self { name, rect, below, .. } = *self;
-        let (gutter, axis) = (style.gutter, style.axis);
-        let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
-        let whole = Rect::from_min_max(pos2(rect.left() - gutter, rect.top()), low);
-        let (row, height) = (style.row, rect.height());
-        // As many marks as the painter has, in drawings above and below.
-        let columns = (rect.width() / (3.6 * row)).clamp(1.0, 12.0) as usize;
-        let lines = (height / (2.2 * row)).clamp(1.0, 6.0) as usize;
-        let hints = |hints: AxisHints<'a>, thick: f32| {
-            hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
-        };
-        // What is written below has the corner.
-        let hidden = if below.is_some() { 0.35 * row / height } else { 0.0 };
-        let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
-            let above = (mark.value - range.start()) / (range.end() - range.start());
-            if above < f64::from(hidden) { String::new() } else { tick(mark) }
-        };
-        // The name has the left end, and a neighbour begins soon after the right one.
-        let named = below.filter(|name| !name.is_empty());
-        let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(name)).clamp(0.0, 0.6 * row);
-        let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
-            let text = tick(mark);
-            let half = 0.28 * row * text.chars().count() as f32;
-            let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
-            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.5 * row;
-            if fits || named.is_none() { text } else { String::new() }
-        };
-        let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
-        let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
-            .show_axes([below.is_some(), true])
-            .grid_color(style.grid)
-            .grid_fade(0.0)
-            .x_grid_spacer(move |input| several(&input, 0.0, columns, rect.width() / (1.5 * row)))
-            .y_grid_spacer(move |input| several(&input, hidden, lines, height / row));
-        let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
-        child.visuals_mut().extreme_bg_color = style.palette.canvas;
-        let shown = framed(child, (name, chart), self.bounds, add);
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-        if let Some(name) = named {
-            let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
-            let place = style.write(corner, Align2::RIGHT_TOP, name, style.palette.quiet);
-            style.term(place, name.split(',').next().unwrap_or(name));
-        }
-        shown
-    }
-}
-
-/// The x of the chart `name` that was clicked, or that its vertical line was dragged to.
-pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<()>, line: Option<f64>, name: &str) -> Option<f64> {
-    let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
-    let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
-    line.and_then(|x| dragged(ui, &shown.transform, x, name)).or(clicked)
-}
-
-/// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
-fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
-    let place = pos2(at.position_from_point_x(x), at.frame().center().y);
-    let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
-    if !strip.is_positive() {
-        return None;
-    }
-    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag());
-    let text = format!("Line of {}: drag it", name.split(':').next().unwrap_or(name));
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
-    let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
-    if response.double_clicked()
-        && let Some(mut memory) = PlotMemory::load(ui.ctx(), id(name))
-    {
-        memory.auto_bounds = true.into();
-        memory.store(ui.ctx(), id(name));
-    }
-    let pointer = response.interact_pointer_pos().filter(|_| response.dragged())?;
-    Some(at.value_from_position(pointer).x)
-}
-
-/// A line across a chart along x, that does not answer to the pointer.
-pub(super) fn level(y: f64, colour: Color32, width: f32) -> HLine {
-    HLine::new("", y).color(colour).width(width).allow_hover(false)
-}
-
-/// A line across a chart along y, that does not answer to the pointer.
-pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
-    VLine::new("", x).color(colour).width(width).allow_hover(false)
-}
-
-/// Dots, which say what they are when the pointer is near, if they have a name.
-pub(super) fn dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
-    Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
-}
-
-/// The area between two curves, given as (x, one y, other y).
-pub(super) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
-    let [x, one, other] = [0, 1, 2].map(|k| columns.iter().map(|column| column[k]).collect::<Vec<_>>());
-    FilledArea::new("", &x, &one, &other).fill_color(colour).allow_hover(false)
-}
-
 /// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
 fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
     let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
@@ -498,36 +307,21 @@ fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce
     ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }
 
-/// Marks of an axis of log₁₀ at round numbers, about `most`: equal steps, where the logarithm has them, if the range is less than a few powers.
+/// Marks of an axis of log₁₀ at round numbers, about `most`: equal steps, where the logarithm has them, if there are few powers of ten.
 fn log_marks(range: [f64; 2], most: f64) -> Vec<GridMark> {
-    let mut found = decades(range, most, true);
-    if found.len() as f64 > 1.5 * most {
-        found = decades(range, most, false);
-    }
-    if found.len() < 2 {
-        let ticks = Steps::new(range.map(|end| 10f64.powf(end)), most as usize);
-        found = ticks.values().filter(|value| *value > 0.0).map(f64::log10).collect();
-    }
+    let found: Vec<f64> = match decades(range, most as usize) {
+        Some(numbers) => {
+            numbers.into_iter().filter(|number| number.major).map(|number| number.value().log10()).collect()
+        }
+        None => {
+            let steps = Steps::new(range.map(|end| 10f64.powf(end)), most as usize);
+            steps.values().filter(|value| *value > 0.0).map(f64::log10).collect()
+        }
+    };
     // A step is what is free beside a mark.
     let gap = |pair: &[f64]| (pair[1] - pair[0]).abs();
     let free = |i: usize| found[i.saturating_sub(1)..(i + 2).min(found.len())].windows(2).map(gap).fold(1.0, f64::min);
     found.iter().enumerate().map(|(i, value)| GridMark { value: *value, step_size: free(i) }).collect()
-}
-
-/// As many decimals as the steps between ticks need, with a true minus sign.
-fn tick(mark: GridMark) -> String {
-    Steps::of([mark.value; 2], mark.step_size).format(mark.value)
-}
-
-/// Round marks, about `about`, and two at least beyond the share `hidden` of the axis at its beginning if it has room for `most`.
-fn several(input: &GridInput, hidden: f32, about: usize, most: f32) -> Vec<GridMark> {
-    let (from, to) = input.bounds;
-    marks(Steps::several([from, to], from + f64::from(hidden) * (to - from), about, most.into()))
-}
-
-/// Marks at these numbers.
-fn marks(ticks: Steps) -> Vec<GridMark> {
-    ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 
 #[cfg(test)]

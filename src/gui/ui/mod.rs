@@ -15,6 +15,7 @@ pub mod modals;
 pub mod paint;
 pub mod panels;
 pub mod parts;
+pub mod plot;
 pub mod rich;
 pub mod tabs;
 pub mod taps;

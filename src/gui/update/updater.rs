@@ -6,7 +6,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
 use crate::job::export::Files;
-use crate::job::task::{Task, TaskOf};
+use crate::job::task::{BackgroundTask, TaskOf};
 use crate::job::work::Work;
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
@@ -61,7 +61,7 @@ impl Updater {
 
     /// Starts `work`, which draws the window again not more often than `every`; if it cannot be, that is said after what `failed`.
     pub(super) fn start_work<W: Work>(&mut self, failed: &str, work: W, every: Duration) -> Option<TaskOf<W>> {
-        Task::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
+        BackgroundTask::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
     /// Shows an error about a file, whose path is suggested at the next try.

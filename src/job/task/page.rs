@@ -7,15 +7,15 @@ use std::rc::Rc;
 
 /// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop its worker is ended.
 #[derive(Debug)]
-pub struct Task<M, R> {
+pub struct BackgroundTask<M, R> {
     /// `None` once the worker has nothing to do any more.
     line: Rc<RefCell<Option<Line>>>,
     told: Rc<RefCell<News<M, R>>>,
 }
 
-impl<M: 'static, R: 'static> Task<M, R> {
+impl<M: 'static, R: 'static> BackgroundTask<M, R> {
     /// Starts to do `work` in a worker; an error is that there is none for it.
-    pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
+    pub fn of<W: Work<Message = M, Output = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
         let told = Rc::new(RefCell::new(News { messages: Vec::new(), end: None }));
         let line = Rc::new(RefCell::new(Some(Line::open()?)));
         let (theirs, used) = (Rc::clone(&told), Rc::clone(&line));
@@ -47,7 +47,7 @@ impl<M: 'static, R: 'static> Task<M, R> {
     }
 }
 
-impl<M, R> Task<M, R> {
+impl<M, R> BackgroundTask<M, R> {
     /// Ends it, and its worker.
     pub fn cancel(&self) {
         let worker = self.line.borrow_mut().take();
@@ -58,7 +58,7 @@ impl<M, R> Task<M, R> {
     }
 }
 
-impl<M, R> Drop for Task<M, R> {
+impl<M, R> Drop for BackgroundTask<M, R> {
     fn drop(&mut self) {
         *self.line.borrow_mut() = None;
     }

@@ -8,7 +8,7 @@ use std::thread::{Builder, JoinHandle};
 
 /// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop it is cancelled and joined.
 #[derive(Debug)]
-pub struct Task<M, R> {
+pub struct BackgroundTask<M, R> {
     cancel: Cancel,
     /// `None` only during the drop, so that a thread that waits for its messages to be taken ends too.
     events: Option<Receiver<Event<M, R>>>,
@@ -25,9 +25,9 @@ enum Event<M, R> {
 /// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
 type Line<M, R> = Box<dyn Fn(Event<M, R>) + Send + Sync>;
 
-impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
+impl<M: Send + 'static, R: Send + 'static> BackgroundTask<M, R> {
     /// Starts to do `work` on a thread of its own; an error is that no thread can be started.
-    pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
+    pub fn of<W: Work<Message = M, Output = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
         Self::start(W::NAME, W::AHEAD, wake, |cancel, tell| work.run(cancel, tell))
     }
 
@@ -78,14 +78,14 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
     }
 }
 
-impl<M, R> Task<M, R> {
+impl<M, R> BackgroundTask<M, R> {
     /// Asks the work to end. Its result then comes like any other.
     pub fn cancel(&self) {
         self.cancel.cancel();
     }
 }
 
-impl<M, R> Drop for Task<M, R> {
+impl<M, R> Drop for BackgroundTask<M, R> {
     fn drop(&mut self) {
         self.cancel.cancel();
         self.events = None;
@@ -104,7 +104,9 @@ mod tests {
     use std::time::Duration;
 
     /// All messages of a task and its end.
-    fn to_the_end<M: Send + 'static, R: Send + 'static>(task: &Task<M, R>) -> (Vec<M>, Result<Option<R>, String>) {
+    fn to_the_end<M: Send + 'static, R: Send + 'static>(
+        task: &BackgroundTask<M, R>,
+    ) -> (Vec<M>, Result<Option<R>, String>) {
         let mut seen = Vec::new();
         for _ in 0..6000 {
             let News { messages, end } = task.drain();
@@ -122,7 +124,7 @@ mod tests {
         let woken = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&woken);
         let wake = move |ended: bool| theirs.store(ended, Ordering::Relaxed);
-        let task: Task<i32, ()> = Task::start("test", None, wake, |_, tell| {
+        let task: BackgroundTask<i32, ()> = BackgroundTask::start("test", None, wake, |_, tell| {
             tell(1);
             panic!("on purpose, {}", 2);
         })
@@ -139,8 +141,8 @@ mod tests {
 
     #[test]
     fn cancelling_and_dropping_end_it() {
-        let endless = || -> Task<&str, usize> {
-            Task::start(
+        let endless = || -> BackgroundTask<&str, usize> {
+            BackgroundTask::start(
                 "test",
                 None,
                 |_| (),
@@ -165,7 +167,7 @@ mod tests {
     fn bounded_work_waits_and_still_ends_on_drop() {
         let sent = Arc::new(std::sync::atomic::AtomicUsize::new(0));
         let theirs = Arc::clone(&sent);
-        let task: Task<usize, ()> = Task::start(
+        let task: BackgroundTask<usize, ()> = BackgroundTask::start(
             "test",
             Some(2),
             |_| (),

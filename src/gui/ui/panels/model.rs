@@ -30,7 +30,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     }
     let decisions = &run.solution.model.decisions;
     let columns = Columns::of(ui, decisions);
-    let row = Row { run, columns, cx };
+    let row = SwitchRow { run, columns, cx };
     row.target(ui);
     for decision in decisions {
         ui.push_id(decision::term(decision), |ui| match decision.key().and_then(Parameter::find) {
@@ -150,13 +150,13 @@ fn options(parameter: &Parameter) -> &'static [&'static str] {
     }
 }
 
-struct Row<'a> {
+struct SwitchRow<'a> {
     run: &'a SolvedScene,
     columns: Columns,
     cx: &'a DrawContext<'a>,
 }
 
-impl Row<'_> {
+impl SwitchRow<'_> {
     fn document(&self) -> &Document {
         &self.cx.state.document
     }

@@ -7,7 +7,7 @@ use crate::export::fit::{figures, optimum_figure};
 use crate::gui::command::{Command, FitCommand};
 use crate::gui::derived::words::label;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::fit::{FitForm, FitState, Found, Sought, chooses};
+use crate::gui::state::fit::{FitForm, FitResult, FitState, Sought, chooses};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
@@ -65,18 +65,18 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             // Both are built once for what was found.
             let drawn = once(ui, "fit", Arc::as_ptr(found) as usize, || drawn(found));
             match &**found {
-                Found::Fit(measured, fitted) => result(ui, measured, fitted, &drawn, height, cx),
-                Found::Optimum(found) => optimum(ui, found, &drawn, height, cx),
+                FitResult::Fit(measured, fitted) => result(ui, measured, fitted, &drawn, height, cx),
+                FitResult::Optimum(found) => optimum(ui, found, &drawn, height, cx),
             }
         }
         ui.add_space(8.0);
     });
 }
 
-fn question(found: &Found) -> String {
+fn question(found: &FitResult) -> String {
     match found {
-        Found::Fit(..) => "agreement with measurements".to_owned(),
-        Found::Optimum(found) => {
+        FitResult::Fit(..) => "agreement with measurements".to_owned(),
+        FitResult::Optimum(found) => {
             let kind = if found.goal.greatest { "greatest" } else { "least" };
             let limits: Vec<String> = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect();
             let limits = if limits.is_empty() { "no limits".to_owned() } else { limits.join(", ") };
@@ -223,16 +223,16 @@ struct Drawn {
     words: Vec<String>,
 }
 
-fn drawn(found: &Found) -> Drawn {
+fn drawn(found: &FitResult) -> Drawn {
     // It was solved as it is.
     let Ok(problem) = Problem::try_from(found.scene()) else { return Drawn::default() };
     match found {
-        Found::Fit(measured, fitted) => {
+        FitResult::Fit(measured, fitted) => {
             let figures = figures(&problem, fitted, measured).into_iter();
             let panels = figures.filter(|(name, _)| ["fit", "residuals"].contains(name));
             Drawn { panels: panels.flat_map(|(_, figure)| figure.panels).collect(), words: Vec::new() }
         }
-        Found::Optimum(found) => {
+        FitResult::Optimum(found) => {
             let limited = found.goal.limits.iter().map(|(_, quantity)| *quantity);
             let words = std::iter::once(found.goal.quantity).chain(limited).map(|quantity| quantity.label(&problem));
             Drawn { panels: optimum_figure(&problem, found).panels, words: words.collect() }

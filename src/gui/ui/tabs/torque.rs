@@ -13,7 +13,7 @@ use crate::gui::ui::parts::{self, scrolled};
 use crate::gui::ui::theme::ACCENT;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
-use crate::solution::{Performance, Point};
+use crate::solution::{OperatingPoint, Performance};
 use eframe::egui::{self, RichText, TextStyle, Vec2b};
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
@@ -90,7 +90,7 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
 
 /// Torque, power and efficiency over the speed, and over the first what was `measured`.
 fn panels(merit: &TorqueCurves, measured: Vec<[f64; 2]>) -> [Panel; 3] {
-    type Value = fn(&Point) -> f64;
+    type Value = fn(&OperatingPoint) -> f64;
     let (torque, output): (Value, Value) = (|point| point.torque.value, |point| point.output.value);
     let friction: Value = |point| point.friction.value;
     let efficiency: Value = |point| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);

@@ -2,7 +2,7 @@
 //! of those that no other beats, the present setting ringed, and the cheapest that serves a target.
 
 use crate::analysis::attempt::RunStatus;
-use crate::analysis::tradeoff::{Candidate, Point, Target, Tradeoff};
+use crate::analysis::tradeoff::{Candidate, Target, Tradeoff, TradeoffPoint};
 use crate::digits::{self, capitalised, short};
 use crate::export::figure::{Dash, Line, Mark, Style};
 use crate::export::tradeoff::{panel, words};
@@ -96,7 +96,7 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     }
     let failed = |failure: &String| format!("The measurement failed: {failure}");
     cx.alarm(ui, measured.work.failure.as_ref().map(failed));
-    let usable = |point: &&Point| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
+    let usable = |point: &&TradeoffPoint| matches!(point.run.status, RunStatus::Waiting | RunStatus::Converged);
     let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(point)).count();
     if unconverged > 0 {
         cx.note(ui, format!("{unconverged} of the settings did not converge: they are in the table only"));
@@ -115,7 +115,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     for mark in [Mark::horizontal(100.0 * cx.state.view.accuracy, ""), Mark::vertical(cx.state.view.budget, "")] {
         panel.layers.push(Mark { style: Style::quiet().dash(Dash::Dashed), ..mark }.into());
     }
-    for Point { quartiles: (low, high), error, run, .. } in &tradeoff.points {
+    for TradeoffPoint { quartiles: (low, high), error, run, .. } in &tradeoff.points {
         let bar = [*low, *high].map(|time| [time, 100.0 * error.unwrap_or(f64::NAN)]);
         let (_, colour) = words(run.candidate.family);
         panel.layers.push(Line::new("", bar, Style { width: 0.5, ..Style::solid(colour) }).into());
@@ -182,7 +182,7 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
 
 /// Every setting in words, the fastest first.
 fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
-    let mut order: Vec<&Point> = tradeoff.points.iter().collect();
+    let mut order: Vec<&TradeoffPoint> = tradeoff.points.iter().collect();
     order.sort_by(|a, b| a.median.total_cmp(&b.median));
     parts::table(ui, "settings", 4, 14.0, |ui| {
         let heads = [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error"), ("", "")];

@@ -1,14 +1,15 @@
 //! A start-up's numbers against the number of the cycle, with the periodic solve's that they converge to.
 
+use super::inset::{Inset, chosen};
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::estimate::Estimate;
-use crate::export::startup::Row;
+use crate::export::startup::CycleRow;
 use crate::gui::command::StartupCommand;
 use crate::gui::derived::scales::span;
 use crate::gui::state::startup::StartupState;
-use crate::gui::ui::chart::{Inset, between, chosen, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
+use crate::gui::ui::plot::{between, dots, level, line, upright};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Ui, pos2, vec2};
@@ -141,7 +142,7 @@ fn plot(
 }
 
 /// A cycle's numbers in words.
-pub fn words(row: &Row) -> String {
+pub fn words(row: &CycleRow) -> String {
     let Estimate { value, error } = row.numbers.main();
     let (name, thickness) = match row.numbers.get(Quantity::Alpha) {
         Some(_) => ("α", format!(", least film thickness {} µm", row.numbers.known(Quantity::MinGap) * 1e-3)),

@@ -2,6 +2,7 @@
 //! pressure against gap with Boyle's hyperbola.
 
 use super::field::{self, Stamp, y_labels};
+use super::inset::Inset;
 use super::plate::wall_and_plate;
 use super::pointer::named;
 use crate::fidelity::Fidelity;
@@ -9,9 +10,9 @@ use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{load_unit, number, time, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
-use crate::gui::ui::chart::{Inset, between, dots, level, line};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, colour_between, room};
+use crate::gui::ui::plot::{between, dots, level, line};
 use crate::hold::Reading;
 use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};

@@ -1,8 +1,9 @@
 //! Contact pressure and film pressure along the wave, gauge, as in the paper's Fig. 4: line loads over the contact width.
 
 use super::frame::Frame;
-use crate::gui::ui::chart::{Inset, between, level, line, upright};
+use super::inset::Inset;
 use crate::gui::ui::paint::PlotStyle;
+use crate::gui::ui::plot::{between, level, line, upright};
 use crate::problem::Motor;
 use crate::recording::Recording;
 use eframe::egui::{Color32, Rect, Ui};

@@ -2,6 +2,7 @@
 //! beside each other with one scale of colours. Motors with motors, plates with plates: they have no axis in common.
 
 use super::field::{self, Stamp};
+use super::inset::Inset;
 use super::loads::pressure;
 use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
@@ -10,9 +11,9 @@ use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::scales::{Curve, RunCurves, span};
 use crate::gui::state::pins::Pin;
-use crate::gui::ui::chart::{Inset, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
+use crate::gui::ui::plot::{level, line, upright};
 use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;

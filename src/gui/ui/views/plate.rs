@@ -2,14 +2,15 @@
 
 use super::field;
 use super::frame::Frame;
+use super::inset::Inset;
 use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::Curve;
-use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle};
+use crate::gui::ui::plot::{dots, level, line, upright};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;

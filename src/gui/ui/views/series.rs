@@ -1,10 +1,11 @@
 //! Small charts over the cycle, with a line at the present phase, which is dragged.
 
+use super::inset::{Inset, chosen};
 use crate::gui::command::Command;
 use crate::gui::derived::scales::Curve;
-use crate::gui::ui::chart::{Inset, chosen, dots, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
+use crate::gui::ui::plot::{dots, line, upright};
 use eframe::egui::{Color32, Rect, Ui};
 use egui_plot::LineStyle;
 

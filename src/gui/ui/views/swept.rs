@@ -3,7 +3,7 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Row, typical_error};
+use crate::analysis::sweep::{Axis, SweepRow, typical_error};
 use crate::digits::{capitalised, short, significant};
 use crate::estimate::Estimate;
 use crate::export::figure::{
@@ -16,11 +16,12 @@ use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::Swept;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Chart, between, legend, line, title};
+use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
+use crate::gui::ui::plot::{between, line};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::scene::Scale;
 use crate::solution::StoppedBy;
@@ -59,11 +60,11 @@ pub struct Plotted<'a> {
 
 impl Plotted<'_> {
     /// The value at a row that converged.
-    fn sound(&self, row: &Row) -> Option<Estimate> {
+    fn sound(&self, row: &SweepRow) -> Option<Estimate> {
         row.numbers.estimate(self.quantity).filter(|_| row.status == RunStatus::Converged)
     }
 
-    fn words(&self, row: &Row) -> String {
+    fn words(&self, row: &SweepRow) -> String {
         let mut lines: Vec<String> = Vec::new();
         for (axis, value) in self.swept.sweep.axes().iter().zip(&row.values) {
             lines.push(format!("{} {} {}", label(axis.parameter), short(*value, DIGITS), axis.parameter.unit));
@@ -110,7 +111,7 @@ fn about(axis: &Axis) -> String {
 }
 
 /// A chart over one parameter, filling `ui`. Returns its response, and the row under the pointer.
-fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Option<&'a Row>) {
+fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Option<&'a SweepRow>) {
     let (swept, quantity) = (plotted.swept, plotted.quantity);
     let drawn = once(ui, "curve", (swept.number, swept.rows.len(), quantity), || {
         curve_panel(&swept.sweep, &swept.rows, axis, quantity)
@@ -141,11 +142,11 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
     let shown = chart(ui, &panel, axis, quantity.words(), |_| ());
     let transform = shown.transform;
     let pointed = shown.response.hover_pos().and_then(|pointer| {
-        let shown_at = |row: &Row| {
+        let shown_at = |row: &SweepRow| {
             let value = row.numbers.get(quantity).unwrap_or(bottom);
             transform.position_from_point(&PlotPoint::new(axis.scale.place(row.values[0]), value))
         };
-        let far = |row: &&Row| (shown_at(row).x - pointer.x).abs();
+        let far = |row: &&SweepRow| (shown_at(row).x - pointer.x).abs();
         let row = swept.rows.iter().min_by(|a, b| far(a).total_cmp(&far(b))).filter(|row| far(row) < NEAR)?;
         let painter = ui.painter_at(transform.frame().expand(RING));
         painter.circle_stroke(shown_at(row), RING, Stroke::new(2.0, on_screen(ACCENT, ui.visuals())));
@@ -242,7 +243,7 @@ impl Drawn {
 }
 
 /// Two parameters, as a map over all of `ui`: its response, and the row that is pointed at.
-fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response, Option<&'a Row>) {
+fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response, Option<&'a SweepRow>) {
     let (swept, quantity) = (plotted.swept, plotted.quantity);
     let key = (swept.number, swept.rows.len(), quantity);
     let drawn = &*once(ui, "map", key, || Drawn::new(plotted, [x, y]));
@@ -281,7 +282,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
         painter.circle_stroke(at, RING, Stroke::new(3.5, Color32::BLACK));
         painter.circle_stroke(at, RING, Stroke::new(1.8, Color32::WHITE));
     }
-    let area_of = |row: &Row| {
+    let area_of = |row: &SweepRow| {
         let cell = |edges: &[f64], at: f64| edges.partition_point(|edge| *edge < at).clamp(1, edges.len() - 1) - 1;
         let [i, j] = [(0, x), (1, y)].map(|(k, axis)| cell(&drawn.edges[k], axis.scale.place(row.values[k])));
         let [low, high] = drawn.cell(i, j).map(at);

@@ -1,12 +1,13 @@
 //! Velocity of the gas across the film, from wall to wall, at one place: `film::velocity` drawn.
 
 use super::frame::Frame;
+use super::inset::Inset;
 use crate::film::velocity::Velocity;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{Inset, between, dots, level, line, upright};
 use crate::gui::ui::paint::PlotStyle;
+use crate::gui::ui::plot::{between, dots, level, line, upright};
 use crate::problem::Gas;
 use crate::recording::sample;
 use eframe::egui::{Rect, Ui};

@@ -1,0 +1,85 @@
+//! Results of random scenes, and how they are distributed.
+
+use crate::analysis::tradeoff::quantile;
+use crate::estimate::Estimate;
+use serde::{Deserialize, Serialize};
+
+/// One draw: the values of the uncertain keys in their order, and the results.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Draw {
+    /// Values of the keys, in their units.
+    pub values: Vec<f64>,
+    /// Results in the order of the outputs, with their numerical errors; not finite where the draw has none.
+    pub results: Vec<Estimate>,
+}
+
+/// Results of random scenes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MonteCarlo {
+    /// Where the random numbers began.
+    pub seed: u64,
+    /// Those that were solved, in the order in which they were drawn.
+    pub draws: Vec<Draw>,
+    /// Why others were not.
+    pub failures: Vec<String>,
+    /// How many draws were outside of the ranges of their keys, or broke a rule between keys, and were drawn again: what they would have given is
+    /// missing.
+    pub redrawn: usize,
+}
+
+/// How the draws of one result are distributed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// How many there are.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+    /// Quantiles of 5, 50 and 95 %.
+    pub quantiles: [f64; 3],
+    /// Bins of equal width from the least draw to the greatest: where the first begins, how wide they are, how many draws each has.
+    pub bins: (f64, f64, Vec<usize>),
+}
+
+impl Spread {
+    /// Whether the mean is not `value`, by more than chance and than a tenth of the spread.
+    pub fn is_off(&self, value: f64) -> bool {
+        (self.mean - value).abs() > (3.0 * self.mean_error()).max(0.1 * self.deviation)
+    }
+
+    /// The standard deviation that the mean has because there are so many draws and no more.
+    pub fn mean_error(&self) -> f64 {
+        self.deviation / (self.count as f64).sqrt()
+    }
+}
+
+impl MonteCarlo {
+    /// Of the outputs at a place; `None` with fewer than two draws.
+    pub fn spread(&self, output: usize) -> Option<Spread> {
+        let mut found: Vec<f64> = self
+            .draws
+            .iter()
+            .filter_map(|draw| draw.results.get(output))
+            .map(|found| found.value)
+            .filter(|v| v.is_finite())
+            .collect();
+        found.sort_by(f64::total_cmp);
+        let (count, last) = (found.len(), found.len().checked_sub(1)?);
+        if last == 0 {
+            return None;
+        }
+        let mean = found.iter().sum::<f64>() / count as f64;
+        let deviation = (found.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / last as f64).sqrt();
+        // Twice the cube root: Rice's rule.
+        let number = if found[last] > found[0] { (2.0 * (count as f64).cbrt()).ceil() as usize } else { 1 };
+        let width = (found[last] - found[0]) / number as f64;
+        let mut bins = vec![0; number];
+        for value in &found {
+            let bin = if width > 0.0 { ((value - found[0]) / width) as usize } else { 0 };
+            bins[bin.min(number - 1)] += 1;
+        }
+        let quantiles = [0.05, 0.5, 0.95].map(|share| quantile(&found, share));
+        Some(Spread { count, mean, deviation, quantiles, bins: (found[0], width, bins) })
+    }
+}

@@ -1,0 +1,113 @@
+//! The parts of every chart that egui_plot draws: a plot that is dragged and zoomed, its curves, dots and areas, and the marks of its axes.
+
+use super::paint::widened;
+use crate::gui::derived::scales::span;
+use crate::ticks::Steps;
+use eframe::egui::{self, Color32, Id};
+use egui_plot::{
+    AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse, PlotUi,
+    Points, VLine,
+};
+
+/// A curve is drawn as exactly as this share of its size.
+const STRAIGHT: f64 = 5e-4;
+
+pub(super) fn id(name: &str) -> Id {
+    Id::unique(("chart", name))
+}
+
+/// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
+pub(super) fn framed<'a, R>(
+    ui: &mut egui::Ui,
+    (name, plot): (&str, Plot<'a>),
+    [x, y]: [[f64; 2]; 2],
+    add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+) -> PlotResponse<R> {
+    // A new chart starts with automatic ranges, as after a double click.
+    let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
+    let ([left, right], [bottom, top]) = (widened(x), widened(y));
+    plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
+        if fresh {
+            plot.set_auto_bounds(true);
+        }
+        add(plot)
+    })
+}
+
+/// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn
+/// with the right button, and back with a double click. The wheel alone scrolls the tab that it is in.
+pub(super) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+    // The spacers leave room for every number: none is to fade because others are near.
+    let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
+    Plot::new(name.to_owned())
+        .id(id(name))
+        .height(height)
+        .allow_scroll(false)
+        .allow_axis_zoom_drag(false)
+        .show_crosshair(false)
+        .custom_x_axes(x)
+        .custom_y_axes(y)
+        .show_x(false)
+        .show_y(false)
+        .label_formatter(|_| None)
+        .set_margin_fraction(egui::Vec2::ZERO)
+}
+
+/// A line that does not answer to the pointer. As one path a solid one would be drawn thinner where it is steep, and with spikes where it
+/// turns: it is a chain of segments.
+pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
+    let style = if style == LineStyle::Solid { LineStyle::Dashed { length: 1e6 } } else { style };
+    let size = [0, 1].map(|k| span(points.iter().map(|point| point[k]))).map(|[low, high]| high - low);
+    let mut kept = Vec::new();
+    thin(points, size, &mut kept);
+    kept.extend(points.last());
+    Line::new("", PlotPoints::from(kept)).color(colour).width(width).style(style).allow_hover(false)
+}
+
+/// Keeps of a curve of this size the points that straight lines between others would miss, but for the last one (Ramer 1972).
+fn thin(points: &[[f64; 2]], size: [f64; 2], kept: &mut Vec<[f64; 2]>) {
+    let [first, .., last] = points else { return };
+    let from_first = |point: &[f64; 2]| [0, 1].map(|k| (point[k] - first[k]) / size[k].max(f64::MIN_POSITIVE));
+    let [dx, dy] = from_first(last);
+    let off = |point: &[f64; 2]| {
+        let [x, y] = from_first(point);
+        let part = ((x * dx + y * dy) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (x - part * dx).hypot(y - part * dy)
+    };
+    let furthest = (1..points.len() - 1).max_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])));
+    match furthest.filter(|i| off(&points[*i]) > STRAIGHT) {
+        Some(i) => [&points[..=i], &points[i..]].into_iter().for_each(|part| thin(part, size, kept)),
+        None => kept.push(*first),
+    }
+}
+
+/// A line across a chart along x, that does not answer to the pointer.
+pub(super) fn level(y: f64, colour: Color32, width: f32) -> HLine {
+    HLine::new("", y).color(colour).width(width).allow_hover(false)
+}
+
+/// A line across a chart along y, that does not answer to the pointer.
+pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
+    VLine::new("", x).color(colour).width(width).allow_hover(false)
+}
+
+/// Dots, which say what they are when the pointer is near, if they have a name.
+pub(super) fn dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
+    Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
+}
+
+/// The area between two curves, given as (x, one y, other y).
+pub(super) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
+    let [x, one, other] = [0, 1, 2].map(|k| columns.iter().map(|column| column[k]).collect::<Vec<_>>());
+    FilledArea::new("", &x, &one, &other).fill_color(colour).allow_hover(false)
+}
+
+/// As many decimals as the steps between ticks need, with a true minus sign.
+pub(super) fn tick(mark: GridMark) -> String {
+    Steps::of([mark.value; 2], mark.step_size).format(mark.value)
+}
+
+/// Marks at these numbers.
+pub(super) fn marks(ticks: Steps) -> Vec<GridMark> {
+    ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
+}
