@@ -40,7 +40,9 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
         let handed = write(&mut content).and_then(|()| hand_out(path, vec![(path.to_owned(), content)]));
         return handed.map_err(failed);
     }
-    let (folder, name) = place(path).map_err(failed)?;
+    // What a link points to is replaced, not the link.
+    let linked = path.is_symlink().then(|| fs::canonicalize(path).ok()).flatten();
+    let (folder, name) = place(linked.as_deref().unwrap_or(path)).map_err(failed)?;
     let mut staged = Staged::within(folder, false).map_err(failed)?;
     staged.add(name, write)?;
     staged.commit().map(|_| ())
@@ -69,14 +71,16 @@ pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
     Staged::new(folder)?.add("check", |_| Ok(()))
 }
 
-/// As [`check_writable`], of the folder for all files of results: none of its folders may be in the way, with a name such as they have.
+/// As [`check_writable`], of the folder for all files of results: nothing may be in the way that cannot be replaced, with a name such as they have.
 pub fn check_for_results(folder: &Path) -> Result<(), WriteError> {
     const KINDS: [&str; 11] = ["csv", "json", "svg", "png", "pdf", "npz", "toml", "html", "gif", "vtk", "series"];
-    let in_the_way =
-        |path: &PathBuf| path.extension().is_some_and(|of| KINDS.iter().any(|kind| of == *kind)) && path.is_dir();
+    let in_the_way = |path: &PathBuf| {
+        path.extension().is_some_and(|of| KINDS.iter().any(|kind| of == *kind)) && regular(path).is_err()
+    };
     let mut entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
     if let Some(path) = entries.find(in_the_way) {
-        let why = "it is a folder, and a file of results may have this name: move it away, or give another folder";
+        let why =
+            "it is no regular file, and a file of results may have this name: move it away, or give another folder";
         return Err(WriteError { path, source: io::Error::new(ErrorKind::IsADirectory, why) });
     }
     check_writable(folder)
@@ -100,7 +104,7 @@ impl Staged {
     /// Begins to stage files for a folder. Creates it, and the folders above it, if they do not exist.
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: folder.to_owned(), source };
-        if HAS_FILES && folder.is_file() {
+        if HAS_FILES && folder.exists() && !folder.is_dir() {
             return Err(failed(io::Error::new(ErrorKind::NotADirectory, "it is a file, not a folder")));
         }
         let made = !folder.exists();
@@ -222,14 +226,19 @@ const OLD: &str = ".old";
 /// Checks whether a file can get this name: there is none of this name yet, or one that can be replaced. A read-only file is not replaced, on
 /// any system.
 fn replaceable(path: &Path) -> io::Result<()> {
-    let Ok(older) = fs::metadata(path) else { return Ok(()) };
-    if older.is_dir() {
-        return Err(ErrorKind::IsADirectory.into());
-    }
-    if older.permissions().readonly() {
+    if regular(path)?.is_some_and(|older| older.permissions().readonly()) {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
     }
-    not_held(path)
+    if path.exists() { not_held(path) } else { Ok(()) }
+}
+
+/// Metadata of a file; `None` if there is nothing of this name. Fails for a folder, a device or a pipe, which would wait for its other end.
+fn regular(path: &Path) -> io::Result<Option<fs::Metadata>> {
+    match fs::metadata(path).ok() {
+        Some(found) if found.is_dir() => Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder")),
+        Some(found) if !found.is_file() => Err(io::Error::new(ErrorKind::InvalidInput, "it is a device or a pipe")),
+        found => Ok(found),
+    }
 }
 
 /// Checks that no other program holds the file open in such a way that it cannot be replaced, as spreadsheets do on Windows.
@@ -293,6 +302,7 @@ impl Lock {
 
     fn take(path: &Path) -> io::Result<Option<Self>> {
         loop {
+            regular(path)?;
             let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
             let held = match file.try_lock() {
                 Ok(()) => true,
@@ -379,9 +389,9 @@ mod tests {
         let staged = stage(&["a", "b", "c"]);
         fs::create_dir(path("c")).unwrap();
         let error = Staged::new(folder.path()).unwrap().add("c", |_| Ok(())).unwrap_err();
-        assert!(error.to_string().contains("c: cannot be written: is a directory"), "{error}");
+        assert!(error.to_string().contains("c: cannot be written: it is a folder"), "{error}");
         let error = staged.commit().unwrap_err();
-        assert!(error.to_string().contains("c: cannot be written: is a directory"), "{error}");
+        assert!(error.to_string().contains("c: cannot be written: it is a folder"), "{error}");
         let staged = stage(&["a", "b", "e"]);
         fs::write(path("e"), "mine").unwrap();
         let read_only = |is: bool| {
@@ -425,7 +435,7 @@ mod tests {
         check_writable(folder.path()).unwrap();
         fs::create_dir(folder.path().join("series.csv")).unwrap();
         let error = check_for_results(folder.path()).unwrap_err().to_string();
-        assert!(error.contains("series.csv: cannot be written: it is a folder"), "{error}");
+        assert!(error.contains("series.csv: cannot be written: it is no regular file"), "{error}");
         // One file beside it is another matter.
         check_file(&folder.path().join("other.csv")).unwrap();
         fs::remove_dir(folder.path().join("series.csv")).unwrap();
@@ -458,5 +468,22 @@ mod tests {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
         write_file(&path, |w| w.write_all(b"b")).unwrap();
         assert_eq!((mode(), fs::read_to_string(&path).unwrap().as_str()), (0o640, "b"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link_and_a_pipe_stays_a_pipe() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link, pipe, lock] = ["a", "b", "c.csv", ".squeezefilm-x.lock"].map(|name| folder.path().join(name));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_file(&link, |w| w.write_all(b"new")).unwrap();
+        assert!(link.is_symlink() && fs::read_to_string(&file).unwrap() == "new");
+        // A left lock that is a pipe would wait for ever, as this would if it opened one.
+        assert!(std::process::Command::new("mkfifo").args([&pipe, &lock]).status().unwrap().success());
+        assert!(Lock::of(folder.path(), "x").is_err());
+        let error = write_file(&pipe, |_| Ok(())).unwrap_err().to_string();
+        assert!(error.ends_with("c.csv: cannot be written: it is a device or a pipe"), "{error}");
+        assert!(check_for_results(folder.path()).is_err());
     }
 }

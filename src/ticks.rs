@@ -92,6 +92,8 @@ impl Decimal {
 /// Round numbers over a `range` of log₁₀, ascending, about `most` of them with labels: powers of ten, and 2 and 5 times each where there is room.
 /// `None` where fewer than two would have one: the axis is short enough for equal steps.
 pub fn decades(range: [f64; 2], most: usize) -> Option<Vec<Decimal>> {
+    // Beyond are no numbers in double precision.
+    let range = range.map(|end| end.clamp(-330.0, 330.0));
     let count = range[1] - range[0];
     if !count.is_finite() {
         return None;
@@ -162,7 +164,8 @@ mod tests {
         assert_eq!(labelled([-4.0, 5.0], 3), Some(vec![1e-3, 1.0, 1e3]));
         assert_eq!(labelled([0.0, 1.0], 9), Some(vec![1.0, 2.0, 5.0, 10.0]));
         assert_eq!(decades([0.0, 2.0], 4).map(|numbers| numbers.len()), Some(19));
-        for range in [[0.0, 0.0], [0.02, 0.3], [f64::NEG_INFINITY, f64::INFINITY]] {
+        assert!(decades([-1e12, f64::INFINITY], 4).is_some_and(|numbers| numbers.len() < 10));
+        for range in [[0.0, 0.0], [0.02, 0.3], [f64::NAN, 1.0]] {
             assert_eq!(decades(range, 4), None);
         }
     }

@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Some(if several { path.join(name) } else { path.to_owned() })
     };
     let paths: Vec<Option<PathBuf>> = arguments.presets.iter().map(&mut path).collect();
-    paths.iter().flatten().filter(|path| several && path.is_dir()).try_for_each(|path| check_for_results(path))?;
+    paths.iter().flatten().filter(|path| several && path.exists()).try_for_each(|path| check_for_results(path))?;
     let (mut exits, mut objects) = (Vec::new(), Vec::new());
     for (((preset, scene), problem), path) in arguments.presets.iter().zip(&scenes).zip(&problems).zip(&paths) {
         let folder = folder.as_ref().zip(path.as_deref()).map(|(folder, path)| Folder { path, ..folder.clone() });

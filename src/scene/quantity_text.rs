@@ -7,7 +7,7 @@ use super::value::show_text;
 type Kind = &'static [(&'static str, f64)];
 
 const KINDS: &[Kind] = &[
-    &[("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)],
+    &[("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("km", 1e3)],
     &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
     &[
         ("Pa", 1.0),
@@ -25,11 +25,13 @@ const KINDS: &[Kind] = &[
     &[("mm2/N", 1e-6), ("m2/N", 1.0)],
     &[("mg", 1e-3), ("g", 1.0), ("kg", 1e3)],
     &[("rpm", 1.0)],
-    &[("°C", 1.0)],
+    &[("°C", 1.0), ("C", 1.0)],
+    &[("ms", 1e-3), ("s", 1.0)],
+    &[("%", 1.0)],
     &[("mm/s", 1e-3), ("m/s", 1.0)],
     // Of answers in lessons.
-    &[("mN*m", 1e-3), ("mNm", 1e-3), ("N*m", 1.0), ("Nm", 1.0), ("kN*m", 1e3), ("kNm", 1e3)],
-    &[("mN*s/m", 1e-3), ("mNs/m", 1e-3), ("N*s/m", 1.0), ("Ns/m", 1.0)],
+    &[("mNm", 1e-3), ("Nm", 1.0), ("kNm", 1e3)],
+    &[("mNs/m", 1e-3), ("Ns/m", 1.0)],
     &[("N/m", 1.0), ("kN/m", 1e3), ("N/mm", 1e3), ("N/um", 1e6)],
     &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
 ];
@@ -60,10 +62,11 @@ pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
 /// Message for a text that is not a number for `parameter`.
 pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
     let units: Vec<&str> =
-        kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
+        kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| !["atm", "C"].contains(name)).collect();
     let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
-    let (key, found, accepts) = (parameter.key, show_text(text.trim()), parameter.accepts());
-    let sum = text.contains('+') && text.contains(char::is_alphabetic);
+    let (key, text, accepts) = (parameter.key, text.trim(), parameter.accepts());
+    let found = if text.is_empty() { "\"\"".to_owned() } else { show_text(text).to_string() };
+    let sum = text.chars().skip(1).any(|c| "+-−".contains(c)) && text.contains(char::is_alphabetic);
     let sum = if sum && !units.is_empty() {
         format!(", where all terms of a sum have a unit if one has another than {}", parameter.unit)
     } else {
@@ -77,7 +80,7 @@ fn kind_of(unit: &str) -> Kind {
     KINDS.iter().find(|kind| kind.iter().any(|(name, _)| *name == unit)).copied().unwrap_or(&[])
 }
 
-/// The text without spaces, and with the same character for each sign that can be written in several ways.
+/// The text without spaces, and with the same character for each sign that can be written in several ways. A product of units has no sign.
 fn spelled(text: &str) -> String {
     let sign = |c: char| match c {
         'µ' | 'μ' => 'u',
@@ -88,7 +91,10 @@ fn spelled(text: &str) -> String {
         ',' => '.',
         other => other,
     };
-    text.chars().filter(|c| !c.is_whitespace()).map(sign).collect()
+    let signs: Vec<char> = text.chars().filter(|c| !c.is_whitespace()).map(sign).collect();
+    let letter = |at: usize| signs.get(at).is_some_and(|c| c.is_alphabetic());
+    let of_units = |at: usize| signs[at] == '*' && at > 0 && letter(at - 1) && letter(at + 1);
+    (0..signs.len()).filter(|at| !of_units(*at)).map(|at| signs[at]).collect()
 }
 
 /// Reads `text` as a number in `unit`, as [`read`] does; `None` if it is not one.
@@ -107,6 +113,12 @@ pub fn number(unit: &str, text: &str) -> Option<f64> {
     let text = spelled(text);
     if let Ok(plain) = text.parse::<f64>() {
         return plain.is_finite().then_some(plain);
+    }
+    // The two that are not a factor times the unit of their key.
+    match (unit, text.strip_suffix('%'), text.strip_suffix('K')) {
+        ("", Some(per_cent), _) => return number("", per_cent).map(|found| found / 100.0),
+        ("°C", _, Some(kelvin)) => return number("", &format!("{kelvin}-273.15")),
+        _ => {}
     }
     let (units, unit) = (kind_of(unit), spelled(unit));
     let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);
@@ -262,6 +274,11 @@ mod tests {
             ("film.ambient_pressure_kpa", "1013.25 hPa", 101.325),
             ("motor.load_per_wave_n", "2450mN", 2.45),
             ("film.viscosity_upa_s", "0.0181 mPa s", 18.1),
+            ("film.viscosity_upa_s", "18.1 µPa·s", 18.1),
+            ("gas.altitude_m", "2 km", 2000.0),
+            ("gas.temperature_c", "20 C", 20.0),
+            ("gas.temperature_c", "293,15 K", 20.0),
+            ("motor.dry_friction", "30 %", 0.3),
             ("rotor.point_compliance_um_per_n", "640 nm/N", 0.64),
             ("rotor.local_compliance_m2_per_n", "1.05e-10 m²/N", 1.05e-10),
             ("motor.waves", "3 + 4", 7.0),
@@ -305,6 +322,8 @@ mod tests {
             assert!(message.contains("from 5 to 10000 nm, in nm, µm, mm, cm, m"), "{message}");
         }
         assert!(of("film.min_spacing_nm", "200 + 0.05 um").unwrap_err().ends_with("if one has another than nm"));
+        assert!(of("film.min_spacing_nm", "0.3um - 20").unwrap_err().ends_with("if one has another than nm"));
+        assert!(of("film.min_spacing_nm", " ").unwrap_err().starts_with("film.min_spacing_nm = \"\" is not a number"));
         assert!(of("motor.waves", "7 mm").unwrap_err().contains("a whole number from 1 to 100"));
     }
 

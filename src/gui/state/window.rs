@@ -86,6 +86,8 @@ pub struct State {
     pub making: Background<(), Scene>,
     /// The modal dialog, if one is open.
     pub modal: Option<Modal>,
+    /// The dialog that an error is shown over: it is open again once the error is closed.
+    pub covered: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
     pub shortcuts: bool,
     /// Files that were opened or saved, the newest first.
@@ -106,7 +108,10 @@ impl State {
 
     /// Shows an error message.
     pub fn fail(&mut self, message: impl ToString) {
-        self.modal = Some(Modal::Error(message.to_string()));
+        match self.modal.replace(Modal::Error(message.to_string())) {
+            None | Some(Modal::Error(_)) => {}
+            dialog => self.covered = dialog,
+        }
     }
 
     /// Puts `path` first among the files remembered.
@@ -184,7 +189,10 @@ impl State {
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
         let fit = self.fit.work.running().then(|| "A fit".to_owned());
-        export.into_iter().chain(sweep).chain(building).chain(fit).collect()
+        let measured = self.tradeoff.as_ref().is_some_and(|measured| measured.work.running());
+        let tradeoff = measured.then(|| "A measurement of the trade-off".to_owned());
+        let sensitivity = self.sensitivity.running().map(|_| "Derivatives or random scenes".to_owned());
+        export.into_iter().chain(sweep).chain(building).chain(fit).chain(tradeoff).chain(sensitivity).collect()
     }
 
     /// The file that is suggested for `purpose`; empty if it is one that is there already.

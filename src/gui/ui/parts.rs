@@ -2,9 +2,14 @@
 
 use super::context::DrawContext;
 use super::glossary;
-use eframe::egui::{Button, Color32, Grid, Id, Response, RichText, ScrollArea, Stroke, Ui};
+use crate::digits::as_given;
+use crate::scene::quantity_text;
+use crate::scene::show_text;
+use eframe::egui::{Button, Color32, DragValue, Grid, Id, Response, RichText, ScrollArea, Stroke, Tooltip, Ui};
+use std::cell::Cell;
 use std::fmt::Debug;
 use std::hash::Hash;
+use std::ops::RangeInclusive;
 
 /// A button, lit if it is what comes next.
 pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
@@ -21,6 +26,38 @@ pub(super) fn first_button(ui: &mut Ui, text: &str, (empty, good): (bool, bool),
         true => next_button(ui, text, true, cx),
         false => ui.add_enabled(good, Button::new(text)),
     }
+}
+
+/// A number that is dragged, or typed with any unit of its kind. Why text was refused is told beside it until something else is done.
+pub(super) fn number_box(
+    ui: &mut Ui,
+    drag: DragValue<'_>,
+    (range, unit): (RangeInclusive<f64>, &str),
+    cx: &DrawContext<'_>,
+) -> Response {
+    let refused = Cell::new(None);
+    let read = |text: &str| {
+        let found = quantity_text::number(unit, text).filter(|number| range.contains(number));
+        if found.is_none() {
+            let ends = [range.start(), range.end()].map(|end| as_given(*end));
+            let within =
+                if range.end().is_finite() { format!(" from {} to {}", ends[0], ends[1]) } else { String::new() };
+            refused.set(Some(format!("{}: expected a number{within} {unit}", show_text(text)).trim_end().to_owned()));
+        }
+        found
+    };
+    let response = ui.add(drag.range(range.clone()).update_while_editing(false).custom_parser(read));
+    let key = response.id.with("refused");
+    if response.changed() || response.has_focus() {
+        ui.data_mut(|data| data.remove::<String>(key));
+    }
+    if let Some(reason) = refused.take() {
+        ui.data_mut(|data| data.insert_temp::<String>(key, reason));
+    }
+    if let Some(reason) = ui.data(|data| data.get_temp::<String>(key)) {
+        Tooltip::for_widget(&response).show(|ui| cx.alarm(ui, [reason]));
+    }
+    response
 }
 
 /// A striped table called `name`, with so much room between its columns. Wider than the tab only in a small window with large text: then it

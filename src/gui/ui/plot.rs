@@ -9,6 +9,8 @@ use egui_plot::{
     Points, VLine,
 };
 
+/// A chart is not zoomed out to more than this many times its ranges.
+const FARTHEST: f64 = 100.0;
 /// A curve is drawn as exactly as this share of its size.
 const STRAIGHT: f64 = 5e-4;
 
@@ -28,6 +30,10 @@ pub(super) fn framed<'a, R>(
     let ([left, right], [bottom, top]) = (widened(x), widened(y));
     plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
         if fresh {
+            plot.set_auto_bounds(true);
+        }
+        let bounds = plot.plot_bounds();
+        if bounds.width() > FARTHEST * (right - left) || bounds.height() > FARTHEST * (top - bottom) {
             plot.set_auto_bounds(true);
         }
         add(plot)

@@ -53,7 +53,7 @@ impl Updater {
             Command::Save(then) => self.save(then),
             Command::QuitAnyway => self.proceed_with_document(Next::Quit),
             Command::DiscardThen(next) => self.discard_then(next),
-            Command::CloseModal => state.modal = None,
+            Command::CloseModal => state.modal = state.covered.take(),
             Command::TypePath(path) => {
                 if let Some(Modal::Path(prompt)) = &mut state.modal {
                     (prompt.path, prompt.fresh) = (path, false);

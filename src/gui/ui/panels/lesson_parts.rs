@@ -3,11 +3,11 @@
 use crate::gui::command::LessonCommand;
 use crate::gui::state::lessons::NUMBER;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::parts::number_box;
 use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
 use crate::lessons::work::{Stage, StepWork};
 use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
-use crate::scene::quantity_text;
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
 
 /// Title of the box of a question.
@@ -109,12 +109,13 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                         _ => 0.0,
                     };
                     let name = ui.label("Your number");
-                    let field =
-                        egui::DragValue::new(&mut number).speed(0.01).max_decimals(6).update_while_editing(false);
-                    let field = field.custom_parser(|text| quantity_text::number(unit, text));
+                    let field = egui::DragValue::new(&mut number).speed(0.01).max_decimals(6);
                     // Before it is drawn, so that all of it is selected.
                     cx.lead_to(ui, NUMBER, ui.next_auto_id());
-                    let field = ui.add_enabled(!work.committed, field);
+                    if work.committed {
+                        ui.disable();
+                    }
+                    let field = number_box(ui, field, (f64::NEG_INFINITY..=f64::INFINITY, unit), cx);
                     let predict = LessonCommand::Predict(Prediction::Number(number));
                     cx.on_change(&field.labelled_by(name.id), predict);
                     if !unit.is_empty() {

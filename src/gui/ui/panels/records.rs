@@ -4,6 +4,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::parts::number_box;
 use crate::scene::edges::with_edge;
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, RichText};
@@ -48,7 +49,7 @@ pub fn show(
                 for (place, (of, value)) in columns.iter().zip(record).enumerate() {
                     let named = ui.add(egui::Label::new(label(of)).selectable(false)).hint_beside(ui, of.about);
                     let spoken = format!("{}, {name}", field_name(of));
-                    if let Some((value, dragging)) = cell(ui, of, value, named.id, &spoken) {
+                    if let Some((value, dragging)) = cell(ui, of, value, (named.id, &spoken), cx) {
                         let mut edited = records.to_vec();
                         match value {
                             // What two parts share moves in both.
@@ -89,19 +90,16 @@ fn cell(
     ui: &mut egui::Ui,
     of: &'static Parameter,
     value: &Value,
-    name: egui::Id,
-    spoken: &str,
+    (name, spoken): (egui::Id, &str),
+    cx: &DrawContext<'_>,
 ) -> Option<(Value, bool)> {
     match (of.kind, value) {
         (ParameterKind::Number { range, .. }, value) => {
             let present = value.as_number()?;
             let mut number = present;
-            let drag = egui::DragValue::new(&mut number)
-                .range(range.min..=range.max)
-                .speed(SPEED)
-                .max_decimals(4)
-                .suffix(format!(" {}", of.unit));
-            let response = ui.add(drag).labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
+            let drag = egui::DragValue::new(&mut number).speed(SPEED).max_decimals(4).suffix(format!(" {}", of.unit));
+            let response = number_box(ui, drag, (range.min..=range.max, of.unit), cx);
+            let response = response.labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
             // What a drag makes of it is round.
             let number = if response.dragged() { (100.0 * number).round() / 100.0 } else { number };
             let done = response.drag_stopped();

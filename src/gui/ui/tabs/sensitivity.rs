@@ -12,7 +12,7 @@ use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary::{self, Explained};
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::{self, first_button, scrolled};
+use crate::gui::ui::parts::{self, first_button, number_box, scrolled};
 use crate::scene::Parameter;
 use eframe::egui::{self, RichText, TextStyle, Ui};
 
@@ -20,7 +20,7 @@ use eframe::egui::{self, RichText, TextStyle, Ui};
 const BAR: f32 = 1.35;
 const HISTOGRAM: f32 = 11.0;
 /// Random scenes that can be asked for.
-const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
+const DRAWS: std::ops::RangeInclusive<f64> = 10.0..=1e5;
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -148,10 +148,10 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
-        let mut draws = state.draws();
-        let field = egui::DragValue::new(&mut draws).range(DRAWS).speed(10.0);
-        let field = ui.add(field).labelled_by(words.id).hint("How many are solved");
-        cx.on_change(&field, SensitivityCommand::Draws(draws));
+        let mut draws = state.draws() as f64;
+        let field = egui::DragValue::new(&mut draws).speed(10.0).max_decimals(0);
+        let field = number_box(ui, field, (DRAWS, ""), cx).labelled_by(words.id).hint("How many are solved");
+        cx.on_change(&field, SensitivityCommand::Draws(draws as usize));
         let can = !uncertainties.is_empty() && state.running().is_none();
         let button = ui.add_enabled(can, egui::Button::new("Draw and solve"));
         let button = button.on_disabled_hover_text("Give a parameter an uncertainty in the table below first");

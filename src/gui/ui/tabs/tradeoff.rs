@@ -13,7 +13,7 @@ use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::{self, first_button, scrolled};
+use crate::gui::ui::parts::{self, first_button, number_box, scrolled};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::solve::Method;
 use eframe::egui::{self, RichText, TextStyle};
@@ -147,12 +147,9 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         };
         let label = glossary::term(ui, name, name);
         let speed = 0.01 * value;
-        let drag = egui::DragValue::new(&mut value)
-            .suffix(unit)
-            .range(range)
-            .speed(speed)
-            .custom_formatter(|value, _| short(value, 3));
-        let field = ui.add(drag).labelled_by(label.id).hint(about);
+        let drag =
+            egui::DragValue::new(&mut value).suffix(unit).speed(speed).custom_formatter(|value, _| short(value, 3));
+        let field = number_box(ui, drag, (range, unit.trim()), cx).labelled_by(label.id).hint(about);
         let changed = match target {
             Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
             Target::Budget(_) => Target::Budget(1e-3 * value),
