@@ -415,3 +415,71 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
     let damping = compared.solved.unwrap().damping;
     assert!((damping.value - compared.linear.damping).abs() < damping.error, "{damping:?} {:?}", compared.linear);
 }
+
+/// A plate, changed from `plate-mems`, solved at a draft and at reference.
+fn draft_and_reference(changes: &[(&str, &str)]) -> [(ExactComparison, Periodic); 2] {
+    let mut scene = presets::find("plate-mems").unwrap();
+    scene.set_all(changes.iter().copied()).unwrap();
+    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
+    [Fidelity::Draft, Fidelity::Reference].map(|fidelity| {
+        let found = solve(&plate, fidelity);
+        (ExactComparison::of(&plate, &found.result, &found.recording), found)
+    })
+}
+
+#[test]
+fn the_error_of_a_plate_that_nearly_touches_reaches_its_spring_and_its_mean_by_every_slip_law() {
+    // 1 − ε = 8e-4 and 7e-4.
+    let ring = [
+        ("plate.shape", "ring"),
+        ("plate.radius_mm", "20.18"),
+        ("plate.inner_radius_mm", "15.054"),
+        ("plate.mean_gap_um", "0.12965"),
+        ("plate.amplitude_um", "0.129541895"),
+        ("plate.frequency_khz", "6.5923"),
+        ("film.slip", "second-order"),
+        ("film.ambient_pressure_kpa", "10.363"),
+        ("film.mean_free_path_nm", "1328.5"),
+    ];
+    let disc = [
+        ("plate.shape", "disc"),
+        ("plate.radius_mm", "99.225"),
+        ("plate.mean_gap_um", "0.11428"),
+        ("plate.amplitude_um", "0.114198294"),
+        ("plate.frequency_khz", "0.0012261"),
+        ("film.gas", "argon"),
+        ("film.temperature_c", "16.723"),
+        ("film.ambient_pressure_kpa", "3.4693"),
+        ("film.slip", "second-order"),
+    ];
+    for changes in [&ring[..], &disc] {
+        let [(draft, coarse), (reference, fine)] = draft_and_reference(changes);
+        let numbers =
+            |exact: &ExactComparison, found: &Periodic| [exact.solved.unwrap().spring, found.result.film_load];
+        for (draft, reference) in numbers(&draft, &coarse).into_iter().zip(numbers(&reference, &fine)) {
+            assert!((draft.value - reference.value).abs() < draft.error + reference.error, "{draft} for {reference}");
+        }
+    }
+}
+
+#[test]
+fn an_error_by_the_nodes_across_is_that_of_every_instant() {
+    let [(_, draft), (_, reference)] = draft_and_reference(&[
+        ("plate.length_mm", "0.97514"),
+        ("plate.width_mm", "4.8549"),
+        ("plate.mean_gap_um", "1.3372"),
+        ("plate.amplitude_um", "1.76590632e-06"),
+        ("plate.frequency_khz", "22.337"),
+        ("film.ambient_pressure_kpa", "29.063"),
+        ("film.viscosity_upa_s", "37.029"),
+        ("film.mean_free_path_nm", "245.53"),
+        ("film.slip", "none"),
+    ]);
+    let (draft, reference) = (draft.recording, reference.recording);
+    let finer = reference.frames / draft.frames;
+    for frame in 0..draft.frames {
+        let (found, error) = (draft.film_load[frame], draft.film_load_error[frame]);
+        let (exact, known) = (reference.film_load[finer * frame], reference.film_load_error[finer * frame]);
+        assert!((found - exact).abs() < error + known, "frame {frame}: {found:e} ± {error:e} for {exact:e}");
+    }
+}

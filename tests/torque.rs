@@ -365,3 +365,47 @@ fn the_figure_has_the_torque_in_the_middle_of_its_error() {
         assert!((high - low - 2.0 * point.torque.error * scale).abs() < 1e-9 * greatest * scale && high > low);
     }
 }
+
+#[test]
+fn what_a_switch_leaves_out_is_in_the_error_of_all_that_follows() {
+    // A lightly loaded rotor floats if gas cannot leave at the sides, and touches if it can.
+    let light = [("motor.load_per_wave_n", "1"), ("stator.normal_amplitude_um", "3")];
+    for scene in [&light[..], &[]] {
+        let whole = solved("fundamental", scene, Fidelity::Fine);
+        for switch in [("numerics.flow", "along"), ("numerics.flow", "across"), ("numerics.time", "trapped")] {
+            let reduced = solved("fundamental", &[scene, &[switch]].concat(), Fidelity::Standard);
+            let numbers = |of: &Solved| {
+                let (result, with) = (of.result.clone(), of.merit.with_film.clone());
+                [
+                    ("alpha", Some(result.alpha)),
+                    ("least film thickness", Some(result.min_film_thickness)),
+                    ("teeth in contact", Some(result.teeth_in_contact)),
+                    ("stall torque", Some(with.stall_torque)),
+                    ("no-load speed", with.no_load_speed),
+                    ("greatest power", Some(with.max_power)),
+                    ("its speed", with.max_power_speed),
+                    ("greatest efficiency", with.max_efficiency),
+                    ("film power", Some(of.merit.film_power)),
+                ]
+            };
+            for ((name, whole), (_, reduced)) in numbers(&whole).into_iter().zip(numbers(&reduced)) {
+                let (Some(whole), Some(reduced)) = (whole, reduced) else { continue };
+                let apart = (whole.value - reduced.value).abs();
+                assert!(apart <= whole.error + reduced.error, "{switch:?}, {name}: {reduced} for {whole}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_error_of_a_rotor_reaches_what_contact_alone_gives() {
+    let ring = solved("ring-rotor", &[], Fidelity::Draft);
+    let error = ring.recording.rotor.relative_error;
+    assert!(error > 1e-3, "{error}");
+    let dry = &ring.merit.without_film;
+    let (speed, others) = (dry.no_load_speed, [Some(dry.max_power), dry.max_efficiency, Some(ring.merit.film_power)]);
+    for (found, share) in others.into_iter().map(|found| (found, 1.0)).chain([(speed, 0.5)]) {
+        let found = found.unwrap();
+        assert!(found.error > share * error * found.value, "{found}");
+    }
+}

@@ -24,6 +24,7 @@
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
 use crate::estimate::Estimate;
+use crate::plan::ROTOR_EFFECT;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, OperatingPoint, Performance};
@@ -40,6 +41,12 @@ const EARLIER: f64 = 0.5;
 /// Where every tooth touches at all times, what drives and what brakes nearly cancel: two differences of grids tell half of the error
 /// (calibrated: docs/validation.md).
 const CLOSED: f64 = 2.0;
+/// Relative change of a shape over that of the contact load which makes it, at most, and of a speed over that of a shape (measured between no film
+/// and all of it).
+const OF_SHAPE: f64 = 0.5;
+const OF_SPEED: f64 = 0.5;
+/// Factor on what grids tell of contact without film (calibrated: docs/validation.md).
+const DRY: f64 = 1.3;
 /// Over such a difference of speed ratios the error of a curve changes by its own size.
 const VARIES: f64 = 0.05;
 
@@ -297,6 +304,8 @@ pub struct Scaled<'a> {
     load: Estimate,
     /// Safety factor on the differences of shapes.
     doubt: f64,
+    /// Relative error of shapes that no grid shows: what is left out of the film, and that of the rotor's compliance.
+    unseen: f64,
 }
 
 /// A contact, and the film's share of the stator's power, in μ_d N V₀.
@@ -321,11 +330,14 @@ impl<'a> Scaled<'a> {
         };
         let closed = recording.teeth_in_contact.iter().all(|touching| *touching >= motor.teeth);
         let doubt = if closed { CLOSED } else { 1.0 };
-        Self { motor, drive: extrapolated(&recording.lines), others, load, doubt }
+        let of_contact = result.alpha.value.abs() / (1.0 - result.alpha.value).max(f64::MIN_POSITIVE);
+        let unseen = (OF_SHAPE * recording.forced * of_contact).min(1.0) + recording.rotor.relative_error;
+        Self { motor, drive: extrapolated(&recording.lines), others, load, doubt, unseen }
     }
 
-    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest.
-    pub fn without_film(motor: &'a Motor, dry: &[LineLoads]) -> Self {
+    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest. `rotor_error`: relative, of the rotor's
+    /// compliance.
+    pub fn without_film(motor: &'a Motor, dry: &[LineLoads], rotor_error: f64) -> Self {
         let lossless = |drive: Drive| (drive, 0.0);
         let others = match dry {
             [.., before, finest] => {
@@ -336,7 +348,7 @@ impl<'a> Scaled<'a> {
             _ => Vec::new(),
         };
         let drive = lossless(dry.last().map(Drive::new).unwrap_or_default());
-        Self { motor, drive, others, load: Estimate::exact(motor.load), doubt: 1.0 }
+        Self { motor, drive, others, load: Estimate::exact(motor.load), doubt: DRY, unseen: rotor_error }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
@@ -356,7 +368,8 @@ impl<'a> Scaled<'a> {
 
     /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
-        let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error * self.doubt };
+        let shape = share.error * self.doubt + self.unseen * share.value.abs();
+        let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * shape };
         let of_unit = if self.drive.0.load() > 0.0 { share.value.abs() } else { most };
         Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }
     }
@@ -424,7 +437,9 @@ impl<'a> Scaled<'a> {
             let v = judged(|marks| marks.no_load)?;
             let force = self.shares(&self.near(v.value), &|_, (s0, _), _| s0);
             let slope = ((force[0].value - force[2].value) / (2.0 * NEAR)).max(f64::MIN_POSITIVE);
-            Some(Estimate { error: self.doubt * v.error.hypot(greatest_error(&force) / slope), ..v } * speed)
+            let error =
+                self.doubt * v.error.hypot(greatest_error(&force) / slope) + OF_SPEED * self.unseen * v.value.abs();
+            Some(Estimate { error, ..v } * speed)
         };
         // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
         let place = |mark: fn(&Marks) -> f64, share: Share<'_>| {
@@ -434,7 +449,7 @@ impl<'a> Scaled<'a> {
             let slope = greatest_error(&curve) / VARIES;
             let known = v.error.is_finite() && slope.is_finite();
             let error = if known { v.error.max(slope / bent.max(f64::MIN_POSITIVE)).min(1.0) } else { f64::INFINITY };
-            Some(Estimate { error, ..v } * speed)
+            Some(Estimate { error: error + OF_SPEED * self.unseen * v.value.abs(), ..v } * speed)
         };
         // What is not driven may be, by as little as the contact that was missed.
         let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
@@ -520,7 +535,11 @@ pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
         }
     }
     let taken = taken * motor.frequency * ring(motor, loads);
-    Estimate { value: given.value, error: (given.value - taken).abs() + given.error }
+    // What is left out may be all that the film takes, at most its load at the stator's speed.
+    let load = recording.film_load.iter().sum::<f64>() / frames.max(1) as f64;
+    let most = load.abs() * f64::from(motor.waves) * TAU * motor.frequency * motor.normal_amplitude;
+    let unseen = recording.forced.min(1.0) * most + ROTOR_EFFECT * recording.rotor.relative_error * given.value.abs();
+    Estimate { value: given.value, error: (given.value - taken).abs() + given.error + unseen }
 }
 
 /// ⟨∫ q ∂W_S/∂t⟩ of the whole ring \[W\].

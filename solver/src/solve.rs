@@ -11,7 +11,7 @@ use crate::ladder::Periodic;
 use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
-use crate::plan::Plan;
+use crate::plan::{Decision, Plan};
 use crate::plate;
 use crate::plate::floating::{FloatError, float};
 use crate::problem::{Motor, Plate, Problem, Scenario};
@@ -184,17 +184,18 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
+    // A ring is computed within the budget, too.
+    let cancel = &cancel.started();
     let spec = settings.fidelity.spec();
-    let spec = if cancel.started().has_budget() { spec.from_coarse() } else { spec };
+    let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let (plan, need) = planned(problem, settings, &spec, cancel)?;
     if let (Scenario::Plate(plate @ Plate { load: Some(load), .. }), Method::Auto) =
         (&problem.scenario, settings.method)
     {
         memory::check(need)?;
-        return floated(plate, *load, problem, settings, &spec, observer, &cancel.started());
+        return floated(plate, *load, problem, settings, &spec, observer, cancel);
     }
     let taken = memory::take(need, cancel)?;
-    let cancel = &cancel.started();
     let mut solution = match (&problem.scenario, plan) {
         (Scenario::Motor(motor), Some(plan)) => {
             let warm_start = !warm.is_empty();
@@ -246,7 +247,7 @@ fn told<R>(
 ) -> Solution {
     Solution {
         accuracy,
-        warnings: warnings(&found.status),
+        warnings: warnings(&found.status, plan),
         status: found.status,
         outcome: outcome(found.result),
         performance: None,
@@ -363,15 +364,29 @@ fn bistable(other: &Estimate) -> String {
     )
 }
 
-fn warnings(status: &Status) -> Vec<String> {
+/// Relative error beyond which a result is said to be nothing.
+const NOTHING: f64 = 1e6;
+/// Share of a result that a switch leaves out, from which it is named.
+const TOO_MUCH: f64 = 0.5;
+
+fn warnings(status: &Status, plan: &Plan) -> Vec<String> {
     match status {
         Status::Converged => Vec::new(),
         Status::NotConverged { residual, tolerance } => vec![format!(
             "not converged: the last round still changed by {residual:.1e}, allowed {tolerance:.0e}; the numbers are what was reached"
         )],
-        Status::NotResolved { error } => vec![format!(
-            "not resolved: the stated error is {error:.1} times the result itself; ask for more accuracy, or take it as next to nothing"
-        )],
+        Status::NotResolved { error } => {
+            let size = match *error < NOTHING {
+                true => format!("the stated error is {error:.1} times the result itself"),
+                false => "the result cannot be told from zero".to_owned(),
+            };
+            let switch = plan.decisions.iter().find(|decision| decision.forced() >= TOO_MUCH).and_then(Decision::key);
+            let advice = match switch {
+                Some(key) => format!("{key} leaves out as much as there is: do without it"),
+                None => "ask for more accuracy, or take it as next to nothing".to_owned(),
+            };
+            vec![format!("not resolved: {size}; {advice}")]
+        }
         Status::Cancelled => vec!["cancelled: the numbers are what was reached".to_owned()],
     }
 }

@@ -124,6 +124,10 @@ pub fn solved(plate: &Plate, result: &PlateResult, recording: &Recording) -> Opt
     };
     (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
         let (mut spring, mut damping) = (of(0, SPRING_SHARE), of(1, DAMPING_SHARE));
+        // As far as the load is one peak, its first harmonic is twice its mean.
+        let peak = result.film_load * (2.0 / scale);
+        let share = (peak.value.abs() / spring.value.abs().max(f64::MIN_POSITIVE)).min(1.0);
+        spring.error = spring.error.max(share * peak.error);
         if damping.value.abs() < IN_PHASE * spring.value.abs() {
             // What leaks, which is left out, damps, and softens the spring by as much: at no amplitude more than at a small one.
             let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;

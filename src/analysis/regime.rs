@@ -4,6 +4,7 @@ use super::validity::mach;
 use crate::digits::{as_given, brief, rounded, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
+use crate::film::slip::{Mobility, SlipLaw};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult};
 use std::f64::consts::SQRT_2;
@@ -118,10 +119,17 @@ pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
         (Scenario::Motor(_), _) => "at the minimum spacing",
         (Scenario::Plate(_), _) => "at the mean gap",
     };
+    let gas = match &problem.scenario {
+        Scenario::Motor(motor) => &motor.gas,
+        Scenario::Plate(plate) => &plate.gas,
+    };
     let says = match Dimensionless::of(problem).knudsen_number {
         kn if kn < 0.01 => "slip at the walls hardly matters",
         kn if kn < 0.1 => "slip at the walls matters a little",
         kn if kn < 1.0 => "slip at the walls matters, and so does the choice of slip law",
+        kn if (1.0..kn).contains(&SlipLaw::of(gas).knudsen_limit()) => {
+            "the gas is so rarefied that its slip law is extrapolated"
+        }
         _ => "the gas is rarefied; of the slip laws, fukui-kaneko is made for this",
     };
     format!("{at}: {says}")

@@ -59,13 +59,12 @@ impl TorqueCurves {
             return Ok(None);
         };
         let Accuracy { stated, stopped_by, .. } = solution.accuracy;
-        let reached =
-            |level: &Fidelity| stopped_by == StoppedBy::Budget && *level < fidelity && level.accuracy() <= stated;
-        let fidelity = Fidelity::ALL.into_iter().find(reached).unwrap_or(fidelity);
-        let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
+        let reached = Fidelity::ALL.into_iter().rfind(|level| level.accuracy() >= stated).unwrap_or_default();
+        let fidelity = if stopped_by == StoppedBy::Budget { fidelity.min(reached) } else { fidelity };
+        let plan = Plan::motor_to(motor, fidelity, &fidelity.spec(), &problem.numerics, &cancel.started())?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
         let with_film = Scaled::with_film(motor, result, &solution.recording);
-        let without_film = Scaled::without_film(motor, &dry);
+        let without_film = Scaled::without_film(motor, &dry, plan.rotor.relative_error);
         let share = (1.0 - result.alpha.value).max(0.0);
         let speeds = speeds(motor, &[with_film.no_load_speed(), without_film.no_load_speed()]);
         Ok(Some(Self {

@@ -4,7 +4,7 @@ use super::exit::CliError;
 use super::terminal;
 use crate::atomic::check_for_results;
 use crate::control::Cancel;
-use crate::digits::parse_duration;
+use crate::digits::{duration, parse_duration};
 use crate::export::figure::Format;
 use crate::export::files::Folder;
 use crate::export::html::shell;
@@ -145,6 +145,9 @@ pub(super) struct SolveOptions {
     memory: MemoryOptions,
 }
 
+/// How many times as long as was allowed a solve may take before it is told.
+const OVER: f64 = 1.5;
+
 impl SolveOptions {
     /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
     pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
@@ -170,6 +173,17 @@ impl SolveOptions {
         let interrupted = cancel_on_interrupt();
         let cancel = self.accuracy.budget.map_or(interrupted.clone(), |budget| timed(&interrupted, budget));
         Ok((Settings { fidelity, method, ..Settings::default() }, cancel))
+    }
+
+    /// Warns that `work` took longer than its budget, in `wall_s` seconds.
+    pub(super) fn tell_if_late(&self, work: &str, wall_s: f64) {
+        let over = |budget: &Duration| self.method != Some(Method::Paper) && wall_s > OVER * budget.as_secs_f64();
+        if let Some(budget) = self.accuracy.budget.filter(over) {
+            terminal::warning(&format!(
+                "--budget {budget:?}: {work} took {}; the first grids, without which there is no result, are always completed",
+                duration(wall_s)
+            ));
+        }
     }
 }
 

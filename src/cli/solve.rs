@@ -9,7 +9,6 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::check_for_results;
 use crate::control::Cancel;
-use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
@@ -17,11 +16,11 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::presets::{self, BUILT_IN};
 use crate::solution::{Status, settled};
-use crate::solve::{Method, Settings, check, solve};
+use crate::solve::{Settings, check, solve};
 use clap::Args;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -71,9 +70,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     let folder = arguments.common.output.folder_of_fields(command)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
-    problems.iter().try_for_each(|problem| check(problem, &settings))?;
-
     let several = scenes.len() > 1;
+    if several {
+        // Before the first is solved.
+        problems.iter().try_for_each(|problem| check(problem, &settings))?;
+    }
     let mut names = Vec::new();
     let mut path = |preset: &String| {
         let name = own(preset, &mut names);
@@ -153,13 +154,7 @@ fn one(
     for warning in &result.warnings {
         terminal::warning(warning);
     }
-    let over = |budget: &Duration| settings.method != Method::Paper && wall_s > OVER * budget.as_secs_f64();
-    if let Some(budget) = arguments.common.solve.accuracy.budget.filter(over) {
-        terminal::warning(&format!(
-            "--budget {budget:?}: the solve took {}; its first grids, without which there is no result, are always completed",
-            duration(wall_s)
-        ));
-    }
+    arguments.common.solve.tell_if_late("the solve", wall_s);
     if !arguments.common.output.json {
         terminal::text(&summary::text(scene, &result));
     } else if arguments.presets.len() == 1 {
@@ -200,9 +195,6 @@ fn own(preset: &str, names: &mut Vec<String>) -> String {
     names.push(name.clone());
     name
 }
-
-/// How many times as long as was allowed a solve may take before it is told.
-const OVER: f64 = 1.5;
 /// Bytes above which it is told beforehand how much will be written.
 const MUCH: u64 = 500_000_000;
 

@@ -98,6 +98,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         startup::startup(&problem, &settings, &mut each, &cancel)
     });
     let ended = ended?;
+    arguments.common.solve.tell_if_late("the start-up", wall_s);
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
     let object = object((&scene, &problem), &settings, &ended, &rows, wall_s);

@@ -312,7 +312,10 @@ impl<'a> MotorTransient<'a> {
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = end - recording.film_load[0] / motor.load;
         // What floats carries its load whatever the gas is, and whatever was left out.
-        let left_out = if result.levitated { 0.0 } else { plan.left_out * mean.value.abs() + self.width_error };
+        let left_out = match result.levitated {
+            true => plan.forced.min(1.0),
+            false => plan.left_out * mean.value.abs() + self.width_error,
+        };
         // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
         let finest = self.levels.last().filter(|_| !result.levitated);
         let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load);
@@ -349,9 +352,9 @@ fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
 fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
-    // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
+    // What floats carries its load whatever the gas is, and whatever little was left out; only the height changes.
     if level.floats() {
-        let error = if found.status == Status::Converged { level.mean_imbalance() } else { 1.0 };
+        let error = if found.status == Status::Converged { level.mean_imbalance() + plan.forced.min(1.0) } else { 1.0 };
         return Estimate { value: 1.0, error };
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
@@ -399,24 +402,26 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let (pressures, errors) = (&recording.max_pressure, &recording.max_pressure_error);
     let max_pressure = recording.extreme(LineLoads::max_pressures, pressures, errors, f64::max, f64::INFINITY);
     let (thicknesses, errors) = (&recording.min_film_thickness, &recording.min_film_thickness_error);
-    let min_film_thickness =
-        recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min, motor.least_thickness());
+    let forced = recording.forced.min(1.0);
     let levitated = recording.teeth_in_contact.iter().all(|&teeth| teeth == 0);
+    let touching = recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames;
     let teeth_in_contact = Estimate {
-        value: recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames,
+        value: touching,
         // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
         error: if levitated {
             recording.touching_errors(motor.touching_thickness()).iter().sum::<f64>() / frames
         } else {
             recording.estimate(LineLoads::teeth_in_contact).error + motor.teeth as f64 / frames
-        },
+        } + forced * if levitated { motor.teeth as f64 } else { touching },
     };
+    let least =
+        recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min, motor.least_thickness());
     let mut result = MotorResult {
         film_load_min: load(f64::min),
         film_load_max: load(f64::max),
         teeth_in_contact,
         levitated,
-        min_film_thickness,
+        min_film_thickness: Estimate { error: least.error.max(forced * least.value), ..least },
         max_pressure,
         max_contact: recording.contact.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         ..MotorResult::default()

@@ -105,6 +105,12 @@ impl Decision {
         Self { chosen, overruled: false, effect: 0.0, weighed: None }
     }
 
+    /// Its effect, if the scene says to leave the part out.
+    pub(crate) fn forced(&self) -> f64 {
+        let asked = self.weighed.is_some_and(|weighed| weighed.asked && weighed.reduced == self.chosen);
+        if asked { self.effect } else { 0.0 }
+    }
+
     /// The key that overrules it, if there is one: "numerics.wedge".
     pub fn key(&self) -> Option<&'static str> {
         self.switch().map(|(key, _)| key)
@@ -159,6 +165,8 @@ pub struct Plan {
     pub trapped: bool,
     /// Bound of what everything that was left out changes, relative to α.
     pub left_out: f64,
+    /// The part of it that the scene's switches leave out, whether or not it is small.
+    pub forced: f64,
     /// The rotor; a plate has none.
     pub rotor: Compliances,
     /// Rotor that decides how many harmonics are kept, if not `rotor`: a similar rotor then keeps the same number.

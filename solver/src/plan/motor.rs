@@ -121,6 +121,7 @@ impl Plan {
             },
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
+            forced: decisions.iter().filter(moving).map(Decision::forced).sum(),
             rotor,
             counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
@@ -169,7 +170,8 @@ fn rotor_error(
         return Ok(None);
     }
     let ring = matches!(motor.rotor, RotorCompliance::Ring(_));
-    let resonances = if spec.target_error < Fidelity::Draft.accuracy() { motor.resonances(cancel)? } else { None };
+    let in_time = spec.target_error < Fidelity::Draft.accuracy() && !cancel.has_budget();
+    let resonances = if in_time { motor.resonances(cancel)? } else { None };
     let chosen = Choice::Rotor { error, ring, resonances };
     Ok(Some(Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) }))
 }

@@ -5,7 +5,7 @@ use super::{Choice, Decision, LEAK_EFFECT, Plan, ROUND_LIMIT, SHARE, THINNEST_LA
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::numerics::system::MANY_COLUMNS;
-use crate::problem::{Flow, Numerics, Outline, Plate};
+use crate::problem::{Flow, Numerics, Outline, Plate, Slip};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
 
@@ -19,6 +19,9 @@ const NARROWEST_PEAK: f64 = 2e-4;
 const STEPS_IN_FACTOR: f64 = 0.6;
 /// Even steps that such a peak needs, over those of a plate far from touching, above which they cluster.
 const CLUSTERED: f64 = 2.0;
+
+/// Factor on the error that grids tell of such a peak where slip is of second order (calibrated: docs/validation.md).
+const SHARP: f64 = 4.0;
 
 impl Plan {
     /// The plan of a plate at a fidelity; `numerics` overrules grid sizes.
@@ -74,6 +77,8 @@ impl Plan {
             }
             None => (spec.plate_steps.max(follow as usize), 0.0),
         };
+        // The flow through a closing gap stays finite by this law, and its peak is narrower.
+        let sharp = clustering_in_time != 0.0 && plate.gas.slip == Slip::SecondOrder;
         let steps = round_up(steps);
         let frames_per_step = if clustering_in_time == 0.0 { 1 } else { (follow as usize).div_ceil(steps) };
         let more_grids = (0..=MORE_GRIDS).rev().find(|more| (frames_per_step * steps) << more <= MOST_FRAMES);
@@ -99,6 +104,7 @@ impl Plan {
             flow: Flow::Plane,
             trapped,
             left_out,
+            forced: 0.0,
             rotor: Compliances::default(),
             counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
@@ -109,7 +115,7 @@ impl Plan {
             tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
-            irregular: 1.0,
+            irregular: if sharp { SHARP } else { 1.0 },
             decisions,
         }
     }

@@ -69,14 +69,15 @@ fn finish(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>, stats: St
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
     let mut recording = level.recording(plate, plan, &coarser);
     let estimate = stated(plate, plan, found);
-    let elsewhere = (estimate.error - of_grids(found).error).max(0.0);
+    let elsewhere = (estimate.error - of_grids(plan, found).error).max(0.0);
     // What does not leak while it should is a share of the swing, whatever the mean is.
     let swing = recording.film_load.iter().fold(0.0_f64, |swing, load| swing.max(load.abs()));
-    let of_gas = elsewhere.max(plan.left_out * swing) / gas_force(plate, estimate.value);
+    let widths = width_errors(plate, found);
+    let of_gas = elsewhere.max(plan.left_out * swing).max(widths[0]).max(widths[1]) / gas_force(plate, estimate.value);
     recording.judge_series(of_gas, of_gas.max(plan.left_out), 1.0);
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
-    add_errors(&mut result, width_errors(plate, found));
+    add_errors(&mut result, widths);
     let force = result.film_load.value;
     let error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
     result.film_load.error = error;
@@ -105,13 +106,14 @@ fn gas_force(plate: &Plate, load: f64) -> f64 {
 }
 
 /// Mean load \[N\] with the error of its grids alone.
-fn of_grids(found: &SolvedGrids<PlateLevel>) -> Estimate {
-    extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, PlateLevel::unit))
+fn of_grids(plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estimate {
+    let found = extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, PlateLevel::unit));
+    Estimate { error: found.error * plan.irregular, ..found }
 }
 
 /// Mean load with its error \[N\].
 fn stated(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estimate {
-    let estimate = of_grids(found);
+    let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
     let rounding = if plate.amplitude > 0.0 { ROUNDING } else { 0.0 };
@@ -168,7 +170,7 @@ impl GridSolver for Search<'_> {
     fn settled(&self, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> bool {
         let whole = stated(self.plate, plan, found);
         let unit = found.levels.last().map_or(0.0, PlateLevel::unit);
-        whole.error <= plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
+        whole.error <= plan.accuracy * unit || of_grids(plan, found).error < 0.3 * whole.error
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Recording {
     pub period: f64,
     /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
     pub transient: bool,
+    /// Bound of what the scene's switches leave out of the film, relative to its mean load: no grid shows it.
+    pub forced: f64,
     /// Stator's normal displacement W_S \[m\], `[tooth][frame][node]` as the lines (zero for a plate).
     pub stator: Vec<f64>,
     /// x of the pressure map, from the middle of tooth or plate \[m\]; of a round plate the radius \[m\].
@@ -161,7 +163,8 @@ impl Recording {
         self.film_load_error = errors(&self.film_load, LineLoads::film_loads, uneven, &|load| of_gas * (gas + load));
         self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| of_pressure * p);
         let factor = if self.touching_from > 0.0 { ROUGH } else { 1.0 };
-        let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|_| 0.0);
+        let forced = self.forced.min(1.0);
+        let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|h| forced * h);
         let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();

@@ -170,7 +170,7 @@ impl Centre {
     /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
     pub fn left_out(&self) -> f64 {
         match &self.solved.fine.outcome {
-            Outcome::Motor(result) if result.levitated => 0.0,
+            Outcome::Motor(result) if result.levitated => self.plan.forced,
             _ => self.plan.left_out,
         }
     }

@@ -26,6 +26,10 @@ const RESONANCE: f64 = 0.3;
 const DENSE_MPA: f64 = 5.0;
 /// Yield stress of aluminium 6061-T6 \[MPa\].
 const YIELD_MPA: f64 = 276.0;
+/// Hardness over the yield stress (Tabor 1951).
+const HARDNESS: f64 = 2.8;
+/// Plasticity index from which most summits yield (Greenwood and Williamson 1966).
+const PLASTIC: f64 = 1.0;
 /// Greatest rms roughness over the separation of the faces.
 const ROUGHNESS: f64 = 1.0 / LEAST_RATIO;
 /// Least separation, over the rms roughness, that is told.
@@ -260,6 +264,16 @@ pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
     let (what, limit) = lowest.map_or(("a rotor of aluminium 6061-T6", YIELD_MPA), |part| {
         (part.material.name, part.material.yield_stress * 1e-6)
     });
+    if let Some(asperities) = motor.surface.asperities.filter(|_| pressure > 0.0) {
+        let summits = asperities.summits();
+        let value = summits.modulus * 1e-6 / (HARDNESS * limit) * (summits.rms / summits.radius).sqrt();
+        let text = format!(
+            "The plasticity index of the faces, E*/H √(σ/R), is {} for the hardness of {what}: summits are pressed flat for good, and \
+             the contact law is elastic. Faces that have run in are smoother.",
+            brief(value)
+        );
+        return excess("contact-stress", value, PLASTIC, "", text);
+    }
     let text = format!(
         "Contact presses with up to {} MPa; {what} yields at {limit} MPa, and the model is elastic.",
         brief(value)

@@ -58,6 +58,7 @@ impl MotorLevel {
         let films = if plan.maps { &self.films[..] } else { &[] };
         let pressure = films.iter().flat_map(|film| film.full_pressure(self.ambient_pressure)).collect();
         let base = Recording {
+            forced: plan.forced,
             touching: Touching { min_spacing: motor.spacing(), compliance: self.contact.modes().local_compliance() },
             rotor: plan.rotor.clone(),
             period: motor.period(),

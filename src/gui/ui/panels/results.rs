@@ -253,9 +253,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
             banner(ui, cx.colours.alarm, "Not converged", &text);
         }
-        Status::NotResolved { error } => {
-            let words = format!("The stated error is {error:.1} times the result: ask for more accuracy");
-            banner(ui, cx.colours.alarm, "Not resolved", &words);
+        Status::NotResolved { .. } => {
+            banner(ui, cx.colours.alarm, "Not resolved", "The stated error is as large as the result itself");
         }
         Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
     }
