@@ -263,6 +263,24 @@ fn a_bad_file_is_explained_and_changes_nothing() {
 }
 
 #[test]
+fn an_error_keeps_the_dialog_below_it() {
+    let mut window = window("fundamental");
+    window.state_mut().carry_out(Command::NewMotor);
+    window.run_steps(2);
+    window.get_by_label("Make this motor");
+    // Something that went on in the background fails meanwhile, twice.
+    for file in ["absent.toml", "missing.toml"] {
+        window.state_mut().carry_out(Command::Chosen(Purpose::Open, file.into()));
+    }
+    window.run_steps(2);
+    window.get_by_label_contains("missing.toml");
+    window.click_on("Close");
+    window.get_by_label("Make this motor");
+    window.press(Key::Escape);
+    assert!(window.known().modal.is_none());
+}
+
+#[test]
 fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");

@@ -1120,6 +1120,19 @@ fn a_part_is_edited_in_its_table() {
     window.press(Key::Enter);
     // The rim comes down with it.
     assert_eq!((length(&window, 0, 4), length(&window, 1, 3)), (0.1, 0.1));
+    // Any unit, a comma, one step back; what is no length of a part is refused with the reason.
+    for (text, top) in [("0,15", 0.15), ("120um", 0.12), ("99999", 0.12), ("wide", 0.12)] {
+        window.type_over(Role::SpinButton, field, text);
+        assert_eq!(length(&window, 0, 4), if text == "0,15" { 0.1 } else { length(&window, 1, 3) }, "{text}, typed");
+        window.press(Key::Enter);
+        window.run_steps(2);
+        assert_eq!(length(&window, 0, 4), top, "{text}");
+        let reason = format!("{text}: expected a number from");
+        assert_eq!(window.query_by_label_contains(&reason).is_some(), text == "99999" || text == "wide", "{text}");
+    }
+    window.ctrl(Key::Z);
+    window.ctrl(Key::Z);
+    assert_eq!(length(&window, 0, 4), 0.1);
     solved(&mut window);
     let after = share(&window);
     assert!((after / before - 1.0).abs() > 0.005, "{before} {after}");

@@ -375,7 +375,7 @@ fn what_a_switch_leaves_out_is_in_the_error_of_all_that_follows() {
         for switch in [("numerics.flow", "along"), ("numerics.flow", "across"), ("numerics.time", "trapped")] {
             let reduced = solved("fundamental", &[scene, &[switch]].concat(), Fidelity::Standard);
             let numbers = |of: &Solved| {
-                let (result, with) = (of.result.clone(), of.merit.with_film.clone());
+                let (result, with) = (of.result, of.merit.with_film.clone());
                 [
                     ("alpha", Some(result.alpha)),
                     ("least film thickness", Some(result.min_film_thickness)),

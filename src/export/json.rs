@@ -11,6 +11,7 @@ use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
 use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
+use crate::scene::is_unseen;
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
@@ -292,7 +293,17 @@ pub fn document(object: &impl Serialize, command: &[String]) -> String {
 /// Any object as indented JSON text with a line break at the end. Numbers that are not finite become null.
 pub fn text(object: &impl Serialize) -> String {
     // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
-    serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n")
+    let text = serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n");
+    // Names may have characters that a terminal obeys; in JSON they are only within strings.
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c != '\n' && is_unseen(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| shown += &format!("\\u{unit:04x}"));
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
 }
 
 /// `348, limit 0.1`
@@ -329,6 +340,14 @@ mod tests {
         let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         (problem, solution)
+    }
+
+    #[test]
+    fn characters_that_a_terminal_obeys_are_escaped() {
+        let name = "a\u{9b}2J \u{202e}b\u{e0041}\n";
+        let shown = text(&serde_json::json!({ "name": name }));
+        assert!(shown.is_ascii() && shown.contains(r"a\u009b2J \u202eb\udb40\udc41\n"), "{shown}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap()["name"], name);
     }
 
     #[test]

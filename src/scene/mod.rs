@@ -48,5 +48,5 @@ pub use keys::{PARAMETERS, markdown};
 pub(crate) use nearest::nearest;
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;
-pub(crate) use value::{escaped, show_text};
+pub(crate) use value::{escaped, is_unseen, show_text};
 pub use values::{Kind, Scene};

@@ -86,7 +86,7 @@ pub(crate) fn escaped(text: &str) -> String {
 }
 
 /// Whether a character is invisible, or changes how the text around it is shown.
-pub(super) fn is_unseen(c: char) -> bool {
+pub(crate) fn is_unseen(c: char) -> bool {
     c.is_control() || UNSEEN.iter().any(|range| range.contains(&c))
 }
 

@@ -1,6 +1,7 @@
 //! The bottom panel: the timeline of the cycle or of a plate in the hand, and what the solver is doing.
 
 use crate::analysis::quantity::force_unit;
+use crate::digits::duration;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{Command, HoldCommand};
 use crate::gui::derived::format::{thousands, time};
@@ -117,8 +118,8 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };
             let cut =
                 if run.solution.accuracy.stopped_by == StoppedBy::Budget { " as far as time allowed" } else { "" };
-            let (asked, took) = (run.fidelity, 1e3 * run.wall_s);
-            let text = format!("Shown: {asked}{cut}, {ended}{error}, solved{SOLVED_HERE} in {took:.1} ms");
+            let took = if run.wall_s < 1.0 { format!("{:.1} ms", 1e3 * run.wall_s) } else { duration(run.wall_s) };
+            let text = format!("Shown: {}{cut}, {ended}{error}, solved{SOLVED_HERE} in {took}", run.fidelity);
             ui.label(text).explained(ui, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(cx.colours.alarm))),

@@ -1,6 +1,6 @@
 //! A measured face below the rotor: its heights as a map, the profile where the pointer is, and what it comes to.
 
-use crate::digits::significant;
+use crate::digits::{signed, significant};
 use crate::export::figure::{Axis, Colour, Line, Panel, Style};
 use crate::gui::command::Command;
 use crate::gui::derived::scales::span;
@@ -111,7 +111,7 @@ fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
         ["Sz", &nm(own.peak_to_valley), "Minimum spacing H_m", &nm(both.min_spacing)],
         [
             "Skewness, kurtosis",
-            &format!("{:.2}, {:.2}", own.skewness, own.kurtosis),
+            &format!("{}, {:.2}", signed(format!("{:.2}", own.skewness)), own.kurtosis),
             "Summit radius",
             &format!("{} µm", significant(both.summit_radius * 1e6, 4)),
         ],
