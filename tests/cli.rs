@@ -667,7 +667,7 @@ fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     let path = folder.path().to_str().unwrap();
     let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(err(&output).contains("series.csv: cannot be written: it is no regular file"), "{}", err(&output));
+    assert!(err(&output).contains("series.csv: cannot be written: it is a folder"), "{}", err(&output));
     assert!(output.stdout.is_empty());
     assert_eq!(fs::read_to_string(folder.path().join("summary.json")).unwrap(), "older");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
@@ -676,7 +676,7 @@ fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     fs::create_dir_all(several.join("levitating/film.vtk.series")).unwrap();
     let several_path = several.to_str().unwrap();
     let presets = ["solve", "plate-viscous", "levitating", "--fidelity", "draft", "--out", several_path];
-    refused(&presets, 1, &["film.vtk.series: cannot be written: it is no regular file"]);
+    refused(&presets, 1, &["film.vtk.series: cannot be written: it is a folder"]);
     assert!(!several.join("plate-viscous").exists());
 }
 

@@ -268,8 +268,8 @@ pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
         let summits = asperities.summits();
         let value = summits.modulus * 1e-6 / (HARDNESS * limit) * (summits.rms / summits.radius).sqrt();
         let text = format!(
-            "The plasticity index of the faces, E*/H √(σ/R), is {} for the hardness of {what}: summits are pressed flat for good, and \
-             the contact law is elastic. Faces that have run in are smoother.",
+            "The plasticity index of the faces, E*/H √(σ/R), is {} for the hardness of {what}: summits are pressed flat for good, \
+             which the elastic contact law has not, and faces that have run in are smoother.",
             brief(value)
         );
         return excess("contact-stress", value, PLASTIC, "", text);

@@ -295,7 +295,7 @@ fn built_in_presets_show_what_they_should() {
         // A rotor that floats 0.74 µm high never closes the film.
         let expected = match name {
             "levitating" => &[],
-            "asperities" => &["slip-law", "contact-stress"][..],
+            "asperities" | "rough-flow" => &["slip-law", "contact-stress"][..],
             _ => closed,
         };
         let found = outside(&problem, Some(&solve_draft(&problem)));
