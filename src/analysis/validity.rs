@@ -110,6 +110,3 @@ fn of_plate(plate: &Plate, outcome: Option<&Outcome>) -> Vec<Excess> {
     let found = [film.inertia(), film.heat(), film.slip(), film.sound(), dense, film.thinness(), nearness(plate)];
     found.into_iter().flatten().collect()
 }
-
-#[cfg(test)]
-mod tests;

@@ -39,7 +39,7 @@ const THINNESS: f64 = 0.025;
 /// By how much the gas beyond the edges lengthens a side, over the gap.
 const ELONGATION: f64 = 1.3;
 /// Greatest amplitude of a plate over its mean gap.
-pub(super) const AMPLITUDE: f64 = 0.9;
+const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
 pub const NAMES: [&str; 10] = [
