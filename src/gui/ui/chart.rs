@@ -19,6 +19,8 @@ const NUMBERS: f32 = 3.6;
 const NUMBER_EVERY: f32 = 2.6;
 /// A number below at most every so many.
 const COLUMN_EVERY: f32 = 4.5;
+/// Share of an axis within which a zero is in the corner.
+const CORNER: f64 = 0.02;
 /// Width of a line of a tab.
 const WIDTH: f32 = 2.0;
 /// Significant digits of a value of a logarithmic axis, or of one that is pointed at.
@@ -82,7 +84,7 @@ impl<'n> Chart<'n> {
             .x_axis_formatter(|mark, _| written(x, mark.value, mark.step_size))
             .y_axis_formatter(move |mark, range| {
                 let above = (mark.value - range.start()) / (range.end() - range.start());
-                if zeros && mark.value == 0.0 && above < 0.02 {
+                if zeros && mark.value == 0.0 && above < CORNER {
                     String::new()
                 } else {
                     written(y, mark.value, mark.step_size)
@@ -117,7 +119,13 @@ fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
     match axis.scale {
         _ if !axis.names.is_empty() => axis.names.iter().map(|(at, _)| by_one(*at)).collect(),
         Scale::Log => log_marks([from, to], most),
-        Scale::Linear if least.is_finite() && least > 0.0 => marks(Steps::apart([from, to], least)),
+        Scale::Linear if least.is_finite() && least > 0.0 => {
+            let found = marks(Steps::apart([from, to], least));
+            // One number beside the corner, where zero may be left out, has no scale.
+            let corner = from + CORNER * (to - from);
+            let alone = !axis.whole && found.iter().filter(|mark| mark.value > corner).count() < 2;
+            if alone { marks(Steps::several([from, to], corner, most.max(2.0) as usize, 2.0 * most)) } else { found }
+        }
         Scale::Linear => Vec::new(),
     }
 }

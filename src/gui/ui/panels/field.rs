@@ -95,7 +95,8 @@ impl Field<'_> {
         } else if typing || (self.refused.is_some() && response.lost_focus() && escaped) {
             // A field that was not shown for a while has not been left just now.
             let left = response.lost_focus() && !escaped;
-            self.finish(ui, id, &text, left && text.trim() != present, entered, cx);
+            let handed = if entered { Stage::Entered } else { Stage::Left };
+            self.finish(ui, id, &text, (left && text.trim() != present).then_some(handed), cx);
         }
         response
     }
@@ -118,11 +119,11 @@ impl Field<'_> {
         Some(edit)
     }
 
-    /// The cursor has left the field: hands the text over, or drops it.
-    fn finish(&self, ui: &egui::Ui, id: Id, text: &str, submit: bool, entered: bool, cx: &DrawContext<'_>) {
-        if submit {
+    /// The cursor has left the field: hands the text over at this stage, or drops it.
+    fn finish(&self, ui: &egui::Ui, id: Id, text: &str, handed: Option<Stage>, cx: &DrawContext<'_>) {
+        if let Some(stage) = handed {
             cx.push(self.submit(text));
-            keep(ui, id, text.to_owned(), if entered { Stage::Entered } else { Stage::Left });
+            keep(ui, id, text.to_owned(), stage);
             return;
         }
         ui.data_mut(|data| data.remove::<Edit>(id));

@@ -77,9 +77,19 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let gap_chart = place(charts.left(), left_end, top, top + between);
     let force_chart = place(charts.left(), left_end, top + between + title, bottom);
     let rotor = style.palette.rotor;
-    chart(ui, &style, gap_chart, hold, ("Gap, µm", 1e-6, rotor), |r| [r.gap, 0.0], hold.reach(), plate.mean_gap);
-    let (text, film) = (format!("Force, {}", unit.0), style.palette.film);
-    chart(ui, &style, force_chart, hold, (&text, unit.1, film), |r| [r.force, r.error], hold.force_range, 0.0);
+    let gap = Trail {
+        title: "Gap, µm",
+        unit: 1e-6,
+        colour: rotor,
+        of: |r| [r.gap, 0.0],
+        reach: hold.reach(),
+        rest: plate.mean_gap,
+    };
+    gap.show(ui, &style, gap_chart, hold);
+    let (title, film) = (&format!("Force, {}", unit.0), style.palette.film);
+    let of = |r: &Reading| [r.force, r.error];
+    let force = Trail { title, unit: unit.1, colour: film, of, reach: hold.force_range, rest: 0.0 };
+    force.show(ui, &style, force_chart, hold);
     time_labels(&clipped, force_chart, hold.window());
     let boyle_chart = place(middle + 0.5 * style.row, right, top, bottom);
     boyle(ui, &style, boyle_chart, hold);
@@ -235,35 +245,42 @@ fn map(ui: &Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     y_labels(style, &axes);
 }
 
-/// Recent readings against time. `of`: the value and its error; `reach`: least range of the axis; `rest`: the value at rest.
-fn chart(
-    ui: &mut Ui,
-    style: &PlotStyle,
-    rect: Rect,
-    hold: &HoldState,
-    (title, unit, colour): (&str, f64, Color32),
+/// A chart of recent readings against time.
+struct Trail<'a> {
+    title: &'a str,
+    /// Of the axis, in SI.
+    unit: f64,
+    colour: Color32,
+    /// The value and its error.
     of: fn(&Reading) -> [f64; 2],
+    /// Least range of the axis.
     reach: [f64; 2],
+    /// The value at rest.
     rest: f64,
-) {
-    let end = hold.now.reading.time;
-    let [low, high] = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
-    let margin = 0.08 * (high - low);
-    let name = title.split(',').next().unwrap_or(title);
-    style.title(rect, name, &[title], &[]);
-    // The dot at the present instant is whole.
-    let bounds = [[-hold.window(), 0.02 * hold.window()], [low - margin, high + margin]];
-    Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
-        let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
-        let band = hold.trail().map(|reading| {
-            let ([time, value], error) = (at(reading), of(reading)[1] / unit);
-            [time, value + error, value - error]
+}
+
+impl Trail<'_> {
+    fn show(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
+        let Self { title, unit, colour, of, reach, rest } = *self;
+        let end = hold.now.reading.time;
+        let [low, high] = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
+        let margin = 0.08 * (high - low);
+        let name = title.split(',').next().unwrap_or(title);
+        style.title(rect, name, &[title], &[]);
+        // The dot at the present instant is whole.
+        let bounds = [[-hold.window(), 0.02 * hold.window()], [low - margin, high + margin]];
+        Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
+            let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
+            let band = hold.trail().map(|reading| {
+                let ([time, value], error) = (at(reading), of(reading)[1] / unit);
+                [time, value + error, value - error]
+            });
+            plot.hline(level(rest / unit, style.palette.quiet, 1.0));
+            plot.add(between(&band.collect::<Vec<_>>(), colour.gamma_multiply(0.3)));
+            plot.line(line(&hold.trail().map(at).collect::<Vec<_>>(), colour, 1.6, LineStyle::Solid));
+            plot.points(dots("", vec![at(&hold.shown().reading)], colour, 3.0));
         });
-        plot.hline(level(rest / unit, style.palette.quiet, 1.0));
-        plot.add(between(&band.collect::<Vec<_>>(), colour.gamma_multiply(0.3)));
-        plot.line(line(&hold.trail().map(at).collect::<Vec<_>>(), colour, 1.6, LineStyle::Solid));
-        plot.points(dots("", vec![at(&hold.shown().reading)], colour, 3.0));
-    });
+    }
 }
 
 /// Labels of the time axis: how far the charts go back.
