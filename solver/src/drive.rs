@@ -45,6 +45,8 @@ const CLOSED: f64 = 2.0;
 /// and all of it).
 const OF_SHAPE: f64 = 0.5;
 const OF_SPEED: f64 = 0.5;
+/// Least share of the load on contact that a change of it is compared with.
+const LEAST_SHARE: f64 = 1e-6;
 /// Factor on what grids tell of contact without film (calibrated: docs/validation.md).
 const DRY: f64 = 1.3;
 /// Over such a difference of speed ratios the error of a curve changes by its own size.
@@ -330,7 +332,7 @@ impl<'a> Scaled<'a> {
         };
         let closed = recording.teeth_in_contact.iter().all(|touching| *touching >= motor.teeth);
         let doubt = if closed { CLOSED } else { 1.0 };
-        let of_contact = result.alpha.value.abs() / (1.0 - result.alpha.value).max(f64::MIN_POSITIVE);
+        let of_contact = result.alpha.value.abs() / (1.0 - result.alpha.value).max(LEAST_SHARE);
         let unseen = (OF_SHAPE * recording.forced * of_contact).min(1.0) + recording.rotor.relative_error;
         Self { motor, drive: extrapolated(&recording.lines), others, load, doubt, unseen }
     }
