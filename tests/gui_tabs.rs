@@ -17,6 +17,7 @@ use squeezefilm::digits::significant;
 use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::format::uncertain;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::fit::FitResult;
@@ -1133,6 +1134,17 @@ fn a_part_is_edited_in_its_table() {
     window.ctrl(Key::Z);
     window.ctrl(Key::Z);
     assert_eq!(length(&window, 0, 4), 0.1);
+    // A field that is only left changes nothing, though it shows four decimals.
+    let Some(Value::Records(mut parts)) = window.known().document.scene().get("rotor.part") else { panic!("no parts") };
+    (parts[0][4], parts[1][3]) = (Value::Number(0.123_456), Value::Number(0.123_456));
+    let value = Value::Records(parts);
+    window.state_mut().carry_out(Command::Set { key: "rotor.part", value, dragging: false });
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::SpinButton, field).click();
+    window.run_steps(2);
+    window.press(Key::Enter);
+    window.run_steps(2);
+    assert_eq!(length(&window, 0, 4), 0.123_456);
     solved(&mut window);
     let after = share(&window);
     assert!((after / before - 1.0).abs() > 0.005, "{before} {after}");

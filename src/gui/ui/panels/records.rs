@@ -12,6 +12,9 @@ use eframe::egui::{self, RichText};
 /// Change of a length per point of dragging \[mm\].
 const SPEED: f64 = 0.02;
 
+/// Decimals of a number that are shown.
+const DECIMALS: usize = 4;
+
 /// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that an edit makes of them.
 pub fn show(
     ui: &mut egui::Ui,
@@ -97,11 +100,17 @@ fn cell(
         (ParameterKind::Number { range, .. }, value) => {
             let present = value.as_number()?;
             let mut number = present;
-            let drag = egui::DragValue::new(&mut number).speed(SPEED).max_decimals(4).suffix(format!(" {}", of.unit));
+            let drag =
+                egui::DragValue::new(&mut number).speed(SPEED).max_decimals(DECIMALS).suffix(format!(" {}", of.unit));
             let response = number_box(ui, drag, (range.min..=range.max, of.unit), cx);
             let response = response.labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
-            // What a drag makes of it is round.
-            let number = if response.dragged() { (100.0 * number).round() / 100.0 } else { number };
+            // What a drag makes of it is round; a field that is only left keeps the decimals that it does not show.
+            let shown = |number: f64| format!("{number:.DECIMALS$}");
+            let number = match number {
+                number if response.dragged() => (100.0 * number).round() / 100.0,
+                number if shown(number) == shown(present) => present,
+                number => number,
+            };
             let done = response.drag_stopped();
             ((response.changed() && number != present) || done).then(|| (Value::Number(number), response.dragged()))
         }

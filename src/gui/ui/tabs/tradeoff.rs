@@ -146,10 +146,12 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
             Target::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most accurate within this time"),
         };
         let label = glossary::term(ui, name, name);
-        let speed = 0.01 * value;
+        let (present, speed) = (value, 0.01 * value);
         let drag =
             egui::DragValue::new(&mut value).suffix(unit).speed(speed).custom_formatter(|value, _| short(value, 3));
         let field = number_box(ui, drag, (range, unit.trim()), cx).labelled_by(label.id).hint(about);
+        // A field that is only left keeps the digits that it does not show.
+        let value = if short(value, 3) == short(present, 3) { present } else { value };
         let changed = match target {
             Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
             Target::Budget(_) => Target::Budget(1e-3 * value),
