@@ -59,7 +59,7 @@ impl TorqueCurves {
             return Ok(None);
         };
         let Accuracy { stated, stopped_by, .. } = solution.accuracy;
-        let reached = Fidelity::ALL.into_iter().rfind(|level| level.accuracy() >= stated).unwrap_or_default();
+        let reached = Fidelity::ALL.into_iter().rfind(|level| level.accuracy() >= stated).unwrap_or(Fidelity::Draft);
         let fidelity = if stopped_by == StoppedBy::Budget { fidelity.min(reached) } else { fidelity };
         let plan = Plan::motor_to(motor, fidelity, &fidelity.spec(), &problem.numerics, &cancel.started())?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };

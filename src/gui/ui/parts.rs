@@ -5,7 +5,7 @@ use super::glossary;
 use crate::digits::as_given;
 use crate::scene::quantity_text;
 use crate::scene::show_text;
-use eframe::egui::{Button, Color32, DragValue, Grid, Id, Response, RichText, ScrollArea, Stroke, Tooltip, Ui};
+use eframe::egui::{Button, Color32, DragValue, Event, Grid, Id, Response, RichText, ScrollArea, Stroke, Tooltip, Ui};
 use std::cell::Cell;
 use std::fmt::Debug;
 use std::hash::Hash;
@@ -48,7 +48,9 @@ pub(super) fn number_box(
     };
     let response = ui.add(drag.range(range.clone()).update_while_editing(false).custom_parser(read));
     let key = response.id.with("refused");
-    if response.changed() || response.has_focus() {
+    let acts =
+        |event: &Event| matches!(event, Event::Key { pressed: true, .. } | Event::PointerButton { pressed: true, .. });
+    if ui.input(|input| input.events.iter().any(acts)) {
         ui.data_mut(|data| data.remove::<String>(key));
     }
     if let Some(reason) = refused.take() {
