@@ -239,10 +239,12 @@ impl Drive {
     }
 }
 
+/// Rounding of s₀ and s₁.
+const ROUNDING: f64 = 1e-9;
+
 /// Output over what the stator gives, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven. At the speed without load, where s₀
 /// is nothing but rounding, it is 0.
 fn efficiency(v: f64, (s0, s1): (f64, f64), loss: f64) -> Option<f64> {
-    const ROUNDING: f64 = 1e-9;
     let idle = v > 0.0 && s0.abs() < ROUNDING;
     (v * s0 > 0.0 || idle).then(|| if idle { 0.0 } else { v * s0 / (s1 + loss) })
 }
@@ -370,7 +372,10 @@ impl<'a> Scaled<'a> {
 
     /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
-        let shape = share.error * self.doubt + self.unseen * share.value.abs();
+        // Where all contact pulls one way on every grid, there is none near where it would turn.
+        let one_way = 1.0 - share.value.abs() + share.error < ROUNDING;
+        let unseen = if one_way { 0.0 } else { self.unseen * share.value.abs() };
+        let shape = share.error * self.doubt + unseen;
         let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * shape };
         let of_unit = if self.drive.0.load() > 0.0 { share.value.abs() } else { most };
         Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }

@@ -2,7 +2,7 @@
 
 use super::context::DrawContext;
 use super::glossary;
-use crate::digits::as_given;
+use crate::digits::{as_given, signed};
 use crate::scene::quantity_text;
 use crate::scene::show_text;
 use eframe::egui::{Button, Color32, DragValue, Event, Grid, Id, Response, RichText, ScrollArea, Stroke, Tooltip, Ui};
@@ -39,7 +39,7 @@ pub(super) fn number_box(
     let read = |text: &str| {
         let found = quantity_text::number(unit, text).filter(|number| range.contains(number));
         if found.is_none() {
-            let ends = [range.start(), range.end()].map(|end| as_given(*end));
+            let ends = [range.start(), range.end()].map(|end| signed(as_given(*end).to_string()));
             let within =
                 if range.end().is_finite() { format!(" from {} to {}", ends[0], ends[1]) } else { String::new() };
             refused.set(Some(format!("{}: expected a number{within} {unit}", show_text(text)).trim_end().to_owned()));
