@@ -1006,6 +1006,14 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         }
         window.run_steps(3);
         assert_eq!(range(&window), at_first, "{name}");
+        // Not so far out that its numbers have no meaning.
+        window.hover_at(middle);
+        for _ in 0..30 {
+            window.event(Event::Zoom(0.5));
+            window.run_steps(1);
+            let out = range(&window);
+            assert!(out[1] - out[0] < 250.0 * width, "{name}: {out:?}");
+        }
     }
 }
 
