@@ -176,7 +176,7 @@ impl VisitMut for Planter {
         };
         if let Some(number) = self.number(line, &what) {
             let call = &self.call;
-            *expression = syn::parse_quote!((if #call(#number) { #faulty } else { #expression }));
+            *expression = syn::parse_quote!((if #call(#number) { (#faulty) } else { (#expression) }));
         }
     }
 

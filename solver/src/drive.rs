@@ -312,13 +312,14 @@ pub struct Scaled<'a> {
     unseen: f64,
 }
 
-/// A contact, and the film's share of the stator's power, in μ_d N V₀.
+/// The contact of one grid, and what the film takes of the stator's power, in units of μ_d N V₀.
 type Lossy = (Drive, f64);
 
-/// A speed ratio, and there (s₀, s₁) and the film's share, first of the contact itself.
+/// A speed ratio V_R/V₀; and there, for each [`Lossy`] of a motor, (s₀, s₁) and what the film takes. The first is that of the result, the others
+/// show its error.
 type Place = (f64, Vec<((f64, f64), f64)>);
 
-/// A share, from a speed ratio, (s₀, s₁) there, and the film's share of the power.
+/// A dimensionless result, from a speed ratio, (s₀, s₁) there, and what the film takes of the power.
 type Share<'a> = &'a dyn Fn(f64, (f64, f64), f64) -> f64;
 
 impl<'a> Scaled<'a> {

@@ -65,7 +65,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
         (Scenario::Motor(_), Outcome::Motor(result)) if result.levitated => {
             return "here it carries the whole load: the rotor floats".to_owned();
         }
-        (Scenario::Motor(_), Outcome::Motor(result)) => (result.alpha, "the load", ": contact carries the rest"),
+        (Scenario::Motor(_), Outcome::Motor(result)) => (result.alpha, "the load", ", and contact the rest"),
         (Scenario::Plate(plate), Outcome::Plate(result)) => {
             (result.film_load * PlateResult::ratio(1.0, plate), "p_a × area", " in the mean")
         }
@@ -101,7 +101,7 @@ pub fn sucks(load: Estimate) -> bool {
 pub fn bearing(numbers: &Dimensionless) -> &'static str {
     match (numbers.bearing_number, numbers.bearing_to_squeeze) {
         (0.0, _) => "nothing slides",
-        (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in next to nothing",
+        (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in almost no gas",
         (_, ratio) if ratio < 0.3 => "< σ: sliding drags in a little of what squeezing moves",
         _ => "not ≪ σ: sliding drags in as much as squeezing moves",
     }
@@ -150,9 +150,9 @@ mod tests {
     #[test]
     fn words_follow_the_result() {
         for (alpha, error, said) in [
-            (0.246, 1e-3, "here it carries 25 % of the load: contact carries the rest"),
-            (0.99717, 1e-4, "here it carries 99.72 % of the load: contact carries the rest"),
-            (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load: contact carries the rest"),
+            (0.246, 1e-3, "here it carries 25 % of the load, and contact the rest"),
+            (0.99717, 1e-4, "here it carries 99.72 % of the load, and contact the rest"),
+            (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load, and contact the rest"),
             (4e-7, 1e-6, "here its load cannot be distinguished from zero"),
             (-0.002, 0.0021, "here its load cannot be distinguished from zero"),
             (-0.02, 0.002, "here it sucks: its mean pressure is below ambient, and it pulls with 2 % of the load"),

@@ -1,7 +1,7 @@
 //! `squeezefilm animate`: one cycle as moving pictures.
 
 use super::exit::{CliError, Exit};
-use super::options::{SceneOptions, SolveOptions, whole, within};
+use super::options::{PRESET, SceneOptions, SolveOptions, whole, within};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
@@ -24,8 +24,7 @@ use std::path::PathBuf;
   squeezefilm animate levitating --out levitating.png --seconds 6
   squeezefilm animate plate-crossover --out frames --width 1920")]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// The file, .gif, .mp4 or .png (animated), or a folder for the frames, one PNG each

@@ -37,11 +37,13 @@ pub(super) fn heading(words: &str) -> String {
 /// The widest line of a paragraph.
 const WIDTH: usize = 100;
 
-/// A paragraph, broken at spaces, its first line begun with `first` and the others with `rest`.
+/// A paragraph, broken at spaces, its first line begun with `first` and the others with `rest`. A number is not parted from its error, nor from
+/// per cent.
 pub(super) fn paragraph(words: &str, first: &str, rest: &str) -> String {
     let words = words.split_whitespace().map(escaped).collect::<Vec<_>>().join(" ");
+    let words = words.replace(" %", "\u{a0}%").replace(" ± ", "\u{a0}±\u{a0}");
     let options = Options::new(WIDTH).initial_indent(first).subsequent_indent(rest).break_words(false);
-    textwrap::fill(&words, options.word_splitter(WordSplitter::NoHyphenation)) + "\n"
+    textwrap::fill(&words, options.word_splitter(WordSplitter::NoHyphenation)).replace('\u{a0}', " ") + "\n"
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, whole};
+use super::options::{CommonOptions, PRESET, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
@@ -65,8 +65,7 @@ Files of --out:
     group = ArgGroup::new("sought").args(["data", "maximise", "minimise"]).required(true),
 )]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// A CSV file of measurements, or table1

@@ -102,8 +102,8 @@ Examples:
 Exit status:
   0  solved
   2  bad input: the key, its value and the allowed range are named
-  3  not converged, or not resolved (the error of α, or of a plate's load, is as large as itself,
-     and it is not next to nothing): what was reached is reported, and marked
+  3  not converged, or not resolved (the stated error of α, or of a plate's load, is as large as
+     the value, and not negligible): what was reached is reported, and marked
   1  anything else, Ctrl-C included
 141  standard output was closed before all was written; the files of --out are complete";
 

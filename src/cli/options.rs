@@ -77,6 +77,10 @@ pub(super) fn warn_of_given_path(scene: &Scene) {
     }
 }
 
+/// Help of a PRESET argument.
+pub(super) const PRESET: &str =
+    "A built-in preset (see: squeezefilm presets), the path of a TOML file, or - for standard input";
+
 /// The PRESET argument that stands for standard input.
 pub(super) const STANDARD_INPUT: &str = "-";
 /// The largest preset on standard input \[MB\].
@@ -89,7 +93,7 @@ pub(super) fn from_input(fault: ReadError) -> CliError {
 
 fn from_standard_input() -> Result<Scene, CliError> {
     let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(from_input)?;
-    Ok(Scene::from_toml(&text, "standard input")?)
+    Ok(presets::disclaimed(Scene::from_toml(&text, "standard input")?))
 }
 
 /// How exact a result is to be, and how long that may take.
@@ -260,11 +264,10 @@ impl OutputOptions {
     /// The folder of `--out` for results of this command line: found out, before anything is solved, to be one that can be written into, with
     /// figures in formats that go together. Of a command that has no fields.
     pub(super) fn folder<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
-        let folder = self.folder_of_fields(command)?;
-        if folder.as_ref().is_some_and(|folder| folder.vtk) {
-            terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");
+        if self.has("vtk") {
+            return Err(CliError::usage("--figures vtk: only solve has the film at every instant"));
         }
-        Ok(folder)
+        self.folder_of_fields(command)
     }
 
     /// As `folder`, for a command that has fields.

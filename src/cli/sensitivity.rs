@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, pair, whole};
+use super::options::{CommonOptions, PRESET, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
@@ -41,8 +41,7 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// Only these keys, divided by commas [default: all that act, whole numbers left out]

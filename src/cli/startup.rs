@@ -3,7 +3,7 @@
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::fall;
-use super::options::{CommonOptions, whole, within};
+use super::options::{CommonOptions, PRESET, whole, within};
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
@@ -49,8 +49,7 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// Cycles at most; if the cycle does not repeat by then, exit status 3 [default: 300; of a plate that is dropped, 5000]

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, PRESSURE, warn_of_given_path};
+use super::options::{CommonOptions, PRESET, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
@@ -58,8 +58,7 @@ instead; the same command goes on from there, to the same result. With --part
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// What to vary, in the unit of the key or another of its kind: a range or a list; given twice: a map; three times: maps

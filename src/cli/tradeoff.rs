@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{MemoryOptions, OutputOptions, SceneOptions, cancel_on_interrupt, whole};
+use super::options::{MemoryOptions, OutputOptions, PRESET, SceneOptions, cancel_on_interrupt, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
@@ -33,8 +33,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
+    #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
     /// Recommends the cheapest setting with at most this error: 1% or 0.01

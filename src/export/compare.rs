@@ -329,8 +329,9 @@ pub fn report(
     page.section(if others.is_empty() { "Parameters" } else { "What differs" });
     let rows = parameter_rows(runs);
     let all = all || others.is_empty();
-    page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
-    if !others.is_empty() && rows.iter().all(|row| !row.differs()) {
+    if all || rows.iter().any(|row| row.differs()) {
+        page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
+    } else {
         page.text("The scenes do not differ in any parameter.");
     }
 

@@ -19,11 +19,11 @@ const HEADER: usize = 8;
 
 /// How a video is shown.
 pub(super) struct Timing {
-    /// Units of a second.
+    /// Units of time in a second.
     pub(super) timescale: u32,
     /// Units that a frame stays.
     pub(super) step: u32,
-    /// How often the cycle is there.
+    /// How often the cycle is repeated.
     pub(super) cycles: u32,
 }
 

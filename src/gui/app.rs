@@ -36,6 +36,8 @@ pub struct App {
     unwritten: bool,
     /// Fragment of the page's address, after the `#`, when it was last read.
     address: String,
+    /// Title that the window has.
+    title: String,
 }
 
 impl App {
@@ -51,8 +53,8 @@ impl App {
         let (state, next) = restored(context.storage, opened, platform.storage.as_deref())?;
         let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
         next.into_iter().for_each(|document| updater.carry_out(Command::Proceed(Next::Given(Box::new(document)))));
-        let (after_text, address) = (Vec::new(), String::new());
-        Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address })
+        let (after_text, address, title) = (Vec::new(), String::new(), String::new());
+        Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address, title })
     }
 
     /// All that the window knows.
@@ -156,6 +158,11 @@ impl eframe::App for App {
         }
         if self.updater.observe() {
             ctx.request_repaint();
+        }
+        let title = format!("{} – squeezefilm", self.state().document.title());
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
         }
         let cx = DrawContext::new(self.state(), self.updater.now());
         // Known to what fades into it.

@@ -165,6 +165,17 @@ impl Scene {
         self.name.split(", changed").next().unwrap_or_default()
     }
 
+    /// Gives a scene that was made from `original` a name and a description that say so, and nothing that the next change makes wrong. A name or
+    /// a description of its own is kept.
+    pub fn made_from(&mut self, original: &Self) {
+        if self.about == original.about {
+            self.about = format!("Made from {}.", original.name);
+        }
+        if self.name == original.name {
+            self.name = format!("{}, changed", original.unchanged_name());
+        }
+    }
+
     /// Gives a scene that was made from `original` its [`Scene::title`] as a name, and a description that lists the changes. A name or a
     /// description of its own is kept.
     pub fn retitle(&mut self, original: &Self) {

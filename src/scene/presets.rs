@@ -86,6 +86,15 @@ pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
     scene.parameters().filter(makes).filter(|parameter| parameter.absent.is_none() && !given(parameter.key)).collect()
 }
 
+/// The scene, without the name and the description of a built-in preset whose values it does not have.
+pub fn disclaimed(mut scene: Scene) -> Scene {
+    let claimed = BUILT_IN.iter().filter_map(|one| one.scene().ok()).find(|one| one.about == scene.about);
+    if let Some(original) = claimed.filter(|original| scene.changed(original).next().is_some()) {
+        scene.made_from(&original);
+    }
+    scene
+}
+
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.
 ///
 /// # Errors
@@ -97,7 +106,7 @@ pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
     let path = Path::new(name_or_path);
     // If the path exists but cannot be read, loading it gives the reason.
     if path.try_exists().unwrap_or(true) && !name_or_path.is_empty() {
-        return Scene::load(path);
+        return Scene::load(path).map(disclaimed);
     }
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
     let stem = stem.strip_suffix(".toml").unwrap_or(&stem).replace(['_', ' '], "-");

@@ -202,7 +202,8 @@ impl Scene {
             return unknown(nearest(key, cells.iter().map(String::as_str)), keys_of(table));
         }
         let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
-        let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
+        let in_no_table = table.is_empty() || keys_of(table).is_empty();
+        let siblings = if in_no_table { self.tables() } else { keys_of(table) };
         unknown(nearest_key(key, &known), siblings)
     }
 

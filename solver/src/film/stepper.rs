@@ -137,7 +137,7 @@ pub struct Film {
     divergence: Vec<f64>,
     /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
     pub(super) jacobian: Coupling,
-    /// Centre of Newton's matrix: the Jacobian's, the film's inertia, and the damping of a careful step.
+    /// Diagonal of Newton's matrix: the Jacobian's, the gas stored in the gap, and the damping of a careful step.
     pivots: Vec<f64>,
     solver: RowSolver,
     /// Faces before and after the row being assembled.
@@ -529,14 +529,14 @@ impl Film {
                 let (flux_east, east_by_west, east_by_east) =
                     (&after.flux[..b], &after.by_west[..b], &after.by_east[..b]);
                 for j in 0..b {
-                    let inertia = (1.0 + 0.5 * theta[j]) * gap;
+                    let storage = (1.0 + 0.5 * theta[j]) * gap;
                     let divergence = scale * outflow[j] + (flux_east[j] - flux_west[j]) * inverse;
-                    residual[j] = rhs[j] - inertia * own[j] - divergence;
+                    residual[j] = rhs[j] - storage * own[j] - divergence;
                     flown[j] = divergence;
                     let here = (east_by_west[j] - west_by_east[j]) * inverse;
                     centre[j] = here;
                     within[j] = scale * gap * law.at(gap * own[j]).0;
-                    pivots[j] = inertia + here;
+                    pivots[j] = storage + here;
                     to_west[j] = -west_by_west[j] * inverse;
                     to_east[j] = east_by_east[j] * inverse;
                 }

@@ -88,24 +88,24 @@ pub fn float(
     cancel: &Cancel,
 ) -> Result<(Periodic, Plan), FloatError> {
     let mut nobody = ();
-    let mut way = Way { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
+    let mut search = GapSearch { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
     if plate.amplitude == 0.0 {
-        return Err(way.rests(0.0, rough));
+        return Err(search.rests(0.0, rough));
     }
     let away = plate.trapped_gap(load).min(HIGHEST) - plate.amplitude;
     // What trapped gas would have, and about the slope of a film between touching and far away.
     let slope = -0.5 - 1.5 * away / (away + plate.amplitude);
-    let roughly = way.seek(away.ln(), slope, rough, ROUGHLY)?;
-    let sought = way.seek(roughly.x, roughly.slope, asked, 0.0)?;
+    let roughly = search.seek(away.ln(), slope, rough, ROUGHLY)?;
+    let sought = search.seek(roughly.x, roughly.slope, asked, 0.0)?;
     let Sought { x, found, plan, .. } = sought;
-    let at = way.at(x);
-    let mut periodic = finish(&turned(&at, &plan), &plan, &found, way.stats);
+    let at = search.at(x);
+    let mut periodic = finish(&turned(&at, &plan), &plan, &found, search.stats);
     let pinned = found.pinned(&plan);
-    drop((found, way.warm.take()));
+    drop((found, search.warm.take()));
     // What converges beside the gap is no part of the answer's convergence.
-    way.observer = &mut nobody;
-    let (mut stiffness, beside) = way.stiffness(x, &pinned)?;
-    periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..way.stats };
+    search.observer = &mut nobody;
+    let (mut stiffness, beside) = search.stiffness(x, &pinned)?;
+    periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..search.stats };
     periodic.stats.steps_per_cycle = pinned.grids.last().map_or(0, |grid| grid.steps);
     let result = &mut periodic.result;
     let off = result.film_load.error + (result.film_load.value - load).abs();
@@ -155,8 +155,8 @@ impl Beside {
     }
 }
 
-/// A search for the gap.
-struct Way<'a> {
+/// The search for the gap at which the film carries the load.
+struct GapSearch<'a> {
     plate: Plate,
     load: f64,
     /// The last solve, to start the next from.
@@ -174,7 +174,7 @@ struct Sought {
     plan: Plan,
 }
 
-impl Way<'_> {
+impl GapSearch<'_> {
     fn at(&self, x: f64) -> Plate {
         Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
     }
@@ -283,10 +283,10 @@ impl Way<'_> {
     fn needed(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> Result<Option<f64>, FloatError> {
         let (plate, spacing) = (self.plate.clone(), self.plate.min_spacing);
         self.warm = None;
-        let carried = |way: &mut Self, amplitude: f64| -> Result<f64, FloatError> {
+        let carried = |search: &mut Self, amplitude: f64| -> Result<f64, FloatError> {
             let plate = Plate { amplitude, mean_gap: amplitude + spacing, ..plate.clone() };
-            let (load, _) = way.solve(&plate, &plan(&plate))?;
-            Ok(load.value / way.load)
+            let (load, _) = search.solve(&plate, &plan(&plate))?;
+            Ok(load.value / search.load)
         };
         let ratio = self.load / (self.plate.gas.ambient_pressure * self.plate.area());
         // No film could carry it with less.

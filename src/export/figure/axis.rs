@@ -41,7 +41,7 @@ impl Axis {
         self
     }
 
-    /// From here to there.
+    /// From the first number to the second.
     #[must_use]
     pub fn fixed(mut self, from: f64, to: f64) -> Self {
         self.range = Range::Fixed(from, to);
@@ -65,11 +65,11 @@ pub(in crate::export) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 
 /// Range of an axis or a colour bar.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Range {
-    /// The data.
+    /// From the least to the greatest value of the data.
     #[default]
     Auto,
-    /// The data and these values.
+    /// Likewise, of the data and these values.
     Including(Vec<f64>),
-    /// From here to there.
+    /// From the first number to the second.
     Fixed(f64, f64),
 }

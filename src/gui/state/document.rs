@@ -1,7 +1,7 @@
 //! The scene being edited: its file, its history of edits, and whether anything is unsaved.
 
 use crate::fidelity::Fidelity;
-use crate::scene::{Scene, SceneError, presets};
+use crate::scene::{Scene, SceneError, presets, show_text};
 use std::path::{Path, PathBuf};
 
 /// Number of edits that can be undone.
@@ -112,6 +112,12 @@ impl Document {
         !self.practice && self.scene != self.saved
     }
 
+    /// The name of the scene, and a dot if there are unsaved changes.
+    pub fn title(&self) -> String {
+        let mark = if self.is_dirty() { " •" } else { "" };
+        format!("{}{mark}", show_text(&self.scene.title(&self.saved)))
+    }
+
     /// Replaces the scene by an edited one. Edits of one `dragging` parameter are undone together.
     pub fn edit(&mut self, next: Scene, key: &'static str, dragging: bool) {
         if next != self.scene {
@@ -196,15 +202,10 @@ impl Document {
     /// If the file cannot be written; nothing changes then.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
-        let original = &self.saved;
-        if self.path.is_none() && scene.changed(original).next().is_some() {
-            if scene.about == original.about {
-                scene.about = format!("Made from {}.", original.name);
-            }
-            if scene.name == original.name {
-                scene.name = format!("{}, changed", original.unchanged_name());
-            }
+        if self.path.is_none() && scene.changed(&self.saved).next().is_some() {
+            scene.made_from(&self.saved);
         }
+        let scene = presets::disclaimed(scene);
         scene.save(path)?;
         self.saved = scene.clone();
         self.scene = scene;
@@ -286,6 +287,20 @@ mod tests {
             assert_eq!(document.scene().about, "Made from Fundamental case.");
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
+        // A copy of a preset, changed in its file or by hand, is no longer what its description claims.
+        let copy = presets::find("fundamental").unwrap();
+        let mut document = Document::opened(copy, Some(path.clone()));
+        document.edit(with_spacing(&document, "150"), "film.min_spacing_nm", false);
+        document.save(&path).unwrap();
+        assert_eq!(document.scene().about, "Made from Fundamental case.");
+        let text =
+            presets::find("fundamental").unwrap().to_toml().replace("min_spacing_nm = 200", "min_spacing_nm = 100");
+        std::fs::write(&path, text).unwrap();
+        let found = presets::find(path.to_str().unwrap()).unwrap();
+        assert_eq!(
+            (found.name.as_str(), found.about.as_str()),
+            ("Fundamental case, changed", "Made from Fundamental case.")
+        );
         // A changed preset that is changed once more is not "changed: 1 key, changed: 1 key".
         let mut again = with_spacing(&document, "130");
         again.retitle(document.scene());

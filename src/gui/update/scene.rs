@@ -97,7 +97,10 @@ impl Updater {
     /// Opens the preset in a file. One that cannot be opened takes nothing away, and a lesson goes on.
     pub(super) fn open_file(&mut self, path: PathBuf) {
         match Scene::load(&path) {
-            Ok(scene) => self.proceed(Next::Given(Box::new(Document::opened(scene, Some(path))))),
+            Ok(scene) => {
+                let document = Document::opened(presets::disclaimed(scene), Some(path));
+                self.proceed(Next::Given(Box::new(document)));
+            }
             Err(error) => self.fail_at(Purpose::Open, &path, error),
         }
     }

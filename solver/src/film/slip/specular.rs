@@ -8,19 +8,19 @@
 //!
 //! to 0.2 % of Q_P. It falls with D, as −ln D towards free molecules, to a constant: that of slip.
 
-/// d₁, d₂, d₃.
+/// d₁, d₂, d₃ of the fit.
 const RANGES: [f64; 3] = [1.335, 0.14, 1.472];
-/// a₀ to a₃ for α = 0.
+/// a₀ to a₃ of the fit, at an accommodation coefficient α of 0.
 const TERMS: [f64; 4] = [1.7651, 0.7453, -0.7838, 0.1894];
-/// By how much they grow with α.
+/// Increase of each of them up to α = 1.
 const GROWTH: [f64; 4] = [0.1369, 0.4021, -0.7898, -1.5492];
 
 /// The excess for one accommodation coefficient.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Specular {
-    /// α d₁.
+    /// Accommodation coefficient α times d₁.
     range: f64,
-    /// (1 − α)/α · aᵢ.
+    /// aᵢ times (1 − α)/α, α being the accommodation coefficient.
     terms: [f64; 4],
 }
 

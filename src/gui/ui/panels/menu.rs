@@ -9,7 +9,7 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::{Kind, Scene, presets, show_text};
+use crate::scene::{Kind, Scene, presets};
 use eframe::egui::{self, Button, Response};
 use std::sync::LazyLock;
 
@@ -50,9 +50,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             item(ui, "About squeezefilm", true, Command::About, cx);
         });
         ui.separator();
-        let mark = if document.is_dirty() { " •" } else { "" };
-        let name = show_text(&document.scene().title(document.saved()));
-        let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
+        let title = ui.add(egui::Label::new(egui::RichText::new(document.title()).strong()).truncate());
         let place = match document.path() {
             Some(path) => path.display().to_string(),
             None if document.practice => "set up by the lesson, to try things on".to_owned(),

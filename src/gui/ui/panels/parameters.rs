@@ -93,7 +93,9 @@ impl Panel<'_> {
                 let area = heading.with_max_x(ui.max_rect().right());
                 let layout = egui::Layout::right_to_left(egui::Align::Center);
                 let values = if changed == 1 { "1 value".to_owned() } else { format!("{changed} values") };
-                let text = format!("{values} changed since it was described");
+                let long = format!("{values} changed since it was described");
+                let fits = NOTE_SIZE * text_width(ui, &long) < area.width() - heading.width();
+                let text = if fits { long } else { format!("{values} changed") };
                 quiet(&mut ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout)), self.cx, &text);
             }
             ui.add_space(2.0);

@@ -5,7 +5,7 @@ use crate::analysis::exact::units;
 use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::{Excess, beside_headline};
-use crate::digits::{capitalised, significant};
+use crate::digits::{capitalised, percent, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::figures::convergence;
@@ -68,7 +68,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 
 fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &MotorResult, cx: &DrawContext<'_>) {
     if result.levitated {
-        banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
+        banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant: the rotor floats on air");
     }
     let top = ui.next_widget_position();
     headline(ui, "α", "α", &shown.text(Alpha), "");
@@ -105,9 +105,9 @@ fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &P
         number(ui, cx, "Natural frequency", &uncertain(floating.natural_frequency), "Hz");
         if let Some(slow) = floating.slow {
             let told = [
-                ("Creeps back in", slow.creep_time.map(|time| time * 1e3), "ms"),
-                ("Swings at", slow.swing_frequency, "Hz"),
-                ("Swing dies out in", slow.swing_decay.map(|time| time * 1e3), "ms"),
+                ("Creep time constant", slow.creep_time.map(|time| time * 1e3), "ms"),
+                ("Swing frequency", slow.swing_frequency, "Hz"),
+                ("Swing time constant", slow.swing_decay.map(|time| time * 1e3), "ms"),
             ];
             for (name, found, unit) in told {
                 if let Some(found) = found {
@@ -240,7 +240,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             // A grid that the time did not suffice for is given up before it has converged.
             let last = run.history.iter().rev().find(|round| round.residual <= round.tolerance);
             let text = last.map_or_else(String::new, |last| {
-                format!(": the last round changed {:.0e}, allowed {:.0e}", last.residual, last.tolerance)
+                let [changed, allowed] = [last.residual, last.tolerance].map(percent);
+                format!(": the last round changed {changed}, allowed {allowed}")
             });
             let mut job = egui::text::LayoutJob::default();
             let font = TextStyle::Body.resolve(ui.style());
@@ -250,7 +251,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             ui.add_space(2.0);
         }
         Status::NotConverged { residual, tolerance } => {
-            let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
+            let [changed, allowed] = [*residual, *tolerance].map(percent);
+            let text = format!("The last round still changed by {changed}, allowed {allowed}");
             banner(ui, cx.colours.alarm, "Not converged", &text);
         }
         Status::NotResolved { .. } => {

@@ -1,7 +1,6 @@
 //! The bottom panel: the timeline of the cycle or of a plate in the hand, and what the solver is doing.
 
-use crate::analysis::quantity::force_unit;
-use crate::digits::duration;
+use crate::digits::{duration, percent};
 use crate::fidelity::Fidelity;
 use crate::gui::command::{Command, HoldCommand};
 use crate::gui::derived::format::{thousands, time};
@@ -12,7 +11,7 @@ use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::keys;
 use crate::platform::SOLVED_HERE;
-use crate::solution::{Outcome, Status, StoppedBy};
+use crate::solution::{Accuracy, Status, StoppedBy};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
 
 /// Seconds on screen for one cycle that can be chosen.
@@ -108,18 +107,13 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let (run, activity) = (cx.state.run.as_deref(), &cx.state.activity);
     ui.horizontal(|ui| {
         if let Some(run) = run {
-            let error = match run.solution.outcome {
-                Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha.error),
-                Outcome::Plate(result) => {
-                    format!("load ± {:.1e} {}", result.film_load.error, force_unit(&run.problem))
-                }
-            };
+            let Accuracy { stated, stopped_by, .. } = run.solution.accuracy;
+            let error = if stated.is_finite() { format!("error {}, ", percent(stated)) } else { String::new() };
             let stale = cx.state.stale(run);
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };
-            let cut =
-                if run.solution.accuracy.stopped_by == StoppedBy::Budget { " as far as time allowed" } else { "" };
+            let cut = if stopped_by == StoppedBy::Budget { " as far as time allowed" } else { "" };
             let took = if run.wall_s < 1.0 { format!("{:.1} ms", 1e3 * run.wall_s) } else { duration(run.wall_s) };
-            let text = format!("Shown: {}{cut}, {ended}{error}, solved{SOLVED_HERE} in {took}", run.fidelity);
+            let text = format!("Shown: {}{cut}, {ended}{error}solved{SOLVED_HERE} in {took}", run.fidelity);
             ui.label(text).explained(ui, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(cx.colours.alarm))),

@@ -6,11 +6,11 @@ use crate::gui::state::document::Next;
 use crate::gui::state::hold::{HoldState, SECONDS};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::parts::number_box;
 use crate::gui::ui::tabs::labels::LOW;
 use crate::gui::ui::{glossary, views};
 use crate::hold::leak_time;
-use crate::scene::quantity_text;
-use eframe::egui::{self, Slider, TextStyle};
+use eframe::egui::{self, DragValue, Slider, TextStyle};
 
 /// Preset that is offered while the scene is a motor.
 const PRESET: &str = "plate-crossover";
@@ -18,8 +18,11 @@ const PRESET: &str = "plate-crossover";
 const SLOW: f64 = 0.85;
 /// Decimals of the gap in µm.
 const GAP_DECIMALS: usize = 3;
-/// Widest slider, and what stands beside either, in heights of the text.
+/// Change of a number over its range, or over itself, for each point that its box is dragged.
+const SPEED: f64 = 5e-3;
+/// Widest and narrowest slider, and what stands beside either, in heights of the text.
 const WIDEST: f32 = 18.0;
+const NARROWEST: f32 = 5.0;
 const BESIDE_GAP: f32 = 18.0;
 const BESIDE_SECONDS: f32 = 21.0;
 
@@ -43,20 +46,18 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 }
 
 fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
-    let em = ui.text_style_height(&TextStyle::Body);
-    // Sliders do not go to the next row: they take what is left of theirs.
-    let room = |ui: &egui::Ui, others: f32| (ui.available_width() - others * em).clamp(2.0 * em, WIDEST * em);
     ui.horizontal(|ui| {
         let [least, most] = hold.reach().map(|gap| gap * 1e6);
         // As the slider rounds it: a plate that falls is not taken in the hand.
         let mut gap = egui::emath::round_to_decimals(hold.target * 1e6, GAP_DECIMALS);
-        ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
         let label = glossary::term(ui, "Gap", "Gap");
-        let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
-        // The plate follows a whole number, not each of its digits.
-        let slider = slider.update_while_editing(false).custom_parser(|text| quantity_text::number("µm", text));
-        let slider = ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓");
-        cx.on_change(&slider, HoldCommand::To(gap * 1e-6));
+        let slider = |gap| Slider::new(gap, least..=most).max_decimals(GAP_DECIMALS).smart_aim(false);
+        let moved = slide(ui, &mut gap, slider, BESIDE_GAP).map(|slider| slider.labelled_by(label.id));
+        let number = DragValue::new(&mut gap).suffix(" µm").max_decimals(GAP_DECIMALS).speed(SPEED * (most - least));
+        let number = number_box(ui, number, (least..=most, "µm"), cx).labelled_by(label.id);
+        for changed in moved.into_iter().chain([number]) {
+            cx.on_change(&changed.hint("Or drag the plate, or press ↑ and ↓"), HoldCommand::To(gap * 1e-6));
+        }
         let floats = hold.plate.load.is_some();
         let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
         let (text, about, vibrates) = match hold.free {
@@ -69,13 +70,29 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     });
     ui.horizontal(|ui| {
         let mut seconds = hold.seconds;
-        ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
         let label = glossary::term(ui, "Leak time takes", "Leak time");
-        let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);
-        let slider = ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is");
-        cx.on_change(&slider, HoldCommand::Seconds(seconds));
+        let slider = |seconds| Slider::new(seconds, SECONDS).logarithmic(true).max_decimals(1);
+        let moved = slide(ui, &mut seconds, slider, BESIDE_SECONDS).map(|slider| slider.labelled_by(label.id));
+        let number = DragValue::new(&mut seconds).suffix(" s").max_decimals(2).speed(SPEED * hold.seconds);
+        let number = number_box(ui, number, (SECONDS, "s"), cx).labelled_by(label.id);
+        for changed in moved.into_iter().chain([number]) {
+            cx.on_change(&changed.hint("How slow the slow motion is"), HoldCommand::Seconds(seconds));
+        }
         glossary::term(ui, format!("slowed {}×", thousands(hold.slowed())), "Slow motion");
     });
+}
+
+/// A slider over what a row has left beside others, so many heights of the text wide; none where that is too short.
+fn slide<'v>(
+    ui: &mut egui::Ui,
+    value: &'v mut f64,
+    slider: impl FnOnce(&'v mut f64) -> Slider<'v>,
+    others: f32,
+) -> Option<egui::Response> {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let room = ui.available_width() - others * em;
+    ui.spacing_mut().slider_width = room.min(WIDEST * em);
+    (room > NARROWEST * em).then(|| ui.add(slider(value).show_value(false)))
 }
 
 /// How slow the slow motion is, in words; and whether this computer keeps up.

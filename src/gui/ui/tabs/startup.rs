@@ -1,6 +1,7 @@
 //! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
 
 use super::dropped;
+use crate::digits::percent;
 use crate::export::startup::unsettled;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::startup::StartupState;
@@ -120,7 +121,11 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
         None => (format!("Cycle {cycles}: {open}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
         Some(Ok(ended)) => match ended.status {
-            Status::Converged => (format!("Cycle {cycles}: repeats within {:.1e}", ended.remaining), cx.colours.good),
+            Status::Converged => {
+                let of_present = !startup.stale(cx.state.document.scene());
+                let colour = if of_present { cx.colours.good } else { cx.colours.quiet };
+                (format!("Cycle {cycles}: repeats within {}", percent(ended.remaining)), colour)
+            }
             Status::Cancelled if cycles == 0 => ("Cancelled in the first cycle".to_owned(), cx.colours.quiet),
             Status::Cancelled => (format!("Cancelled after cycle {cycles}: {open}"), cx.colours.quiet),
             Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {

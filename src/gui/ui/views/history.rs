@@ -5,6 +5,7 @@ use crate::analysis::quantity::{Numbers, Quantity};
 use crate::estimate::Estimate;
 use crate::export::startup::CycleRow;
 use crate::gui::command::StartupCommand;
+use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::span;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
@@ -143,11 +144,10 @@ fn plot(
 
 /// A cycle's numbers in words.
 pub fn words(row: &CycleRow) -> String {
-    let Estimate { value, error } = row.numbers.main();
     let (name, thickness) = match row.numbers.get(Quantity::Alpha) {
-        Some(_) => ("α", format!(", least film thickness {} µm", row.numbers.known(Quantity::MinGap) * 1e-3)),
+        Some(_) => ("α", format!(", least film thickness {} nm", row.numbers.text(Quantity::MinGap))),
         None => ("load ratio", String::new()),
     };
-    let (cycle, pressure) = (row.cycle, row.numbers.text(Quantity::MaxPressure));
-    format!("cycle {cycle}: {name} {value:.4} ± {error:.1e}{thickness}, highest pressure {pressure} kPa absolute")
+    let (cycle, main, pressure) = (row.cycle, row.numbers.main(), row.numbers.text(Quantity::MaxPressure));
+    raised(&format!("cycle {cycle}: {name} {main}{thickness}, highest pressure {pressure} kPa absolute"))
 }

@@ -117,7 +117,8 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
         curve_panel(&swept.sweep, &swept.rows, axis, quantity)
     });
     let mut panel = on_screen_as(&drawn, axis);
-    if let Some(values) = plotted.present {
+    let [from, to] = span(axis.values.iter().copied());
+    if let Some(values) = plotted.present.filter(|values| (from..=to).contains(&values[0])) {
         let style = Style::solid(ACCENT).dash(Dash::DashDot);
         panel = panel.layer(Mark { style, ..Mark::vertical(values[0], "present") });
     }
