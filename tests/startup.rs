@@ -81,6 +81,30 @@ fn a_start_up_ends_at_the_periodic_state() {
 }
 
 #[test]
+fn gas_that_still_leaks_out_slowly_is_not_at_rest() {
+    // It diffuses out of the whole plate, and the slower the longer: changes fall fast at first, as if they were soon over.
+    let changes = [
+        ("plate.length_mm", "10"),
+        ("plate.mean_gap_um", "1"),
+        ("plate.amplitude_um", "0.1"),
+        ("plate.frequency_khz", "100"),
+    ];
+    let problem = problem("plate-crossover", &changes);
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let (cycles, ended) = run(&problem, &settings);
+    assert!(matches!(ended.status, Status::NotConverged { .. }) && cycles.len() == settings.cycles, "{ended:?}");
+    let steady = ended.steady.unwrap();
+    let left = |ended: &Startup| match ended.outcome {
+        Outcome::Plate(result) => (steady.value - result.film_load.value).abs() / steady.value,
+        Outcome::Motor(_) => panic!("a plate"),
+    };
+    assert!(left(&ended) > 0.3 && (0.9..1.1).contains(&(ended.remaining / left(&ended))), "{ended:?}");
+    let (_, ended) = run(&problem, &Settings { cycles: 20_000, tolerance: 1e-2, ..settings });
+    assert_eq!(ended.status, Status::Converged, "{ended:?}");
+    assert!(ended.cycles > 1000 && left(&ended) < 0.02, "{ended:?}");
+}
+
+#[test]
 fn cycles_follow_each_other_without_a_gap() {
     let problem = problem("fundamental", &[]);
     let (cycles, _) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 3, ..Settings::default() });

@@ -414,4 +414,11 @@ fn what_does_not_converge_is_marked_and_the_rest_goes_on() {
     assert!(object["rows"][0]["residual"].as_f64() > object["rows"][0]["tolerance"].as_f64());
     assert_eq!(object["rows"][1]["status"], "converged");
     assert!(object["rows"][1][Quantity::Alpha.name()].is_number());
+    // A solve says the same.
+    let scene = ["fundamental", "--json", "--set=numerics.time=trapped", "--set=film.min_spacing_nm=5000"];
+    let swept = run(&[&["sweep", "--vary=motor.load_per_wave_n=2,3"], &scene[..]].concat(), None);
+    let solved = run(&[&["solve", "--set=motor.load_per_wave_n=2"], &scene[..]].concat(), None);
+    let [swept, solved]: [Value; 2] = [&swept, &solved].map(|output| serde_json::from_slice(&output.stdout).unwrap());
+    assert_eq!(solved["status"], "not resolved");
+    assert_eq!(swept["rows"][0]["status"], solved["status"]);
 }

@@ -409,3 +409,34 @@ fn the_error_of_a_rotor_reaches_what_contact_alone_gives() {
         assert!(found.error > share * error * found.value, "{found}");
     }
 }
+
+#[test]
+fn a_contact_narrower_than_the_nodes_are_apart_may_be_anywhere_between_them() {
+    // Crowned teeth on a rotor without local compliance touch at a point, which all grids of a draft have at the same node.
+    let set = [
+        ("film.min_spacing_nm", "126"),
+        ("stator.frequency_khz", "6.247"),
+        ("motor.load_per_wave_n", "0.304"),
+        ("stator.normal_amplitude_um", "0.74"),
+        ("stator.tangential_amplitude_um", "1.3"),
+        ("stator.teeth_per_wave", "3"),
+        ("motor.waves", "3"),
+        ("motor.contact_radius_mm", "58.9"),
+        ("stator.tooth_share", "0.418"),
+        ("stator.tooth_radius_m", "13.6"),
+        ("rotor.contact_width_mm", "0.081"),
+        ("rotor.decay_length_mm", "7.7"),
+        ("rotor.point_compliance_um_per_n", "1.24"),
+        ("rotor.local_compliance_m2_per_n", "0"),
+    ];
+    let of = |fidelity| solved("fundamental", &set, fidelity).merit.without_film;
+    let reference = of(Fidelity::Reference);
+    let (sought, wanted) = (reference.no_load_speed.unwrap(), reference.max_power);
+    for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+        let found = of(fidelity);
+        for (found, exact) in [(found.no_load_speed.unwrap(), sought), (found.max_power, wanted)] {
+            let off = (found.value - exact.value).abs();
+            assert!(off <= found.error && found.error < 0.1 * found.value, "{fidelity}: {found}, {exact}");
+        }
+    }
+}

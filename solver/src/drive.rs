@@ -308,7 +308,8 @@ pub struct Scaled<'a> {
     load: Estimate,
     /// Safety factor on the differences of shapes.
     doubt: f64,
-    /// Relative error of shapes that no grid shows: what is left out of the film, and that of the rotor's compliance.
+    /// Relative error of shapes that no grid shows: what is left out of the film, that of the rotor's compliance, and where between nodes a
+    /// contact is.
     unseen: f64,
 }
 
@@ -353,7 +354,8 @@ impl<'a> Scaled<'a> {
             _ => Vec::new(),
         };
         let drive = lossless(dry.last().map(Drive::new).unwrap_or_default());
-        Self { motor, drive, others, load: Estimate::exact(motor.load), doubt: DRY, unseen: rotor_error }
+        let unseen = rotor_error + dry.last().map_or(0.0, |finest| TAU * between_nodes(finest));
+        Self { motor, drive, others, load: Estimate::exact(motor.load), doubt: DRY, unseen }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
@@ -475,6 +477,21 @@ impl<'a> Scaled<'a> {
             curve: speeds.iter().map(|speed| self.point(*speed)).collect(),
         }
     }
+}
+
+/// Mean length, over the wavelength, that nodes stand for which touch alone, weighted by the load of all contact: a contact that is narrower than
+/// that may be anywhere in it, and grids of which all have it at the same node do not tell. Where the end of a tooth is, is known.
+fn between_nodes(loads: &LineLoads) -> f64 {
+    let (mut alone, mut all) = (0.0, 0.0);
+    for line in loads.contact.chunks_exact(loads.x.len()) {
+        for (i, (contact, length)) in line.iter().zip(&loads.node_length).enumerate() {
+            all += contact * length;
+            if i > 0 && i + 1 < line.len() && line[i - 1] <= 0.0 && line[i + 1] <= 0.0 {
+                alone += contact * length * length;
+            }
+        }
+    }
+    if all > 0.0 { alone / (all * loads.length) } else { 0.0 }
 }
 
 fn greatest_error(shares: &[Estimate]) -> f64 {

@@ -36,7 +36,8 @@ pub struct Cycle {
     /// Largest change of ln Z from its beginning to its end.
     pub change: f64,
     /// By how much ln Z may still change until the cycle repeats, or α or a plate's mean load as a share of itself (of its unit, if it is
-    /// smaller), if that is more: if changes go on to shrink as they did; infinite at first.
+    /// smaller), if that is more: if changes go on to shrink as they did, and at least as far as the periodic state is away, beyond what
+    /// either is inexact by. Infinite at first.
     pub remaining: f64,
     /// Fields; the first frame is the beginning of the cycle.
     pub recording: Recording,
@@ -251,6 +252,8 @@ impl<'a> Way<'a> {
         }
         let tolerance = self.settings.tolerance;
         let (mut last, mut before) = (f64::INFINITY, 0.0);
+        // Where the last cycle is marched again it may turn out not to be the last.
+        let again = again.filter(|cycles| *cycles < self.errors.len());
         for number in 1..=again.unwrap_or(self.settings.cycles) {
             let turned = transient.cycle(&mut stats, cancel)?;
             self.stats = stats;
@@ -271,6 +274,16 @@ impl<'a> Way<'a> {
             } else {
                 f64::INFINITY
             };
+            let towards = self.steady.filter(|_| number > 1).map_or(0.0, |steady| {
+                let (moving, left) = (value - before, steady.value - value);
+                // A motor may have two states, and come to rest in the other one.
+                let motor = matches!(self.problem.scenario, Scenario::Motor(_));
+                let rests = moved < tolerance / self.settings.cycles as f64;
+                let other = motor && (moving * left <= 0.0 || rests);
+                let known = steady.error.abs() + error.min(self.unit);
+                if other { 0.0 } else { (left.abs() - known).max(0.0) / self.steady_unit.max(value.abs()) }
+            });
+            let remaining = remaining.max(towards);
             (last, before) = (change, value);
             let error = (error, elsewhere);
             if number > self.errors.len() {
@@ -284,7 +297,7 @@ impl<'a> Way<'a> {
             }
             let recording = Recording { transient: true, ..recording };
             (self.each)(Cycle { number, outcome, change, remaining, recording });
-            if again.is_none() && remaining < tolerance {
+            if again.is_none() && number == self.errors.len() && remaining < tolerance {
                 break;
             }
         }

@@ -16,6 +16,8 @@ pub enum RunStatus {
     Converged,
     /// A limit was reached first; the numbers are what was reached.
     NotConverged,
+    /// The cycle repeats, but the stated error of the headline is as large as itself.
+    NotResolved,
     /// It was cancelled, because it took longer than it was given.
     GivenUp,
     /// There is no solution, and why.
@@ -26,7 +28,8 @@ impl From<Status> for RunStatus {
     fn from(status: Status) -> Self {
         match status {
             Status::Converged => Self::Converged,
-            Status::NotConverged { .. } | Status::NotResolved { .. } => Self::NotConverged,
+            Status::NotConverged { .. } => Self::NotConverged,
+            Status::NotResolved { .. } => Self::NotResolved,
             Status::Cancelled => Self::GivenUp,
         }
     }
@@ -39,6 +42,7 @@ impl std::fmt::Display for RunStatus {
             Self::Waiting => f.write_str("waiting"),
             Self::Converged => f.write_str("converged"),
             Self::NotConverged => f.write_str("not converged"),
+            Self::NotResolved => f.write_str("not resolved"),
             Self::GivenUp => f.write_str("given up"),
             Self::Failed(reason) => write!(f, "failed: {reason}"),
         }

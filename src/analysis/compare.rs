@@ -183,7 +183,7 @@ pub struct ResultCell {
     pub found: Option<Estimate>,
     /// That unit; empty for a pure number.
     pub unit: &'static str,
-    /// By how much it exceeds that of the first run \[%\], with both errors added up \[percentage points\]; of the first run itself, of one in another
+    /// By how much it exceeds that of the first run \[% of its size\], with both errors added up \[percentage points\]; of the first run itself, of one in another
     /// unit, and where the first is nothing but its error, `None`.
     pub difference_percent: Option<Estimate>,
 }
@@ -229,7 +229,7 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()
 }
 
-/// 100 (b/a − 1), and the sum of what the two errors make of it.
+/// 100 (b − a)/|a|, and the sum of what the two errors make of it.
 fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
     // Of what may be nothing at all there is no share; an error that is not known hides nothing.
     if a.value.abs() <= a.error.max(0.0) {
@@ -237,7 +237,8 @@ fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
     }
     let ratio = b.value / a.value;
     let error = 100.0 * (b.error.abs() + ratio.abs() * a.error.abs()) / a.value.abs();
-    Some(Estimate { value: 100.0 * (ratio - 1.0), error }).filter(|found| found.value.is_finite())
+    let value = 100.0 * (ratio - 1.0) * a.value.signum();
+    Some(Estimate { value, error }).filter(|found| found.value.is_finite())
 }
 
 #[cfg(test)]
@@ -269,5 +270,8 @@ mod tests {
         let found = difference(unknown(2.0), with(3.0, 0.1)).unwrap();
         assert!(found.value == 50.0 && found.error.is_nan());
         assert_eq!(difference(with(2.0, 0.1), with(2.0, 0.1)), Some(with(0.0, 10.0)));
+        // Deeper suction is less.
+        assert_eq!(difference(with(-2.0, 0.0), with(-3.0, 0.0)), Some(with(-50.0, 0.0)));
+        assert_eq!(difference(with(-2.0, 0.0), with(1.0, 0.0)), Some(with(150.0, 0.0)));
     }
 }

@@ -80,7 +80,7 @@ impl From<&RunStatus> for Exit {
     fn from(status: &RunStatus) -> Self {
         match status {
             RunStatus::Converged => Self::Solved,
-            RunStatus::NotConverged => Self::NotConverged,
+            RunStatus::NotConverged | RunStatus::NotResolved => Self::NotConverged,
             RunStatus::Waiting | RunStatus::GivenUp | RunStatus::Failed(_) => Self::Other,
         }
     }

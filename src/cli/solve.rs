@@ -9,6 +9,7 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::check_for_results;
 use crate::control::Cancel;
+use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
@@ -21,6 +22,9 @@ use clap::Args;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Time for the numbers without film that is told \[s\].
+const LONG_CURVES: f64 = 1.0;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -151,6 +155,11 @@ fn one(
     let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
     result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
+    // Usually as good as nothing.
+    let curves_s = started.elapsed().as_secs_f64() - wall_s;
+    if curves_s > LONG_CURVES {
+        terminal::note(&format!("the numbers without film took another {}", duration(curves_s)));
+    }
     for warning in &result.warnings {
         terminal::warning(warning);
     }

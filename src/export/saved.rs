@@ -122,6 +122,7 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
         let status = match field(column) {
             "converged" => RunStatus::Converged,
             "not converged" => RunStatus::NotConverged,
+            "not resolved" => RunStatus::NotResolved,
             other => match other.strip_prefix("failed: ") {
                 Some(reason) => RunStatus::Failed(reason.to_owned()),
                 None => return Err(damaged(line, format!("status = {other}"))),

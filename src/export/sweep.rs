@@ -254,7 +254,7 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
         .filter(|row| row.status != RunStatus::Converged)
         .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
         .collect();
-    panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
+    panel = with_points(panel, "not converged or not resolved", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let value = |point: &Published| match quantity {
         Quantity::Alpha => Some(point.alpha),
         Quantity::FilmLoad => Some(point.film_load),
@@ -310,7 +310,8 @@ pub(crate) fn map_panel(
     let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
     let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
-    let panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
+    let panel =
+        with_points(panel, "not converged or not resolved", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
     let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
     with_points(panel, "rows of Table I", published, Colour::BLACK, Marker::hollow(Shape::Square))

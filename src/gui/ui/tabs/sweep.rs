@@ -157,7 +157,7 @@ fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
     }
     let unsound = || swept.rows.iter().filter(|row| row.status != RunStatus::Converged);
     let count = |failed: bool| unsound().filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed).count();
-    for (number, what) in [(count(false), "did not converge"), (count(true), "have no solution")] {
+    for (number, what) in [(count(false), "are not converged or not resolved"), (count(true), "have no solution")] {
         if number > 0 {
             cx.note(ui, format!("{number} of the points {what}: crosses, point at one to read why"));
         }
