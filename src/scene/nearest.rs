@@ -1,7 +1,7 @@
 //! The known name nearest to a mistyped one.
 
 /// Least similarity (Jaro–Winkler, 0 to 1) of a name that is offered in place of another one.
-const ALIKE: f64 = 0.78;
+const ALIKE: f64 = 0.76;
 
 /// Longest name that is compared with others \[bytes\], because the time of a comparison is proportional to both lengths.
 const LONGEST: usize = 100;
