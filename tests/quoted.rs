@@ -19,6 +19,9 @@
 #[path = "../examples/error_coverage.rs"]
 mod error_coverage;
 #[allow(dead_code, reason = "its main is not called")]
+#[path = "../examples/schemes.rs"]
+mod schemes;
+#[allow(dead_code, reason = "its main is not called")]
 #[path = "../examples/validation.rs"]
 mod validation;
 
@@ -132,6 +135,7 @@ fn output(command: &str) -> String {
     if let Some(example) = command.strip_prefix(EXAMPLE) {
         let words: Vec<String> = example.split_whitespace().map(str::to_owned).collect();
         return match words[0].as_str() {
+            "schemes" => schemes::report().unwrap(),
             "error_coverage" => error_coverage::report(&words[1..]).unwrap().0,
             "validation" => validation::report(&words[1..]).unwrap(),
             other => panic!("{other} is no example that can be quoted"),
