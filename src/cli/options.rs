@@ -305,9 +305,9 @@ impl CommonOptions {
         &'a self,
         command: &'a [String],
     ) -> Result<(Option<Folder<'a>>, Settings, Cancel), CliError> {
-        let folder = self.output.folder(command)?;
+        // Interrupted from here on, it leaves nothing behind.
         let (settings, cancel) = self.solve.begin()?;
-        Ok((folder, settings, cancel))
+        Ok((self.output.folder(command)?, settings, cancel))
     }
 }
 

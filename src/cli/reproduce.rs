@@ -45,8 +45,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if arguments.solve.method.is_some() {
         return Err(CliError::usage("reproduce solves by both methods: leave --method out"));
     }
-    let Some(folder) = arguments.output.folder(command)? else { return Err(CliError::usage("give --out")) };
     let (settings, cancel) = arguments.solve.begin_with(Fidelity::Fine, Method::Auto)?;
+    let Some(folder) = arguments.output.folder(command)? else { return Err(CliError::usage("give --out")) };
     let started = Instant::now();
     let bar = Bar::points(number_of_solves(), 0);
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));

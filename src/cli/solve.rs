@@ -9,7 +9,6 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::check_for_results;
 use crate::control::Cancel;
-use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
@@ -22,9 +21,6 @@ use clap::Args;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// Time for the numbers without film that is told \[s\].
-const LONG_CURVES: f64 = 1.0;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -72,8 +68,8 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scenes = arguments.common.scene.scenes(&arguments.presets)?;
     let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
-    let folder = arguments.common.output.folder_of_fields(command)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
+    let folder = arguments.common.output.folder_of_fields(command)?;
     let several = scenes.len() > 1;
     if several {
         // Before the first is solved.
@@ -155,11 +151,6 @@ fn one(
     let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
     result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
-    // Usually as good as nothing.
-    let curves_s = started.elapsed().as_secs_f64() - wall_s;
-    if curves_s > LONG_CURVES {
-        terminal::note(&format!("the numbers without film took another {}", duration(curves_s)));
-    }
     for warning in &result.warnings {
         terminal::warning(warning);
     }

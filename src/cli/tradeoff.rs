@@ -63,9 +63,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problem = Problem::try_from(&scene)?;
     arguments.memory.apply();
     check(&problem, &Settings::default())?;
+    let cancel = cancel_on_interrupt();
     let folder = arguments.output.folder(command)?;
     let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
-    let cancel = cancel_on_interrupt();
     let bar = Bar::solve("");
     let started = Instant::now();
     let clock = || started.elapsed().as_secs_f64();
