@@ -135,7 +135,7 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
     LEAK_EFFECT * open * layer / length
 }
 
-/// Effect of the wedge term, relative to α, the sum of four:
+/// Effect of the wedge term, relative to α, the sum of three, times how much more gas rough faces drag in:
 ///
 /// * Λ/σ = U/(2ωb) for what it carries over the ends of a tooth, and U k h/(2ωA) for what it squeezes, by how much ∂x(hU/2)
 ///   adds to the wave's ∂h/∂t, h being the mean gap: the larger of the two;
