@@ -16,7 +16,7 @@ use std::path::PathBuf;
 
 /// Solves a preset and writes one cycle as an animation: GIF, MP4, animated PNG, or a folder of PNG
 ///
-/// An MP4 holds AV1 video, and the cycle as often as makes twelve seconds: players do not repeat by themselves.
+/// An MP4 holds AV1 video and repeats the cycle to fill twelve seconds, as players do not loop by themselves.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm animate fundamental --out wave.gif
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 
-    /// Pixels across
+    /// Width in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = whole::<u32>(100..=4000))]
     width: u32,
 
@@ -39,8 +39,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = within(0.2..=120.0, "a number of seconds"))]
     seconds: f64,
 
-    /// At most this many frames, so that they divide the solve's time steps evenly; an MP4 has at least 24 a second, between
-    /// time steps if need be, unless fewer than 60 are asked for
+    /// Maximum number of frames; the number used divides the time steps evenly. An MP4 has at least 24 a second, between time
+    /// steps if needed, unless fewer than 60 are asked for
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u16>(2..=1000))]
     frames: u16,
 

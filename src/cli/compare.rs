@@ -34,7 +34,7 @@ Files of --out:
   compare.json     what --json prints
   cycle.gif        one cycle of all runs in phase
   waves, loads, torque, maps, teeth (.svg .png)
-                   figures, runs laid over each other; of plates
+                   figures of all runs overlaid; for plates
                    profiles, loads, loops, maps";
 
 /// Solves several presets and shows them side by side, with differences against the first
@@ -43,7 +43,7 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; of one alone a report
+    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; one alone gives a report
     #[arg(value_name = "PRESET", required = true, num_args = 1..)]
     presets: Vec<String>,
 

@@ -9,7 +9,7 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// Prints what a shell completes commands and options from
+/// Prints a completion script for a shell
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm completions bash > ~/.local/share/bash-completion/completions/squeezefilm
@@ -19,12 +19,12 @@ pub(super) struct CompletionsArguments {
     shell: Shell,
 }
 
-/// Writes a page for man for every command
+/// Writes a man page for every command
 #[derive(Debug, Args)]
 #[command(after_help = "Example:
   squeezefilm man ~/.local/share/man/man1")]
 pub(super) struct ManArguments {
-    /// Folder that the pages are written into
+    /// Folder for the pages
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }

@@ -33,31 +33,31 @@ Examples:
 const DATA: &str = "\
 A table of measurements is a CSV file. Its first line names the columns:
   film.min_spacing_nm   a key of the scene: the condition under which the
-                        line was measured; there it is known, also if --vary
-                        chooses it where the cell is empty
-  film_load_n           a number of a solve, by its name in --json: measured
+                        line was measured; --vary chooses the key only where
+                        the cell is empty
+  film_load_n           a measured result, by its name in --json
   rotor_speed_rpm, torque_nm
-                        torque of the ring at a speed of its rotor; all lines
+                        torque of the ring at a rotor speed; all lines
                         of one condition share one solve
   film_load_n_error     the standard error of a measured column
   weight                how much the line counts, where errors are not known
-  row, name, note       words
-Empty cells were not measured, or leave the condition as the preset has it.
-Without errors those of a column are taken to be equal, and their size is
-estimated from the residuals.
+  row, name, note       text
+Empty cells were not measured, or leave the condition as in the preset.
+If no errors are given, those of a column are taken to be equal, and their
+size is estimated from the residuals.
 
 Files of --out:
   fit.json     what --json prints
   fit.csv      measured, computed, residual: a row for each measurement
   fit, residuals, correlation (.svg .png)
-               figures; of an optimum lines through it: optimum.csv and
+               figures; for an optimum, lines through it: optimum.csv and
                optimum (.svg .png)
   fitted.toml  the preset with the values found";
 
-/// Chooses keys of a preset to agree with measurements, or to make one number as large or as small as it can be
+/// Fits keys of a preset to measurements, or finds their values that maximise or minimise one result
 ///
-/// A fit minimises the sum of ((computed − measured)/error)² within the bounds by least squares, and states values, standard errors,
-/// correlations and residuals. The table of measurements `table1` is part of the program: Table I of Maeno and Bogy (1992).
+/// A fit minimises the sum of ((computed − measured)/error)² within the bounds by least squares, and reports values, standard errors,
+/// correlations and residuals. `table1` is a built-in table of measurements: Table I of Maeno and Bogy (1992).
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLES,
@@ -72,10 +72,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "subject_to")]
     data: Option<String>,
 
-    /// A key to choose, with its bounds in the unit of the key or another of its kind; may be repeated
+    /// A key to vary, with bounds in the key's unit or another of its kind; may be repeated
     ///
-    /// The search begins at the value that the preset has, or --set gives. Bounds with a ratio of ten or more are searched by equal
-    /// ratios; :log and :lin say so for any.
+    /// The search begins at the value in the preset or from --set. Bounds with a ratio of ten or more are searched on a log
+    /// scale; :log and :lin override this.
     #[arg(long, value_name = "KEY=FROM:TO[:log]", required = true)]
     vary: Vec<Bounds>,
 
@@ -87,19 +87,19 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LINE", conflicts_with_all = ["maximise", "minimise"])]
     skip: Vec<String>,
 
-    /// Number of starts: the preset's own values, and points spread over the bounds, of which the best three are refined
+    /// Number of starts: the values of the preset, which are refined, and points spread over the bounds, of which the best three are
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS))]
     starts: u16,
 
-    /// Looks for the greatest value of a number, by its name in --json
+    /// Maximises this result, by its name in --json
     #[arg(long, value_name = "NAME")]
     maximise: Option<String>,
 
-    /// Looks for the least value of a number
+    /// Minimises this result
     #[arg(long, value_name = "NAME")]
     minimise: Option<String>,
 
-    /// A limit on another number, of an optimum: alpha<0.3 or stall_torque_nm>0.2; may be repeated
+    /// A limit on another result at the optimum: alpha<0.3 or stall_torque_nm>0.2; may be repeated
     #[arg(long, value_name = "NAME<VALUE")]
     subject_to: Vec<Limit>,
 

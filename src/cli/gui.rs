@@ -9,7 +9,7 @@ use crate::scene::presets::BUILT_IN;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Opens the window (as without any command), on a preset or on the scene that was last open
+/// Opens the window (as with no command), on a preset or on the scene that was last open
 #[derive(Debug, Default, Args)]
 #[command(after_help = "Examples:
   squeezefilm

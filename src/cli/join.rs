@@ -18,8 +18,8 @@ Examples:
   squeezefilm join a/sweep.part-1-of-2.csv b/sweep.part-2-of-2.csv --json";
 
 const FILES: &str = "\
-Files of --out: those of squeezefilm sweep, byte by byte what one machine
-would have written.";
+Files of --out: those of squeezefilm sweep, byte for byte what one machine
+would write.";
 
 /// Joins the parts of a sweep that were solved with sweep --part
 #[derive(Debug, Args)]

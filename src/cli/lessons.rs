@@ -12,7 +12,7 @@ use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
-/// Tries lessons of your own, prints lessons on paper, and sums up what a class saved
+/// Checks your lessons, prints lessons on paper, and sums up the records of a class
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm lessons check my-course
@@ -26,13 +26,13 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Reads the lessons of a folder and tries every task: try has to fulfil its check, wrong must not
+    /// Reads the lessons in a folder and tests every task: try must fulfil its check, wrong must not
     Check {
         /// A folder of lessons, or one lesson
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
-    /// Writes sheets to work on and sheets with the answers, as HTML and PDF, a page for each lesson
+    /// Writes worksheets and answer sheets as HTML and PDF, a page for each lesson
     Print {
         /// A folder of lessons, or one lesson; without it, the built-in lessons
         #[arg(value_name = "DIR")]
@@ -41,7 +41,7 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "handouts")]
         out: PathBuf,
     },
-    /// Writes a page on the answers of a class, from the records that students saved as CSV
+    /// Writes a page summing up a class's answers, from records that students saved as CSV
     Summary {
         /// Records, one for each student
         #[arg(value_name = "FILE", required = true)]

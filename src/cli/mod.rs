@@ -40,16 +40,16 @@ use std::{panic, thread};
 
 /// The squeezed air film of an ultrasonic motor, solved.
 ///
-/// Between the vibrating teeth of a ring-type ultrasonic motor and its rotor a film of air is squeezed tens of thousands
-/// of times a second. It carries part of the axial load (the share α) and takes that much friction, hence torque, away.
+/// The film of air between the vibrating teeth of a ring-type ultrasonic motor and its rotor is squeezed tens of thousands
+/// of times a second. It carries part of the axial load (the share α) and reduces friction, hence torque, by that share.
 /// squeezefilm solves the film (compressible Reynolds equation with slip), the elastic rotor and the unilateral contact
-/// together for the periodic steady state, with an estimate of the numerical error of every α.
+/// together for the periodic steady state, and estimates the numerical error of every α.
 #[derive(Debug, Parser)]
 #[command(name = "squeezefilm", version)]
 #[cfg_attr(not(feature = "gui"), command(arg_required_else_help = true, subcommand_required = true))]
 #[command(after_help = AFTER)]
 struct Cli {
-    /// Nothing on standard error but warnings and errors
+    /// Only warnings and errors on standard error
     #[arg(long, global = true)]
     quiet: bool,
 
@@ -103,7 +103,7 @@ Exit status:
   0  solved
   2  bad input: the key, its value and the allowed range are named
   3  not converged, or not resolved (the stated error of α, or of a plate's load, is as large as
-     the value, and not negligible): what was reached is reported, and marked
+     the value, and not negligible): the last result is reported, and marked
   1  anything else, Ctrl-C included
 141  standard output was closed before all was written; the files of --out are complete";
 

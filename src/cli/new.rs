@@ -25,11 +25,11 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
-    /// The preset file to write; without one it goes to standard output
+    /// The preset file to write; without it, to standard output
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
 
-    /// Replaces a file that is there
+    /// Replaces an existing file
     #[arg(long, requires = "file")]
     replace: bool,
 

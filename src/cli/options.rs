@@ -25,9 +25,9 @@ use std::time::Duration;
 /// Changes to a scene.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct SceneOptions {
-    /// Changes a key of the scene, dotted as in the file; may be repeated
+    /// Changes a key of the scene, written as TABLE.KEY; may be repeated
     ///
-    /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. A number may have another unit of the
+    /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. A number may use another unit of its
     /// kind: --set film.min_spacing_nm=0.1um. `none` removes an optional key. All changes are applied together, in any order.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
     pub(super) changes: Vec<(String, String)>,
@@ -99,19 +99,19 @@ fn from_standard_input() -> Result<Scene, CliError> {
 /// How exact a result is to be, and how long that may take.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(super) struct AccuracyOptions {
-    /// How exact the result is to be: a name for an accuracy
+    /// Accuracy of the result, by name
     #[arg(long, value_name = "LEVEL", value_parser = fidelity(), conflicts_with = "accuracy", long_help = fidelity_help())]
     fidelity: Option<Fidelity>,
 
-    /// How exact the result is to be, as a number: 0.1% or 0.001
+    /// Accuracy of the result, as a number: 0.1% or 0.001
     ///
-    /// Grids are refined until the stated error is that small, or a limit of the work is reached; the result states the error that it has.
+    /// Grids are refined until the stated error is that small, or until the work reaches a limit. The result states its error.
     #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true)]
     accuracy: Option<Fidelity>,
 
-    /// Time for each solve: 20ms, 1.5s or 2min; then the best so far is the result
+    /// Time limit per solve: 20ms, 1.5s or 2min; the best result by then is kept
     ///
-    /// Without an accuracy, that of `reference` is aimed at.
+    /// Without an accuracy, the aim is that of `reference`.
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_hyphen_values = true)]
     pub(super) budget: Option<Duration>,
 }
@@ -134,10 +134,10 @@ pub(super) struct SolveOptions {
     #[command(flatten)]
     pub(super) accuracy: AccuracyOptions,
 
-    /// Which algorithm
+    /// The algorithm
     ///
-    /// auto solves only what the scene needs; paper is the algorithm of Maeno and Bogy (1992) at its own meshes, kept as
-    /// the yardstick.
+    /// auto solves only what the scene needs; paper is the algorithm of Maeno and Bogy (1992) on its own meshes, kept for
+    /// comparison.
     #[arg(long, value_name = "METHOD", value_parser = method())]
     pub(super) method: Option<Method>,
 
@@ -210,10 +210,10 @@ pub(super) fn cancel_on_interrupt() -> Cancel {
 /// How much memory solving may take.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct MemoryOptions {
-    /// Most memory that solving may take, as in 4GB or 500MB [default: a quarter of this machine's]
+    /// Memory limit for solving, as in 4GB or 500MB [default: a quarter of this machine's]
     ///
-    /// What a scene needs follows from its grid and steps, and is compared with this before anything is solved. Solves that run
-    /// at the same time share it.
+    /// What a scene needs follows from its grid and steps, and is checked against this before anything is solved. Simultaneous
+    /// solves share the limit.
     #[arg(long, value_name = "SIZE", value_parser = memory_size)]
     memory: Option<u64>,
 }
@@ -251,11 +251,11 @@ pub(super) struct OutputOptions {
     #[arg(long)]
     pub(super) json: bool,
 
-    /// Writes files into this folder, made if need be; files of the same name are replaced
+    /// Writes files into this folder, made if needed; files of the same name are replaced
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 
-    /// Formats of the figures in --out: svg, png, pdf; none for no figures; of solve also vtk, the film at every instant for ParaView
+    /// Formats of the figures in --out: svg, png, pdf; none for no figures; for solve also vtk, the film at each instant for ParaView
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
     figures: Vec<String>,
 }
@@ -355,9 +355,9 @@ fn fidelity_help() -> String {
     format!(
         "Accuracy level\n\n\
          Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
-         a limit of the work is reached; the result states the error that it has. Where the film carries less than a hundredth of the \
+         until the work reaches a limit. The result states its error. Where the film carries less than a hundredth of the \
          load, the error is compared with that hundredth instead.\n\n\
-         [default: {}; of table1 and reproduce fine; of the window the last choice made there, which this option replaces]",
+         [default: {}; for table1 and reproduce fine; in the window the last choice there, which this option replaces]",
         named.join(", "),
         Fidelity::default()
     )

@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", requires = "preset", conflicts_with = "json")]
     out: Option<PathBuf>,
 
-    /// Replaces a file that is there
+    /// Replaces an existing file
     #[arg(long, requires = "out")]
     replace: bool,
 

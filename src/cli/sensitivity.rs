@@ -31,27 +31,27 @@ Files of --out:
   sensitivity.json  what --json prints
   sensitivity.svg   a tornado chart for each result; and sensitivity.png
   monte-carlo.csv   with --monte-carlo: a row for each draw, its results with their errors; and monte-carlo.svg, a histogram of each result, and .png
-  scene.toml        the scene: a preset again";
+  scene.toml        the scene, as a preset";
 
-/// Tells how much the results depend on each parameter, and how uncertain they are if the parameters are
+/// Shows how the results depend on each parameter, and how parameter uncertainties affect them
 ///
-/// Derivatives of α, stall torque and no-load speed (of a plate: load, stiffness and damping) by every key that is a number, from solves
-/// on one set of grids. Each comes with its own error. 1 % of a temperature is 1 % of the kelvins. Uncertainties of the parameters become
-/// one of the results, kept apart from the numerical error.
+/// Derivatives of α, stall torque and no-load speed (for a plate: load, stiffness and damping) with respect to every numeric key, from
+/// solves on one set of grids. Each has its own error. 1 % of a temperature is 1 % of its value in kelvins. Parameter
+/// uncertainties give an uncertainty of each result, apart from the numerical error.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
-    /// Only these keys, divided by commas [default: all that act, whole numbers left out]
+    /// Only these keys, separated by commas [default: all in use, except whole numbers]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     keys: Vec<String>,
 
     /// Uncertainty of a key; may be repeated
     ///
-    /// A standard deviation in the unit of the key or in per cent of its value: film.min_spacing_nm=20% or =40. With ± in front they are
-    /// limits, and all values between are equally likely. Keys are independent of each other.
+    /// A standard deviation in the unit of the key or in per cent of its value: film.min_spacing_nm=20% or =40. With ± in front it is
+    /// a limit, and all values between are equally likely. Keys are independent of each other.
     #[arg(long = "uncertainty", value_name = "KEY=AMOUNT", value_parser = uncertainty)]
     uncertainties: Vec<(String, Uncertainty)>,
 
@@ -59,7 +59,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", requires = "uncertainties", value_parser = whole::<u32>(2..=1_000_000))]
     monte_carlo: Option<u32>,
 
-    /// Where the random numbers begin: the same seed draws the same scenes
+    /// Seed of the random numbers: the same seed draws the same scenes
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "monte_carlo")]
     seed: u64,
 

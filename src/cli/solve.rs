@@ -33,14 +33,14 @@ Examples:
 const FILES: &str = "\
 Files of --out, with the unit in every column's name:
   summary.json   what --json prints
-  scene.toml     the scene as solved, changes included: a preset again
+  scene.toml     the scene as solved, changes included, as a preset
   series.csv     loads, teeth in contact, least film thickness and
                  highest pressure, over one cycle
   fields.csv     surfaces, film thickness and line loads at every node of
                  every tooth, over one cycle; a line load × length_m,
-                 summed over one time_s, is the load in series.csv
+                 summed at one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
-  fields.npz     all of these fields as NumPy arrays: numpy.load
+  fields.npz     all these fields as NumPy arrays (numpy.load)
   torque.csv     torque, power and efficiency of a motor over the speed of
                  its rotor, with the film and without (dry_)
   wave, loads, map, torque, convergence (.svg .png)
@@ -48,16 +48,16 @@ Files of --out, with the unit in every column's name:
                  wave, loads over the cycle, pressure map, torque and
                  power over speed, rounds of the solve
   profile, loads, loop, map, exact, convergence (.svg .png)
-                 figures of a plate; exact: beside what is known exactly
-Of a symmetric film only the half that was solved is there: y_m >= 0,
-and of a plate x_m >= 0 as well.";
+                 figures of a plate; exact: beside exact results
+For a symmetric film the files hold only the half solved: y_m >= 0,
+and for a plate x_m >= 0 as well.";
 
 /// Solves presets for their periodic steady state and prints a summary of each
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; of several, --json prints an
-    /// array, and each has a folder of its own in --out
+    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; for several, --json prints an
+    /// array, and each gets its own folder in --out
     #[arg(value_name = "PRESET", required = true, num_args = 1..)]
     presets: Vec<String>,
 

@@ -24,11 +24,11 @@ Examples:
   squeezefilm stability --map spacing-frequency --cells 15 --method auto
   squeezefilm stability levitating --fidelity draft";
 
-/// Maps, over the full ranges of the parameters, where each method (ours and the paper's) finds a solution
+/// Maps where each method (ours and the paper's) finds a solution, over the full ranges of the parameters
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
 /// a pressure or contact force below 0, loads that do not add up), failed or refused. About a minute and a half on two cores, nearly all
-/// of it the paper's method: --method auto leaves that out.
+/// for the paper's method, which --method auto leaves out.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -36,7 +36,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET", default_value = "fundamental")]
     preset: String,
 
-    /// Which map; may be repeated [default: all]
+    /// A map; may be repeated [default: all]
     #[arg(long = "map", value_name = "NAME", value_parser = map())]
     maps: Vec<&'static Map>,
 

@@ -34,17 +34,17 @@ Files of --out:
   startup.csv   a row for each cycle
   startup.json  what --json prints
   startup.svg   cycle means, and the film load at every instant; and startup.png
-  scene.toml    the scene: a preset again";
+  scene.toml    the scene, as a preset";
 
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
 /// At t = 0 the wave is frozen at full amplitude, with the rotor pressed on it and the gas at ambient pressure; then it starts to travel.
-/// A plate rests at its mean gap, and its cycles are counted from the widest gap that follows. Every tooth is solved. The result is compared
-/// with the periodic solve, which does not march: both agree within their stated errors and the change still to come (--tolerance). Grids
+/// A plate rests at its mean gap, then moves away from the wall first; its cycles begin a quarter of a period later, where the gap is widest. Every tooth is solved. The result is compared
+/// with the periodic solve, which does not march in time: they agree within their stated errors and the change still to come (--tolerance). Grids
 /// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
 /// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes. It shakes a
-/// little with the vibration, which the plate of the periodic solve does not. A heavy plate bounces for thousands of cycles, which may take a
+/// little with the vibration, unlike the plate of the periodic solve. A heavy plate bounces for thousands of cycles, which may take a
 /// minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
@@ -52,12 +52,12 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
-    /// Cycles at most; if the cycle does not repeat by then, exit status 3 [default: 300; of a plate that is dropped, 5000]
+    /// Maximum cycles; exit status 3 if the cycle does not repeat by then [default: 300; for a dropped plate, 5000]
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=100_000))]
     cycles: Option<u32>,
 
-    /// The cycle counts as repeating when ln(p h), and α or the mean load as a share of itself, will change by less than this; a dropped
-    /// plate as floating when its height will change by less than this share of itself
+    /// The cycle counts as repeating when ln(p h) will change by less than this, and α or the mean load by less than this fraction; a
+    /// dropped plate as floating when its height will change by less than this fraction
     #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = within(1e-8..=0.1, "a number"))]
     tolerance: f64,
 

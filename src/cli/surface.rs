@@ -23,7 +23,7 @@ Examples:
 
 const FILES: &str = "\
 A file is a grid of heights, with lines \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before them and a line of numbers for \
-each y; or a profile, with a line \"x_um,z_nm\" and a pair on each line. Units are m, mm, um and nm. x is along the wave. \
+each y; or a profile: a line \"x_um,z_nm\", then a pair on each line. Units are m, mm, um and nm. x is along the wave. \
 Instruments that write X3P or SUR export such tables too.
 
 Files of --out:
@@ -31,10 +31,10 @@ Files of --out:
   face-1.svg        heights and autocorrelation of the first file; and face-1.png, face-2.…
   surface.toml      lines for a preset";
 
-/// Statistics of measured faces, and the spacing, asperities and flow factors that follow
+/// Statistics of measured faces, and the spacing, asperities and flow factors from them
 ///
-/// The heights are levelled first. From two files, the rotor's face and the stator's, or from one file that represents both, follow H_m as
-/// the paper takes it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
+/// The heights are levelled first. Two files, the rotor's face and the stator's, or one file that represents both, give H_m as the paper
+/// takes it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
     files: Vec<PathBuf>,
 
-    /// Degree of the polynomial that is taken off: 1 levels, 2 takes off roundness as well
+    /// Degree of the polynomial that is subtracted: 1 levels, 2 also removes curvature
     #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = whole::<u8>(0..=2))]
     degree: u8,
 

@@ -43,36 +43,36 @@ const FILES: &str = "\
 Files of --out:
   sweep.csv   a row for each point: its keys, its status and its numbers
   sweep.json  what --json prints
-  sweep.svg   curves, or a map with contours, of three keys a map for
+  sweep.svg   curves, or a map with contours; for three keys a map for
               each value of the first (twelve at most); and sweep.png
-  scene.toml  the scene that is varied: a preset again
-A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
-instead; the same command goes on from there, to the same result. With --part
+  scene.toml  the scene that is varied, as a preset
+A sweep that is cancelled (Ctrl-C) or killed leaves sweep.incomplete.csv
+instead; the same command continues it, to the same result. With --part
 3/64 there is only sweep.part-3-of-64.csv, complete or to be continued.";
 
-/// Solves a preset over values of one key, of two or of three
+/// Solves a preset over values of one, two or three keys
 ///
-/// All cores are used, and the results do not depend on how many there are. A point that fails, does not converge, or breaks a
-/// rule between keys is marked, and the others go on. Of a motor with two periodic states, one in which its rotor floats and one in
-/// which teeth touch, a point has the one that is found first; solve looks for both.
+/// All cores are used, and the results do not depend on their number. A point that fails, does not converge, or breaks a rule
+/// between keys is marked, and the others go on. If a motor has two periodic states, one in which its rotor floats and one in
+/// which teeth touch, a point has the one found first; solve looks for both.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
-    /// What to vary, in the unit of the key or another of its kind: a range or a list; given twice: a map; three times: maps
+    /// A key and its values (range or list), in the key's unit or another of its kind; twice for a map, three times for maps
     ///
-    /// A key that is a number, as in the file, has a range: --vary film.min_spacing_nm=50:400:8:log has 8 values of equal ratio,
-    /// without :log of equal steps; 0.05um:0.4um:8:log is the same. A key of whole numbers takes the nearest ones. Any key has a list:
-    /// --vary film.slip=first-order,fukui-kaneko, with the values of --set.
+    /// A key whose value is a number can have a range: --vary film.min_spacing_nm=50:400:8:log, or 0.05um:0.4um:8:log, gives 8 values at
+    /// equal ratios; without :log, at equal steps. A key of whole numbers takes the nearest ones. Any key can have a list:
+    /// --vary film.slip=first-order,fukui-kaneko, with values as for --set.
     #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log] or KEY=VALUE,VALUE…", required = true)]
     vary: Vec<Vary>,
 
     /// Solves one part of the points: 3/64 is the third of 64 parts; squeezefilm join puts them together
     ///
-    /// Parts follow from the points alone. Each can be solved on another machine, and together they are what one machine gives, byte by
-    /// byte. The same command continues a part that was interrupted. At most 100 000 points are in a part, and are joined; all parts
+    /// Parts depend on the points alone. Each can be solved on a different machine, and together they are what one machine gives, byte
+    /// for byte. The same command continues an interrupted part. At most 100 000 points can be in a part, or be joined; all parts
     /// together may have more.
     #[arg(long, value_name = "NUMBER/COUNT", requires = "out")]
     part: Option<Part>,
@@ -81,7 +81,7 @@ pub(super) struct Arguments {
     #[arg(long, requires = "out")]
     restart: bool,
 
-    /// What the figure shows, by its name in sweep.csv [default: alpha, of a plate mean_load_ratio, or mean_gap_um if it floats]
+    /// Result to draw, by its name in sweep.csv [default: alpha, for a plate mean_load_ratio, or mean_gap_um if it floats]
     #[arg(long, value_name = "NAME", requires = "out")]
     quantity: Option<String>,
 

@@ -23,15 +23,15 @@ use std::path::PathBuf;
 
 /// Solves the 14 rows of the paper's Table I and prints published beside computed values
 ///
-/// By default with the paper's algorithm at the paper's own meshes; with --converged mesh-independently, with the error
-/// estimated.
+/// By default uses the paper's algorithm on the paper's own meshes; --converged gives mesh-independent values with error
+/// estimates.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm table1
   squeezefilm table1 --converged --fidelity standard
   squeezefilm table1 --converged --set stator.normal_amplitude_um=1.4 --json")]
 pub(super) struct Arguments {
-    /// Mesh-independent values: method auto at a fidelity [default: fine]
+    /// Mesh-independent values: method auto at --fidelity [default: fine]
     #[arg(long)]
     converged: bool,
 
@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     json: bool,
 
-    /// Writes table1.csv into this folder, made if need be; a file of that name is replaced
+    /// Writes table1.csv into this folder, made if needed; a file of that name is replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -25,11 +25,11 @@ Examples:
   squeezefilm tradeoff fundamental --accuracy 1% --budget 16ms
   squeezefilm tradeoff levitating --repeats 9 --out results";
 
-/// Measures error against solve time of several accuracies, of some grids and of the paper's method, now, on this machine
+/// Measures error against solve time on this machine, for several accuracies, some grids and the paper's method
 ///
-/// Every setting solves the scene's own model; only the grids differ. Runs are interleaved and medians are reported. Errors are shares
-/// of α (of a plate: of the film load). A setting is judged by the greater of two: its distance from the most accurate one plus that
-/// one's own stated error, and the error it states of itself. Takes up to about a minute.
+/// All but the paper's method solve the scene's own model, on different grids. Runs are interleaved and medians are reported. Errors are relative
+/// to α (for a plate: to the film load). A setting is judged by the greater of two errors: its difference from the most accurate one
+/// plus that one's stated error, and its own stated error. Takes up to about a minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {

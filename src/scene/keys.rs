@@ -46,9 +46,9 @@ pub static PARAMETERS: &[Parameter] = &[
     number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
         "Friction coefficient where tooth and rotor touch").named("Dry friction coefficient"),
     number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
-        "Speed of the rotor; a positive one is towards +x, against the wave"),
+        "Speed of the rotor; positive is towards +x, against the wave"),
     number("motor.rotor_speed_mm_per_s", "mm/s", Motor, (-600e3, 600e3), (-1000.0, 1000.0), Linear, 0.0,
-        "Speed of the rotor's surface at the contact radius, with the sign of the speed in rpm")
+        "Speed of the rotor's surface at the contact radius; same sign as the speed in rpm")
         .absent("the speed in rpm is given", "Speed in mm/s").instead_of("motor.rotor_speed_rpm").named("Surface speed of the rotor"),
 
     number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
@@ -67,7 +67,7 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
     choice("rotor.model", Motor, &["beam", "section", "ring", "table", "green"], "beam",
-        "Description of the rotor's compliance").named("Compliance model"),
+        "Model of the rotor's compliance").named("Compliance model"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
         "Length over which the deflection under a point load dies out").when(BENDING),
     number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
@@ -81,12 +81,12 @@ pub static PARAMETERS: &[Parameter] = &[
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
     Parameter::new("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
-        "CSV file of the compliance, relative to the preset's folder").when(TABLE).named("Compliance from a CSV file"),
+        "CSV of the compliance; path relative to the preset's folder").when(TABLE).named("Compliance from a CSV file"),
     Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE)
         .named("Compliance table"),
     Parameter::new("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
-        "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS).named("Deflection from a CSV file"),
-    Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of the distance from a unit force and the deflection there").when(GREENS)
+        "CSV of the deflection under a unit force; path relative to the preset's folder").when(GREENS).named("Deflection from a CSV file"),
+    Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of distance from a unit force and deflection there").when(GREENS)
         .named("Deflection table"),
     Parameter::new("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: parts },
         "Rectangles that make up the ring's cross-section; the stator touches the lowest").when(RING).named("Parts"),
@@ -102,19 +102,19 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius of the hole, in which the gas is at ambient pressure").when(RING_PLATE).named("Radius of the hole"),
     number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
     number("plate.load_n", "N", Plate, (1e-6, 1e6), (0.01, 100.0), Log, 1.0,
-        "Load on a plate that floats; of a strip, load on a metre of its width")
+        "Load on a plate that floats; for a strip, load per metre of width")
         .absent("the mean gap or the mass is given", "Floats under a load").instead_of("plate.mean_gap_um"),
     number("plate.mass_g", "g", Plate, (1e-4, 1e8), (1.0, 10e3), Log, 100.0,
-        "Mass of a plate that floats under its weight; of a strip, mass of a metre of its width")
+        "Mass of a plate that floats under its weight; for a strip, mass per metre of width")
         .absent("the mean gap or the load is given", "Floats under its weight").instead_of("plate.mean_gap_um"),
     number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
-        "Amplitude of the vibration; where the mean gap is given, it is smaller than that"),
+        "Amplitude of the vibration; must be smaller than the mean gap, if that is given"),
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
-        "Spacing that roughness leaves where the faces touch; a plate whose gap is given does not use it").when(HARD).named("Minimum spacing H_m"),
+        "Spacing that roughness leaves where the faces touch; not used for a plate with a given gap").when(HARD).named("Minimum spacing H_m"),
     choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
-        "The gas. Its viscosity and mean free path follow from it; of a custom gas they are given"),
+        "Gas, which sets the viscosity and mean free path; for a custom gas they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
     number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude at which the standard atmosphere has the ambient pressure")
@@ -122,11 +122,11 @@ pub static PARAMETERS: &[Parameter] = &[
     number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
         "Mean free path of the gas at the ambient pressure").when(CUSTOM),
-    choice("film.slip", Any, Slip::NAMES, "first-order", "The law by which the gas slips at the walls").named("Slip at the walls"),
+    choice("film.slip", Any, Slip::NAMES, "first-order", "Slip law of the gas at the walls").named("Slip at the walls"),
     number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
-        "Share of the molecules that the walls reflect diffusely; they reflect the others specularly").when(BOLTZMANN)
+        "Share of the molecules that the walls reflect diffusely; the others specularly").when(BOLTZMANN)
         .named("Accommodation coefficient"),
-    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); a plate does not use it")
+    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); not used for a plate")
         .named("Sliding drags gas along"),
 
     choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
@@ -137,7 +137,7 @@ pub static PARAMETERS: &[Parameter] = &[
         .named("Heights of summits"),
     Parameter::new("surface.heights_csv", Motor,
         CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
-        "CSV file of the measured heights of both faces, relative to the preset's folder: roughness, summits and lay follow where they are not given")
+        "CSV of the measured heights of both faces; path relative to the preset's folder. It gives roughness, summits and lay where they are not set")
         .when(ROUGH).named("Measured heights from a CSV file"),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
         "Standard deviation of the heights of both faces together").when(ROUGH).named("Rms roughness σ"),
@@ -147,12 +147,12 @@ pub static PARAMETERS: &[Parameter] = &[
         .named("Density of summits"),
     number("surface.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 60.0,
         "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES).named("Contact modulus"),
-    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "Flow factors, by which roughness changes the flow of the gas")
+    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "Flow factors: how roughness changes the flow of the gas")
         .named("Flow between rough faces"),
     number("surface.lay", "", Motor, (0.112, 9.0), (0.112, 9.0), Log, 1.0,
-        "Length of the asperities along the wave over their length across it").when(ROUGH_FLOW),
+        "Ratio of the asperities' length along the wave to that across it").when(ROUGH_FLOW),
     number("surface.stator_share", "", Motor, (0.0, 1.0), (0.0, 1.0), Linear, 0.5,
-        "Share of the stator in the variance of the heights of both faces").when(ROUGH_FLOW).named("Stator's share of the roughness"),
+        "Stator's share of the variance of both faces' heights").when(ROUGH_FLOW).named("Stator's share of the roughness"),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
         "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN, "Set film nodes along"),
@@ -162,18 +162,18 @@ pub static PARAMETERS: &[Parameter] = &[
     whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle").absent(LEFT_OPEN, "Set steps in a cycle")
         .named("Steps in a cycle"),
     number("numerics.tolerance", "", Any, (1e-9, 1e-2), (1e-7, 1e-2), Log, 1e-4,
-        "Relative change of the trapped gas at which the cycle counts as repeating").absent(LEFT_OPEN, "Set tolerance of a cycle")
+        "Relative change of trapped gas below which the cycle counts as repeating").absent(LEFT_OPEN, "Set tolerance of a cycle")
         .named("Tolerance of a cycle"),
     choice("numerics.wedge", IdleOnPlate, Wedge::NAMES, "auto",
         "Wedge term of sliding: solved (on), left out (off), or as the scene needs (auto)").named("Wedge term"),
     choice("numerics.teeth", IdleOnPlate, Teeth::NAMES, "auto",
-        "Teeth whose film is solved: one, as the others lag behind it, or all; the result is the same").named("Teeth solved"),
+        "Teeth whose film is solved: one (the others lag behind it) or all; the result is the same").named("Teeth solved"),
     choice("numerics.width", IdleOnPlate, Width::NAMES, "auto",
-        "Width of the film that is solved: half, as it is symmetric, or all; the result is the same").named("Width solved"),
+        "Width of the film that is solved: half (it is symmetric) or all; the result is the same").named("Width solved"),
     choice("numerics.flow", IdleOnPlate, Flow::NAMES, "auto",
         "Directions in which the gas flows: both, or only across or along a tooth").named("Flow of the film"),
     choice("numerics.time", IdleOnPlate, Time::NAMES, "auto",
-        "The film over time: solved step by step, or trapped gas that has no time to flow").named("Leakage in time"),
+        "Film over time: solved step by step, or as trapped gas with no time to flow").named("Leakage in time"),
 ];
 
 impl Parameter {
