@@ -6,7 +6,7 @@ mod window;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::epaint::{Primitive, Shape};
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
@@ -821,6 +821,30 @@ fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
         slider.accesskit_node().is_disabled()
     };
     assert!(disabled("Minimum spacing H_m") && !disabled("Ambient pressure"));
+}
+
+#[test]
+fn the_first_drag_of_a_main_slider_goes_on_while_its_value_changes() {
+    for name in ["Minimum spacing H_m", "Frequency"] {
+        let mut window = window("fundamental");
+        solved(&mut window);
+        let slider = window.get_by_role_and_label(Role::Slider, name).rect();
+        let at = |share: f32| slider.left_center() + vec2(share * slider.width(), 0.0);
+        let key = if name == "Frequency" { "stator.frequency_khz" } else { "film.min_spacing_nm" };
+        let value = |window: &Window| window.known().document.scene().get(key).unwrap().as_number().unwrap();
+        let mut last = value(&window);
+        window.hover_at(at(0.7));
+        window.drag_at(at(0.7));
+        window.step();
+        for share in [0.75, 0.8, 0.85, 0.9] {
+            window.hover_at(at(share));
+            window.run_steps(2);
+            let now = value(&window);
+            assert!(now > last, "{name} at {share}: {now} after {last}");
+            last = now;
+        }
+        window.drop_at(at(0.9));
+    }
 }
 
 #[test]

@@ -188,7 +188,8 @@ pub struct ResultCell {
     pub difference_percent: Option<Estimate>,
 }
 
-/// The unit of a quantity of a run. A squeeze number is by a length: those by different ones have no more in common than two units.
+/// The unit of a quantity of a run. A squeeze number is by a length, and a Knudsen number by a gap: those by different ones have no more in common
+/// than two units.
 fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
     match (quantity, &run.problem.scenario) {
         (Quantity::SqueezeNumber, Scenario::Motor(_)) => "by tooth width",
@@ -197,6 +198,8 @@ fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
             Outline::Disc => "by radius",
             Outline::Ring { .. } => "by width of the ring",
         },
+        (Quantity::KnudsenNumber, Scenario::Motor(_)) => "at the closed gap",
+        (Quantity::KnudsenNumber, Scenario::Plate(_)) => "at the mean gap",
         _ => quantity.unit(&run.problem),
     }
 }
@@ -222,8 +225,9 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
         let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
         let mut there = cells.iter().filter(|cell| cell.found.is_some()).map(|cell| cell.unit);
         let unit = there.next()?;
-        let unit =
-            there.all(|other| other == unit).then_some(if quantity == Quantity::SqueezeNumber { "" } else { unit });
+        // What all have in common need not be said of a pure number.
+        let pure = matches!(quantity, Quantity::SqueezeNumber | Quantity::KnudsenNumber);
+        let unit = there.all(|other| other == unit).then_some(if pure { "" } else { unit });
         Some(ResultRow { quantity, unit, cells })
     };
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()

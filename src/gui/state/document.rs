@@ -171,7 +171,7 @@ impl Document {
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.undo.pop() else { return false };
-        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target));
+        let now = self.take_back(scene, target);
         self.redo.push(now);
         true
     }
@@ -180,9 +180,16 @@ impl Document {
     pub fn redo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.redo.pop() else { return false };
-        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target));
+        let now = self.take_back(scene, target);
         self.undo.push(now);
         true
+    }
+
+    /// Replaces the scene by one from the history, and returns the present one. If it was saved in between as another one than the preset
+    /// that it was made from, an edited one of before no longer claims to be that preset either.
+    fn take_back(&mut self, scene: Scene, target: Fidelity) -> (Scene, Fidelity) {
+        let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
+        (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target))
     }
 
     /// Whether there is anything to undo.
@@ -287,6 +294,17 @@ mod tests {
             assert_eq!(document.scene().about, "Made from Fundamental case.");
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
+        // What was edited before it was saved is not the preset either; what was not, is.
+        let mut document = Document::fundamental().unwrap();
+        for spacing in ["150", "140"] {
+            document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
+        }
+        document.save(&path).unwrap();
+        assert!(document.undo());
+        assert_eq!(document.scene().name, "Fundamental case, changed");
+        assert_eq!(document.scene().about, "Made from Fundamental case.");
+        assert!(document.undo());
+        assert_eq!(document.scene(), &presets::find("fundamental").unwrap());
         // A copy of a preset, changed in its file or by hand, is no longer what its description claims.
         let copy = presets::find("fundamental").unwrap();
         let mut document = Document::opened(copy, Some(path.clone()));

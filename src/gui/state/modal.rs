@@ -11,7 +11,7 @@ pub enum Modal {
     Error(String),
     /// Unsaved changes of this scene.
     Unsaved {
-        /// The scene's name.
+        /// The scene's name, and that of its file.
         name: String,
         /// The action that would lose them.
         next: Next,

@@ -14,8 +14,8 @@ use std::sync::Arc;
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
         if self.state.exports.running.is_some() {
-            self.state.fail("Another export goes on: wait until it has ended, or cancel it.");
-            return;
+            let reason = "Another export goes on: wait until it has ended, or cancel it.";
+            return self.fail_at(Purpose::Export(export), path, reason);
         }
         let kind = export.described().filter;
         let path = match kind.map_or(Ok(path.to_owned()), |(kind, allowed)| complete(path.to_owned(), kind, allowed)) {

@@ -86,7 +86,8 @@ impl Updater {
         let student = lessons.student_document(document);
         if student.is_dirty() && !self.state.quitting {
             // A lesson goes on if this is not answered.
-            let name = student.scene().name.clone();
+            let file = student.path().and_then(Path::file_name).map(|file| format!(" ({})", file.display()));
+            let name = student.scene().name.clone() + &file.unwrap_or_default();
             self.state.modal = Some(Modal::Unsaved { name, next });
             return;
         }

@@ -99,7 +99,9 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
     let stage = work.stage(step);
     // What keeps to an answer is always in sight, however long the text is.
     if let (Some(question), Stage::Question) = (&step.question, stage) {
-        let ready = work.prediction.is_some() && !work.refused;
+        // What is being typed is taken when the button is pressed.
+        let given = work.prediction.is_some() || ui.ctx().text_edit_focused();
+        let ready = given && !work.refused;
         let commit =
             ui.add_enabled_ui(ready, |ui| next_button(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
         let commit = commit.on_hover_text("Enter").on_disabled_hover_text(match work.refused {

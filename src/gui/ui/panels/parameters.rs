@@ -88,15 +88,16 @@ impl Panel<'_> {
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
             let heading = ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false)).rect;
+            // Beside it, so that nothing moves under a slider that is dragged; and always there, because whatever comes after has another id without it.
+            let area = heading.with_max_x(ui.max_rect().right());
+            let layout = egui::Layout::right_to_left(egui::Align::Center);
+            let mut beside = ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout));
             if changed > 0 {
-                // Beside it, so that nothing moves under a slider that is dragged.
-                let area = heading.with_max_x(ui.max_rect().right());
-                let layout = egui::Layout::right_to_left(egui::Align::Center);
                 let values = if changed == 1 { "1 value".to_owned() } else { format!("{changed} values") };
                 let long = format!("{values} changed since it was described");
                 let fits = NOTE_SIZE * text_width(ui, &long) < area.width() - heading.width();
                 let text = if fits { long } else { format!("{values} changed") };
-                quiet(&mut ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout)), self.cx, &text);
+                quiet(&mut beside, self.cx, &text);
             }
             ui.add_space(2.0);
             for parameter in main {
