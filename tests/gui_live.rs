@@ -9,13 +9,16 @@ use eframe::egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 use squeezefilm::analysis::quantity::Numbers;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::Command;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::{Document, Next};
 use squeezefilm::gui::state::hold::HoldState;
 use squeezefilm::gui::state::startup::StartupState;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::hold::Reading;
 use squeezefilm::problem::Scenario;
+use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
 use std::time::Duration;
 use window::{User, Window, solved, until};
@@ -72,6 +75,14 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     assert_eq!(starting(window.state()).ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
     window.get_by_label_contains("repeats within");
     agrees(window.state());
+    // It is not the bar of a plate that would be dropped.
+    let (own, other) = (window.known().document.scene().clone(), presets::find("floating-disc").unwrap());
+    assert!(window.state().state().on_timeline().is_some());
+    for (scene, there) in [(other, false), (own, true)] {
+        window.state_mut().carry_out(Command::Proceed(Next::Given(Box::new(Document::opened(scene, None)))));
+        window.run_steps(2);
+        assert_eq!(window.state().state().on_timeline().is_some(), there);
+    }
     // Every tooth, and from rest: the first cycle carries less than the last.
     let app = window.state();
     let run = starting(app).run().unwrap();

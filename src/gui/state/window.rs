@@ -140,6 +140,8 @@ impl State {
         let pinned = || self.pins.runs.iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
         let recording = match self.view.tab {
             Tab::Motion => self.run.as_ref().map(|run| &run.solution.recording),
+            // A plate that is dropped has charts over its whole fall.
+            Tab::Startup if self.document.scene().floats() => None,
             Tab::Startup => self.startup.as_ref().and_then(StartupState::run).map(|run| &run.solution.recording),
             Tab::Compare if self.pins.page == Page::Fields => pinned(),
             _ => None,
