@@ -607,6 +607,29 @@ fn slow_clock() -> Instant {
 }
 
 #[test]
+fn a_number_that_is_still_being_typed_is_given_with_one_click() {
+    let mut window = window::preset("fundamental", 1700.0, platform());
+    let calculation =
+        |window: &Window| step(window).1.question.is_some_and(|question| question.kind == Kind::Calculate);
+    let found = (1..=6).any(|step| {
+        window.state_mut().updater.follow(Link::Lesson { lesson: 1, step });
+        solved(&mut window);
+        calculation(&window)
+    });
+    assert!(found, "a step of the first lesson is a calculation");
+    let button = "This is my result";
+    assert!(window.get_by_label(button).accesskit_node().is_disabled(), "nothing is given yet");
+    window.type_over(Role::SpinButton, "Your number", "7000");
+    let at = window.get_by_label(button).rect().center();
+    window.hover_at(at);
+    window.drag_at(at);
+    window.step();
+    window.drop_at(at);
+    window.run_steps(3);
+    assert_eq!((work(&window).prediction, work(&window).wrong), (Some(Prediction::Number(7000.0)), 1));
+}
+
+#[test]
 fn the_keyboard_alone_walks_the_first_lesson() {
     let mut window = window::preset("fundamental", 1700.0, Platform { now: slow_clock, ..platform() });
     window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 1 });

@@ -9,7 +9,7 @@ use crate::gui::ui::parts::{next_button, scrolled};
 use crate::gui::ui::rich::Look;
 use crate::lessons::text::readings;
 use crate::lessons::work::{Score, Stage, StepWork};
-use crate::lessons::{Lesson, Step};
+use crate::lessons::{Answer, Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
 /// Shows the lesson that is followed.
@@ -99,16 +99,22 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
     let stage = work.stage(step);
     // What keeps to an answer is always in sight, however long the text is.
     if let (Some(question), Stage::Question) = (&step.question, stage) {
-        // What is being typed is taken when the button is pressed.
-        let given = work.prediction.is_some() || ui.ctx().text_edit_focused();
-        let ready = given && !work.refused;
+        // A number that is being typed is handed over by the click that gives it, and is known in the next frame.
+        let typed = matches!(question.answer, Answer::Number { .. }) && ui.ctx().text_edit_focused();
+        let given = work.prediction.is_some() && !work.refused;
+        let ready = typed || given;
         let commit =
             ui.add_enabled_ui(ready, |ui| next_button(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
         let commit = commit.on_hover_text("Enter").on_disabled_hover_text(match work.refused {
             true => "Another number first",
             false => "Answer first: guessing is welcome",
         });
-        cx.on_click(&commit, LessonCommand::Commit);
+        let clicked = ui.data_mut(|data| data.remove_temp::<()>(commit.id)).is_some();
+        if commit.clicked() && typed {
+            ui.data_mut(|data| data.insert_temp(commit.id, ()));
+        } else if commit.clicked() || clicked && given {
+            cx.push(LessonCommand::Commit);
+        }
         ui.add_space(4.0);
     }
     ui.horizontal(|ui| {
