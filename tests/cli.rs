@@ -975,7 +975,11 @@ fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
     arguments.pop();
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(3));
-    assert!(out(&output).contains("NOT CONVERGED: the last round still changed the result by"), "{}", out(&output));
+    assert!(
+        out(&output).contains("NOT CONVERGED: further rounds would still change the result by"),
+        "{}",
+        out(&output)
+    );
 }
 
 #[test]

@@ -195,7 +195,7 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     window.drag_at(begin);
     window.step();
     // Beside it are its own numbers, not those of the vibrating plate.
-    window.get_by_label_contains("The plate in your hand");
+    window.get_by_label_contains("The plate at this moment");
     window.get_by_label("Since it was at rest");
     assert!(window.query_by_label("mean load of the film over the cycle").is_none());
     // A tenth of the drawing is about four tenths of the mean gap.

@@ -499,7 +499,7 @@ fn levitation_missing_convergence_and_warnings_are_said_plainly() {
     let harness = shown(run, 300.0, 1.0);
     harness.get_by_label("Levitated");
     harness.get_by_label("Not converged");
-    harness.get_by_label_contains("still changed by 0.20 %, allowed 0.00010 %");
+    harness.get_by_label_contains("still change it by 0.20\u{a0}%, allowed 0.00010\u{a0}%");
     harness.get_by_label("The film is thinner than a mean free path");
 }
 

@@ -251,6 +251,47 @@ fn a_point_is_read_and_opened_as_one_edit() {
 }
 
 #[test]
+fn a_double_click_brings_a_moved_chart_back_and_opens_no_point() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.ctrl(Key::Num3);
+    window.type_into("Values along x", "5");
+    window.click_on("Start the sweep");
+    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
+    let rect = window.get_by_label("Sweep: point to read a value, click to make its scene the present one").rect();
+    // Two points farther: another one is now where the fourth was.
+    let [from, to] = [0.285, 0.76].map(|share| rect.lerp_inside(Vec2::new(share, 0.5)));
+    let before = window.known().document.scene().clone();
+    drag(&mut window, from, to);
+    // Every event has a step of its own, and its time. Those before are long past.
+    window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 10.0);
+    window.run_steps(100);
+    for _ in 0..2 {
+        window.drag_at(to);
+        window.drop_at(to);
+    }
+    window.run_steps(100);
+    assert_eq!(window.known().document.scene(), &before, "it was dragged, and two clicks bring it back");
+    window.drag_at(to);
+    window.drop_at(to);
+    window.run_steps(3);
+    assert_eq!(
+        window.known().document.scene(),
+        &swept(window.state()).sweep.scene_at(3).unwrap(),
+        "one click opens a point"
+    );
+    // Where a click may be the first of two it waits.
+    drag(&mut window, from, to);
+    window.run_steps(100);
+    window.drag_at(to);
+    window.drop_at(to);
+    window.run_steps(3);
+    assert_eq!(window.known().document.scene(), &swept(window.state()).sweep.scene_at(3).unwrap());
+    window.run_steps(60);
+    assert_eq!(window.known().document.scene(), &swept(window.state()).sweep.scene_at(1).unwrap());
+}
+
+#[test]
 fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     let mut window = window("plate-trapped");
     window.ctrl(Key::Num3);

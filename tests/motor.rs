@@ -354,6 +354,7 @@ fn a_small_share_with_an_error_as_large_as_itself_is_not_resolved() {
         ("film.ambient_pressure_kpa", "106"),
         ("rotor.point_compliance_um_per_n", "5.1"),
         ("rotor.decay_length_mm", "2.31"),
+        ("film.shear", "false"),
     ]);
     let found = solve_plan(&motor, &plan(&motor, Fidelity::Draft));
     let alpha = found.result.alpha;

@@ -166,6 +166,15 @@ const FAMILIES: &[(&[&str], &[&str])] = &[
         ],
     ),
     (
+        // One tooth a wave never opens: it rolls, and sliding matters most.
+        &[
+            "stator.teeth_per_wave=1 motor.load_per_wave_n=0.3 stator.tooth_radius_m=0.77",
+            "stator.teeth_per_wave=1 motor.load_per_wave_n=0.2 stator.tooth_radius_m=0.09",
+            "stator.teeth_per_wave=1 motor.load_per_wave_n=0.2",
+        ],
+        &["", "stator.tangential_amplitude_um=0.3"],
+    ),
+    (
         &["stator.tooth_radius_m=1"],
         &[
             "stator.frequency_khz=10000 rotor.contact_width_mm=10",
@@ -380,6 +389,23 @@ fn bounds_are_those_of_their_formulas() {
     let left_out = effect(&open, "numerics.wedge", Numerics { wedge: Wedge::Off, ..Numerics::default() });
     assert!(squeezed > 1.0 && open.min_spacing > open.normal_amplitude);
     same(left_out, 2.0 * (numbers.bearing_to_squeeze * squeezed + shifted));
+
+    // One stiffly held crowned tooth rolls: nearly B/(R k A), and what the ends add.
+    let changes = [
+        ("stator.teeth_per_wave", "1"),
+        ("stator.tooth_radius_m", "0.09"),
+        ("motor.load_per_wave_n", "0.2"),
+        ("rotor.point_compliance_um_per_n", "0.001"),
+        ("rotor.local_compliance_m2_per_n", "0"),
+    ];
+    let one = scenes::motor("fundamental", &changes);
+    let numbers = Dimensionless::of_motor(&one);
+    let wave = TAU / one.wavelength();
+    let ends = one.min_spacing / numbers.boundary_layer * width / (length * length);
+    let rolling = one.tangential_amplitude * (1.0 / 0.09 + ends) / (wave * one.normal_amplitude);
+    let shifted = (0.5 * one.tangential_amplitude / numbers.boundary_layer).powi(2) * width / length;
+    let left_out = effect(&one, "numerics.wedge", Numerics { wedge: Wedge::Off, ..Numerics::default() });
+    assert!((left_out / (rolling + 2.0 * shifted) - 1.0).abs() < 1e-3, "{left_out} {rolling}");
 }
 
 #[test]

@@ -392,9 +392,9 @@ fn the_film_is_as_thin_as_is_said_to_within_its_error() {
 fn teeth_that_seem_to_float_may_touch_within_the_error() {
     // Loads at which a coarse grid just misses the contact, on asperities and on a hard stop.
     for (preset, load, fidelity) in [
-        ("asperities", "0.2072705", Fidelity::Draft),
-        ("asperities", "0.2071045", Fidelity::Standard),
-        ("fundamental", "0.489", Fidelity::Draft),
+        ("asperities", "0.2071206", Fidelity::Draft),
+        ("asperities", "0.2071956", Fidelity::Standard),
+        ("fundamental", "0.4882669", Fidelity::Standard),
     ] {
         let motor = |fidelity| {
             let problem = scenes::problem(preset, &[("motor.load_per_wave_n", load)]);
@@ -403,7 +403,9 @@ fn teeth_that_seem_to_float_may_touch_within_the_error() {
             result
         };
         let (found, exact) = (motor(fidelity), motor(Fidelity::Reference));
-        assert!(found.levitated && !exact.levitated, "{preset} {load}: {found:?} {exact:?}");
+        assert!(found.teeth_in_contact.value == 0.0 && !exact.levitated, "{preset} {load}: {found:?} {exact:?}");
+        // On the hard stop the finest grid tells.
+        assert_eq!(found.levitated, preset == "asperities", "{found:?}");
         assert!(exact.teeth_in_contact.value <= found.teeth_in_contact.error, "{preset} {load}: {found:?} {exact:?}");
     }
 }

@@ -183,8 +183,12 @@ fn the_film_takes_the_same_power_on_every_grid() {
     let exact = solved("fundamental", &[], Fidelity::Reference).merit.film_power;
     assert!(exact.value > 0.0 && exact.error < 0.03 * exact.value, "{exact:?}");
     for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
-        let found = solved("fundamental", &[], fidelity).merit.film_power;
-        assert!((found.value - exact.value).abs() < found.error + exact.error, "{fidelity}: {found:?} {exact:?}");
+        // Too few nodes across are an error that no grid shows.
+        for nodes in ["none", "3", "5"] {
+            let found = solved("fundamental", &[("numerics.film_nodes_across", nodes)], fidelity).merit.film_power;
+            let off = (found.value - exact.value).abs();
+            assert!(off < found.error + exact.error, "{fidelity}, {nodes}: {found:?} {exact:?}");
+        }
     }
 }
 
@@ -439,4 +443,29 @@ fn a_contact_narrower_than_the_nodes_are_apart_may_be_anywhere_between_them() {
             assert!(off <= found.error && found.error < 0.1 * found.value, "{fidelity}: {found}, {exact}");
         }
     }
+    // A point that stays at one node all the time seems to drive nothing.
+    let set = [
+        ("film.min_spacing_nm", "156.6"),
+        ("stator.frequency_khz", "197.7"),
+        ("motor.load_per_wave_n", "0.02318"),
+        ("stator.normal_amplitude_um", "0.3982"),
+        ("stator.teeth_per_wave", "1"),
+        ("stator.tooth_share", "1.0"),
+        ("stator.tooth_radius_m", "0.2578"),
+        ("rotor.contact_width_mm", "0.5595"),
+        ("rotor.decay_length_mm", "1.251"),
+        ("rotor.point_compliance_um_per_n", "0.2529"),
+        ("rotor.local_compliance_m2_per_n", "4.802e-11"),
+    ];
+    let rolling = solved("fundamental", &set, Fidelity::Draft);
+    // A point of contact rolls along the crown by R A k.
+    let motor = &rolling.motor;
+    let k = TAU / motor.wavelength();
+    let exact =
+        motor.friction_torque(motor.load) * 2.0 * 0.2578 * motor.normal_amplitude * k * k / std::f64::consts::PI;
+    let found = rolling.merit.without_film.stall_torque;
+    assert!(
+        (found.value - exact).abs() <= found.error && found.error < 0.1 * motor.friction_torque(motor.load),
+        "{found}, {exact}"
+    );
 }

@@ -163,9 +163,15 @@ pub struct SlowMotion {
 }
 
 impl Floating {
-    /// Whether the film carries less at a greater gap.
+    /// Whether the film carries less at a greater gap; `None` if the error of the stiffness leaves that open.
+    pub fn stability(&self) -> Option<bool> {
+        let Estimate { value, error } = self.stiffness;
+        (value.abs() > error).then_some(value > 0.0)
+    }
+
+    /// Whether the film is known to carry less at a greater gap.
     pub fn is_stable(&self) -> bool {
-        self.stiffness.value > self.stiffness.error
+        self.stability() == Some(true)
     }
 }
 

@@ -281,15 +281,10 @@ fn floated(
     match float(plate, load, &roughly, &asked, observer, cancel) {
         Ok((periodic, plan)) => {
             let mut solution = of_plate(periodic, &plan, cancel);
-            if let Outcome::Plate(PlateResult { floating: Some(Floating { mean_gap, stiffness, .. }), .. }) =
-                solution.outcome
-            {
-                solution.accuracy = accuracy(&plan, mean_gap.error, mean_gap.value, cancel);
-                if stiffness.value <= stiffness.error {
-                    solution.warnings.push(
-                        "not stable: where the film carries the load, it carries no less at a greater gap".to_owned(),
-                    );
-                }
+            if let Outcome::Plate(PlateResult { floating: Some(floating), .. }) = solution.outcome {
+                let Estimate { value, error } = floating.mean_gap;
+                solution.accuracy = accuracy(&plan, error, value, cancel);
+                solution.warnings.extend(unstable(&floating));
             }
             if settings.record == Record::Numbers {
                 solution.recording = Recording::default();
@@ -301,6 +296,18 @@ fn floated(
         }
         Err(error) => Err(error.into()),
     }
+}
+
+/// That a plate does not float as it is, or that this is not known.
+fn unstable(floating: &Floating) -> Option<String> {
+    let warning = match floating.stability() {
+        Some(true) => return None,
+        Some(false) => "not stable: where the film carries the load, it carries more at a greater gap",
+        None => {
+            "stability not known: the stated error of the stiffness at this height is as large as the stiffness itself; ask for more accuracy, or allow more time"
+        }
+    };
+    Some(warning.to_owned())
 }
 
 /// The solution with torque, power and efficiency of a motor whose fields are kept.
@@ -373,7 +380,7 @@ fn warnings(status: &Status, plan: &Plan) -> Vec<String> {
     match status {
         Status::Converged => Vec::new(),
         Status::NotConverged { residual, tolerance } => vec![format!(
-            "not converged: the last round still changed by {residual:.1e}, allowed {tolerance:.0e}; the numbers are what was reached"
+            "not converged: further rounds would still change it by {residual:.1e}, allowed {tolerance:.0e}; the numbers are what was reached"
         )],
         Status::NotResolved { error } => {
             let size = match *error < NOTHING {

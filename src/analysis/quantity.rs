@@ -132,8 +132,8 @@ numbers! {
     SqueezeNumber "squeeze_number" "squeeze number σ" "" Any;
     BearingNumber "bearing_number" "bearing number Λ" "" Any;
     KnudsenNumber "knudsen_number" "Knudsen number Kn" "" Any;
-    Residual "residual" "change of the last round" "" Any;
-    Tolerance "tolerance" "allowed change of the last round" "" Any;
+    Residual "residual" "remaining change" "" Any;
+    Tolerance "tolerance" "allowed remaining change" "" Any;
     FilmSteps "film_steps" "film steps" "" Any;
     Cycles "cycles" "cycles marched" "" Any;
     Rounds "coupling_iterations" "rounds of film and contact" "" Motor;

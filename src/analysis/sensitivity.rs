@@ -133,8 +133,10 @@ impl Sensitivity {
         let of = |slope: f64, value: f64| slope * scale / value.abs();
         let found = of(slope.value, value);
         let grids = (found - of(slope.coarse, self.coarse[output])).abs();
-        // Where both ladders have the same to rounding, the output is a power of the key.
-        let least = if grids < SAME { 0.0 } else { of(slope.least, value) };
+        // Where both ladders have the same whole or half number to rounding, the output is that power of the key. Any other they may have in common
+        // because both have the same nodes across.
+        let power = grids < SAME && (2.0 * found - (2.0 * found).round()).abs() < SAME;
+        let least = if power { 0.0 } else { of(slope.least, value) };
         let error = of(slope.step_error + slope.left_out, value) + grids.max(least);
         (!hidden).then_some(Estimate { value: found, error })
     }

@@ -23,7 +23,7 @@ use super::validity;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Parameter, Scene, SceneError};
 use crate::solution::{Status, StoppedBy};
 use crate::solve::{Method, Record, Settings, check, solve_from};
 use fnv::FnvHasher;
@@ -104,7 +104,18 @@ impl Sweep {
             let found = vary.len();
             return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_KEYS}")));
         }
-        let axes = vary.iter().map(|vary| Axis::new(scene, vary)).collect::<Result<Vec<_>, _>>()?;
+        // What a key may be depends on a choice that is varied beside it: temperatures are those of a gas.
+        let mut chosen = scene.clone();
+        for Vary { key, values } in vary {
+            if let Values::List(words) = values
+                && Parameter::find(key).is_some_and(|parameter| parameter.range().is_none())
+                && let Some(first) = words.first()
+            {
+                // What is wrong with it is told of its axis.
+                chosen.set(key, first).ok();
+            }
+        }
+        let axes = vary.iter().map(|vary| Axis::new(&chosen, vary)).collect::<Result<Vec<_>, _>>()?;
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.parameter.key == axis.parameter.key) {
                 let key = axis.parameter.key;
@@ -426,6 +437,9 @@ mod tests {
         let slip = sweep("fundamental", &["film.slip=first-order,fukui-kaneko"]).unwrap();
         assert_eq!((slip.len(), slip.axes()[0].text(1.0).as_str()), (2, "fukui-kaneko"));
         assert_eq!(slip.scene_at(1).unwrap().get("film.slip").unwrap().to_string(), "fukui-kaneko");
+        // A temperature belongs to a gas, which the preset has not, and every point of this has.
+        let gases = sweep("fundamental", &["film.temperature_c=0,50", "film.gas=air,helium"]).unwrap();
+        assert_eq!(gases.scene_at(3).unwrap().get("film.temperature_c").unwrap().to_string(), "50");
         let spacing = sweep("fundamental", &["film.min_spacing_nm=300,100,200"]).unwrap();
         assert_eq!((&spacing.axes()[0].values[..], spacing.axes()[0].words.len()), (&[300.0, 100.0, 200.0][..], 0));
         // An optional key may be absent.

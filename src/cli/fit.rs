@@ -74,7 +74,7 @@ pub(super) struct Arguments {
 
     /// A key to vary, with bounds in the key's unit or another of its kind; may be repeated
     ///
-    /// The search begins at the value in the preset or from --set. Bounds with a ratio of ten or more are searched on a log
+    /// The search begins at the value in the preset or from --set, or, if that is not within the bounds, in their middle. Bounds with a ratio of ten or more are searched on a log
     /// scale; :log and :lin override this.
     #[arg(long, value_name = "KEY=FROM:TO[:log]", required = true)]
     vary: Vec<Bounds>,
@@ -268,12 +268,13 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let title = format!("{}: {}, as {size} as possible", show_text(&scene.name), found.goal.quantity.label(problem));
     let mut text = heading(&title);
     let mut columns = Columns::new();
-    let before = found
-        .before
-        .map_or_else(|| "cannot be solved as the preset is".to_owned(), |before| format!("{before} as the preset is"));
+    let before = found.before.map_or_else(
+        || "cannot be solved where the search began".to_owned(),
+        |before| format!("{before} where the search began"),
+    );
     columns.row([found.goal.quantity.name().to_owned(), found.value.to_string(), before]);
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
-        columns.row([quantity.name().to_owned(), reached.to_string(), format!("allowed: {limit}")]);
+        columns.row([quantity.name().to_owned(), reached.to_string(), limit.told(reached)]);
     }
     text.push_str(&columns.text(&[]));
     text.push('\n');

@@ -67,7 +67,7 @@ fn status(summary: &Summary) -> String {
         Status::NotResolved { .. } => "NOT RESOLVED: the stated error is as large as the result".to_owned(),
         Status::NotConverged { residual, tolerance } if (residual + tolerance).is_finite() => {
             format!(
-                "NOT CONVERGED: the last round still changed the result by {}, {} is allowed",
+                "NOT CONVERGED: further rounds would still change the result by {}, {} is allowed",
                 percent(residual),
                 percent(tolerance)
             )
@@ -180,7 +180,11 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, result: &PlateResult, summar
 fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floating, unit: &str) {
     let [stiffness, _] = units(plate);
     let mass = as_given(load / GRAVITY * 1e3);
-    let stable = if found.is_stable() { "stable" } else { "not stable" };
+    let stable = match found.stability() {
+        Some(true) => "stable",
+        Some(false) => "not stable",
+        None => "stability not known",
+    };
     columns.row([
         "mean gap",
         &format!("{} µm", found.mean_gap * 1e6),

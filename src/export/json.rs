@@ -145,13 +145,13 @@ pub fn small_load_gap(plate: &Plate, load: f64) -> f64 {
 
 /// How a plate floats under its load: mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass
 /// whose weight is the load; and at which mean gap trapped gas that does not slip would carry it, and a small load. Of a strip, forces and mass
-/// are those of a metre of its width. Natural frequency and slow motion are null if it is not stable, and so is a time or frequency of a
-/// motion that it does not make.
+/// are those of a metre of its width. `stable` is null if the error of the stiffness leaves it open. Natural frequency and slow motion are null
+/// unless it is true, and so is a time or frequency of a motion that the plate does not make.
 fn floating_object(plate: &Plate, load: f64, found: &Floating) -> Value {
     let mut object = json!({ "load_n": load });
     estimates::add(&mut object, "mean_gap", "_um", Some(found.mean_gap * 1e6));
     // Whether the film carries less at a greater gap.
-    object["stable"] = found.is_stable().into();
+    object["stable"] = found.stability().into();
     let slow = found.slow;
     for (name, unit, found) in [
         ("stiffness", "_n_per_m", Some(found.stiffness)),

@@ -46,7 +46,7 @@ pub fn detail(cell: &Cell) -> String {
         Verdict::NotConverged => reasons.insert(
             0,
             match cell.numbers.get(Quantity::Residual) {
-                Some(residual) => format!("the last round still changed by {residual:.1e}"),
+                Some(residual) => format!("further rounds would still change it by {residual:.1e}"),
                 None if cell.method == Method::Paper => "stopped: too many cycles".to_owned(),
                 None => "no number left".to_owned(),
             },

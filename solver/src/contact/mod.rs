@@ -28,7 +28,7 @@ mod rough;
 use modes::scale_both;
 pub use modes::{Modes, Shape, cutoff};
 
-use crate::numerics::dot;
+use crate::numerics::{dot, sum_of, vectorised};
 use crate::surface::Asperities;
 use faer::linalg::solvers::{Ldlt, SolveCore};
 use faer::{Conj, MatMut, MatRef, Side};
@@ -241,13 +241,7 @@ impl Contact {
             let found = rough.node(i, local, s, gas, ambient);
             return (found.force, found.stiffness);
         }
-        match self.gap(s, gas, ambient) {
-            None => (-s / local, 1.0 / local),
-            Some(h) => {
-                let spring = gas / (h * h);
-                (gas / h - ambient, spring / (1.0 + local * spring))
-            }
-        }
+        hard_stop(local, self.min_spacing, s, gas, ambient)
     }
 
     /// Film thickness at a node with s \[m\] and trapped gas p_aζ; `None` if it touches.
@@ -258,25 +252,45 @@ impl Contact {
         (!touches).then(|| free_height(s + closed - local * ambient, local * gas))
     }
 
+    /// Force and stiffness of all nodes at s.
+    #[inline(always)]
+    fn forces(&mut self, trapped: &[f64]) {
+        let (local, closed, pressure) = (self.modes.local_compliance(), self.min_spacing, self.ambient_pressure);
+        let nodes =
+            self.s.iter().zip(trapped).zip(&self.ambient).map(|((s, gas), ambient)| (*s, pressure * gas, *ambient));
+        let to = self.force.iter_mut().zip(&mut self.stiffness);
+        match &mut self.asperities {
+            Some(rough) => {
+                for (i, ((s, gas, ambient), (force, stiffness))) in nodes.zip(to).enumerate() {
+                    (*force, *stiffness) = rough.next(i, local, s, gas, ambient);
+                }
+            }
+            None => {
+                for ((s, gas, ambient), (force, stiffness)) in nodes.zip(to) {
+                    (*force, *stiffness) = hard_stop(local, closed, s, gas, ambient);
+                }
+            }
+        }
+        for values in [&mut self.force, &mut self.stiffness] {
+            values.iter_mut().zip(&self.lengths).for_each(|(value, length)| *value *= length);
+        }
+    }
+
     /// Gradient of the energy (balance of every mode and of the load) at `amplitudes`; leaves s, force and stiffness of
     /// the nodes behind. Returns the sum of all forces' magnitudes, the scale of round-off.
     fn gradient(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64], gradient: &mut [f64]) -> f64 {
         self.modes.deflection(amplitudes, &mut self.s);
         let mut total = self.load;
-        self.noise = 0.0;
-        for i in 0..self.s.len() {
-            self.s[i] -= stator[i];
-            let gas = self.ambient_pressure * trapped[i];
-            let (q, stiffness) = match &mut self.asperities {
-                Some(rough) => rough.next(i, self.modes.local_compliance(), self.s[i], gas, self.ambient[i]),
-                None => self.node(i, self.s[i], gas),
-            };
-            self.force[i] = q * self.lengths[i];
-            self.stiffness[i] = stiffness * self.lengths[i];
-            total += self.force[i].abs();
-            self.noise += self.stiffness[i] * (amplitudes[0].abs() + stator[i].abs());
-        }
-        self.noise *= LAST_BITS;
+        vectorised(
+            #[inline(always)]
+            || {
+                self.s.iter_mut().zip(stator).for_each(|(s, stator)| *s -= stator);
+                self.forces(trapped);
+                total += sum_of(&self.force, &self.force, |force, _| force.abs());
+                let size = |stiffness: f64, stator: f64| stiffness * (amplitudes[0].abs() + stator.abs());
+                self.noise = LAST_BITS * sum_of(&self.stiffness, stator, size);
+            },
+        );
         self.modes.project(&self.force, gradient);
         gradient[0] = self.load - gradient[0];
         for (g, a) in gradient.iter_mut().zip(amplitudes).skip(1) {
@@ -394,6 +408,17 @@ impl Contact {
             };
         }
     }
+}
+
+/// Line load and its stiffness −dq/ds at a node with s \[m\], trapped gas p_aζ and ambient pressure on its width, over a hard stop at
+/// `closed` = H_m. What is not chosen is computed as well: a vector register has nodes of both kinds.
+#[inline(always)]
+fn hard_stop(local: f64, closed: f64, s: f64, gas: f64, ambient: f64) -> (f64, f64) {
+    let touches = s + local * (gas / closed - ambient) < 0.0;
+    let h = free_height(s + closed - local * ambient, local * gas);
+    let spring = gas / (h * h);
+    let (free, rising) = (gas / h - ambient, spring / (1.0 + local * spring));
+    if touches { (-s / local, 1.0 / local) } else { (free, rising) }
 }
 
 /// L D Lᵀ of a symmetric matrix, from its lower triangle: a positive one, or that of a saddle point, positive for some unknowns and

@@ -7,7 +7,7 @@
 //! stiffness: what is solved is then not a minimum but a saddle point, convex in all other unknowns and concave in this one. There is
 //! still exactly one, because the whole compliance, C_n > 0, is positive.
 
-use crate::numerics::dot;
+use crate::numerics::{dot, vectorised};
 use crate::rotor::Compliances;
 use nalgebra::{DMatrix, DVectorView};
 
@@ -86,13 +86,16 @@ impl Modes {
         let sign = (1..=count).map(|n| if smooth(n) < 0.0 { -1.0 } else { 1.0 }).collect();
         // Harmonic by harmonic, every node's angle turned on by its first harmonic's.
         let nodes = x.len();
-        let (mut cosines, mut sines) = (vec![1.0; nodes], vec![0.0; nodes]);
-        let first: Vec<(f64, f64)> = x.iter().map(|x| (std::f64::consts::TAU / wavelength * x).sin_cos()).collect();
-        for n in 1..=2 * count {
-            for (i, (sin, cos)) in first.iter().enumerate() {
-                let (c, s) = (cosines[(n - 1) * nodes + i], sines[(n - 1) * nodes + i]);
-                cosines.push(c * cos - s * sin);
-                sines.push(s * cos + c * sin);
+        let size = (1 + 2 * count) * nodes;
+        let (mut cosines, mut sines) = (vec![1.0; size], vec![0.0; size]);
+        let (sin, cos): (Vec<f64>, Vec<f64>) =
+            x.iter().map(|x| (std::f64::consts::TAU / wavelength * x).sin_cos()).unzip();
+        for at in (nodes..size).step_by(nodes) {
+            let ((c, next_c), (s, next_s)) = (cosines.split_at_mut(at), sines.split_at_mut(at));
+            let (c, s) = (&c[at - nodes..], &s[at - nodes..]);
+            let next = next_c.iter_mut().zip(next_s);
+            for (((next_c, next_s), (c, s)), (cos, sin)) in next.zip(c.iter().zip(s)).zip(cos.iter().zip(&sin)) {
+                (*next_c, *next_s) = (c * cos - s * sin, s * cos + c * sin);
             }
         }
         let stiffest = (1..=count).map(|n| -smooth(n) / local).fold(0.0, f64::max);
@@ -149,10 +152,12 @@ impl Modes {
         1 + 2 * self.count
     }
 
+    #[inline(always)]
     fn cosine(&self, n: usize) -> &[f64] {
         &self.cosines[n * self.nodes..(n + 1) * self.nodes]
     }
 
+    #[inline(always)]
     fn sine(&self, n: usize) -> &[f64] {
         &self.sines[n * self.nodes..(n + 1) * self.nodes]
     }
@@ -160,22 +165,41 @@ impl Modes {
     /// z₀ + smooth deflection \[m\] at the nodes.
     pub fn deflection(&self, amplitudes: &[f64], out: &mut [f64]) {
         out.fill(amplitudes[0]);
-        for n in 1..=self.count {
-            let scale = self.sign[n - 1] * self.scale[n - 1];
-            let (a, b) = (amplitudes[n] * scale, amplitudes[self.count + n] * scale);
-            for ((u, c), s) in out.iter_mut().zip(self.cosine(n)).zip(self.sine(n)) {
-                *u += a * c + b * s;
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for n in 1..=self.count {
+                    let scale = self.sign[n - 1] * self.scale[n - 1];
+                    let (a, b) = (amplitudes[n] * scale, amplitudes[self.count + n] * scale);
+                    for ((u, c), s) in out.iter_mut().zip(self.cosine(n)).zip(self.sine(n)) {
+                        *u += a * c + b * s;
+                    }
+                }
+            },
+        );
     }
 
     /// The total of nodal forces \[N\], then their projection on each scaled mode.
     pub fn project(&self, force: &[f64], out: &mut [f64]) {
         out[0] = force.iter().sum();
-        for n in 1..=self.count {
-            out[n] = self.scale[n - 1] * dot(force, self.cosine(n));
-            out[self.count + n] = self.scale[n - 1] * dot(force, self.sine(n));
+        let (cosines, sines) = out[1..].split_at_mut(self.count);
+        self.fourier(force, 1, cosines, sines);
+        for (out, scale) in out[1..].iter_mut().zip(self.scale.iter().cycle()) {
+            *out *= scale;
         }
+    }
+
+    /// Sums of nodal `values` times the cosines and sines of harmonics from `first` on.
+    fn fourier(&self, values: &[f64], first: usize, cosines: &mut [f64], sines: &mut [f64]) {
+        vectorised(
+            #[inline(always)]
+            || {
+                for (n, (cosine, sine)) in cosines.iter_mut().zip(sines).enumerate() {
+                    *cosine = dot(values, self.cosine(first + n));
+                    *sine = dot(values, self.sine(first + n));
+                }
+            },
+        );
     }
 
     /// Largest force \[N\] by which the load or a mode is out of balance, from the gradient of the energy.
@@ -189,8 +213,8 @@ impl Modes {
     /// matrix is made of the first 2(N−1) Fourier coefficients of κ (a Toeplitz and a Hankel part).
     pub fn stiffness(&self, nodal: &[f64]) -> DMatrix<f64> {
         let m = self.count;
-        let c: Vec<f64> = (0..=2 * m).map(|n| dot(nodal, self.cosine(n))).collect();
-        let s: Vec<f64> = (0..=2 * m).map(|n| dot(nodal, self.sine(n))).collect();
+        let (mut c, mut s) = (vec![0.0; 1 + 2 * m], vec![0.0; 1 + 2 * m]);
+        self.fourier(nodal, 0, &mut c, &mut s);
         let mut matrix = DMatrix::zeros(1 + 2 * m, 1 + 2 * m);
         matrix[(0, 0)] = c[0];
         for a in 1..=m {

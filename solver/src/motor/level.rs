@@ -30,6 +30,8 @@ const CONTACT_SHARE: f64 = 1e-3;
 /// Share of the error asked for that a cycle which does not quite repeat may have, and what round-off leaves of the load.
 const REPEATING_SHARE: f64 = 0.3;
 const LEAST_CHANGE: f64 = 1e-9;
+/// Share of the last change that is still to come, at least.
+const LEAST_TO_COME: f64 = 0.125;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
 #[derive(Debug)]
@@ -61,7 +63,8 @@ pub(super) struct MotorLevel {
     contact_load: Vec<f64>,
     /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
     stiffness: f64,
-    /// Residual of the last round; of a transient, the largest of a step of the last cycle, in ln ζ.
+    /// What further rounds would change, in ln ζ, as the last two tell, or the last imbalance if that is greater; of a transient, the largest
+    /// residual of a step of the last cycle.
     pub(super) residual: f64,
     /// Change of the film's load due to the change of the gas in the last round \[N\].
     drift: f64,
@@ -404,7 +407,7 @@ impl MotorLevel {
         }
         let mut anderson = Anderson::new(if self.reference.is_some() { DEPTH / 2 } else { DEPTH }, LONGEST_STEP);
         let (mut present, mut image) = (Vec::new(), Vec::new());
-        let (mut residual, mut last_change) = (f64::INFINITY, 0.0);
+        let (mut residual, mut last_residual, mut last_change) = (f64::INFINITY, 0.0, 0.0);
         self.pack(&self.trapped, self.reference.as_deref().unwrap_or(&[]), &mut present);
         for round in 1..=rounds {
             let exact = step_tolerance(residual / self.stiffness);
@@ -417,7 +420,8 @@ impl MotorLevel {
             self.shift();
             self.pack(&self.next, &self.film_thickness, &mut image);
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            residual = change.max(imbalance);
+            let to_come = left(std::mem::replace(&mut last_residual, change), change, 0.5, 1.0);
+            residual = to_come.max(LEAST_TO_COME * change).max(imbalance);
             self.residual = residual;
             let change = self.force_of_change(&self.trapped, &self.next);
             self.drift = left(std::mem::replace(&mut last_change, change), change, 0.5, 1.0);
@@ -446,13 +450,12 @@ impl MotorLevel {
         (REPEATING_SHARE * accuracy * self.unit()).max(LEAST_CHANGE)
     }
 
-    /// Film line load \[N/m\] at a node of the lines, from the film's own pressure.
-    fn film_line_load(&self, index: usize) -> f64 {
-        let ix = index % self.nx;
+    /// Film line load \[N/m\] at node `ix` of the line that begins at `line`, from the film's own pressure.
+    fn film_line_load(&self, line: usize, ix: usize) -> f64 {
         if ix == 0 || ix + 1 == self.nx {
             return 0.0;
         }
-        self.ambient_pressure * (self.line[index] / self.film_thickness[index] - self.interior_width)
+        self.ambient_pressure * (self.line[line + ix] / self.film_thickness[line + ix] - self.interior_width)
     }
 
     /// Cycle mean of the force on one wavelength \[N\] by which two amounts of gas differ, ζ at every node of the lines, all of it counted
@@ -495,9 +498,11 @@ impl MotorLevel {
 
     /// Cycle mean of the film load from every `every`-th step alone \[N\].
     fn mean_film_load_of(&self, every: usize) -> f64 {
-        let (lengths, size) = (&self.grid().x.lengths, self.nx);
+        let lengths = &self.grid().x.lengths;
         let lines = (0..self.stored * self.steps).filter(|line| (line % self.steps).is_multiple_of(every));
-        let load = |line: usize| (0..size).map(|i| self.film_line_load(line * size + i) * lengths[i]).sum::<f64>();
+        let load = |line: usize| -> f64 {
+            lengths.iter().enumerate().map(|(ix, length)| self.film_line_load(line * self.nx, ix) * length).sum()
+        };
         let sum: f64 = lines.map(load).sum();
         sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64
     }
@@ -514,7 +519,7 @@ impl MotorLevel {
         for tooth in 0..self.teeth {
             let line = self.line_of(tooth, instant);
             for (ix, length) in lengths.iter().enumerate() {
-                total += (self.film_line_load(line + ix) + self.contact_load[line + ix]) * length;
+                total += (self.film_line_load(line, ix) + self.contact_load[line + ix]) * length;
             }
         }
         total / self.load

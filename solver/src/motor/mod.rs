@@ -195,7 +195,7 @@ impl GridSolver for Search<'_> {
     type Level = MotorLevel;
     type Error = MotorError;
     const WIDTH_AIM: f64 = 0.3;
-    const MOST_WORK: f64 = 1.5e5;
+    const MOST_WORK: f64 = 2.5e5;
 
     fn solve(
         &mut self,
@@ -377,6 +377,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
     // A pressure changes by what is left out also where the mean load has no share of it.
     recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
+    recording.across = found.width_error() / (estimate.value.abs() + f64::MIN_POSITIVE);
     if motor.surface.asperities.is_some()
         && let Some(grid) = plan.grids.last()
     {
@@ -384,6 +385,8 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     }
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
+    // Extrapolated, little contact may vanish. Asperities always carry something.
+    result.levitated &= motor.surface.asperities.is_some() || level.floats();
     let alpha = result.alpha.value;
     let error = estimate.error + (alpha - estimate.value).abs();
     result.set_alpha(motor, Estimate { value: alpha, error });

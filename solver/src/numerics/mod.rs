@@ -28,16 +28,25 @@ pub fn gauss_legendre(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     reach * HALF.iter().map(|(x, weight)| weight * (f(middle - reach * x) + f(middle + reach * x))).sum::<f64>()
 }
 
-/// Dot product with four running sums, so that the compiler may use vector registers. Same result on every run.
+/// Dot product.
+#[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a4, a_rest) = a.as_chunks::<4>();
-    let (b4, b_rest) = b.as_chunks::<4>();
-    for (u, v) in a4.iter().zip(b4) {
-        for lane in 0..4 {
-            sums[lane] += u[lane] * v[lane];
+    sum_of(a, b, |u, v| u * v)
+}
+
+/// Sum of a term for each pair of values, in sixteen running sums, so that the compiler may use vector registers, several at once. Same result
+/// on every run.
+#[inline(always)]
+pub fn sum_of(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
+    const SUMS: usize = 16;
+    let mut sums = [0.0; SUMS];
+    let (whole_a, rest_a) = a.as_chunks::<SUMS>();
+    let (whole_b, rest_b) = b.as_chunks::<SUMS>();
+    for (u, v) in whole_a.iter().zip(whole_b) {
+        for lane in 0..SUMS {
+            sums[lane] += term(u[lane], v[lane]);
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(u, v)| u * v).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    let rest: f64 = rest_a.iter().zip(rest_b).map(|(u, v)| term(*u, *v)).sum();
+    sums.iter().sum::<f64>() + rest
 }

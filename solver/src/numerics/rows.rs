@@ -8,6 +8,8 @@
 //! D̃₀ = D₀,   D̃ᵢ = Dᵢ − Wᵢ D̃ᵢ₋₁⁻¹ Eᵢ₋₁,   yᵢ = D̃ᵢ⁻¹ (rᵢ − Wᵢ yᵢ₋₁),   xᵢ = yᵢ − D̃ᵢ⁻¹ Eᵢ xᵢ₊₁
 //! ```
 //!
+//! and likewise from the last row, with E and W exchanged. Rows are eliminated from both ends towards the middle one.
+//!
 //! The inverses are formed in place by Gauss–Jordan elimination, columns³ operations each, whatever A is. Every operation is
 //! on whole columns that stay where they are, which suits vector registers (docs/performance.md). For M-matrices all D̃ are
 //! M-matrices too and no pivoting is needed; nor is it where the symmetric part is definite, as with a spectral A.
@@ -41,7 +43,7 @@ pub enum RowSolver {
     /// By elimination.
     Blocks(BlockSolver),
     /// Where A is [`Across::Neighbours`].
-    Lines(LineSolver),
+    Lines(Box<LineSolver>),
 }
 
 impl RowSolver {
@@ -49,7 +51,7 @@ impl RowSolver {
     pub fn new(rows: usize, columns: usize, across: &Across) -> Self {
         match across {
             Across::Full(matrix) => Self::Blocks(BlockSolver::new(rows, columns, matrix)),
-            Across::Neighbours(across) => Self::Lines(LineSolver::new(rows, across)),
+            Across::Neighbours(across) => Self::Lines(Box::new(LineSolver::new(rows, across))),
         }
     }
 
@@ -71,11 +73,8 @@ pub struct BlockSolver {
     matrix: Vec<Lanes>,
     /// D̃⁻¹ of every row, column by column, each column padded with zeros to whole registers.
     inverses: Vec<Lanes>,
-    /// W of the row at hand, what D̃⁻¹ is multiplied with, and the product.
-    west: Vec<Lanes>,
-    known: Vec<Lanes>,
-    image: Vec<Lanes>,
-    pivot: Vec<Lanes>,
+    /// For columns whose number is not a constant: what D̃⁻¹ is multiplied with, a pivot, the last product from either end, and a block.
+    workspace: Vec<Lanes>,
     /// Unit vectors, a column each.
     units: Vec<Lanes>,
 }
@@ -84,7 +83,6 @@ impl BlockSolver {
     /// For `rows` × `columns` unknowns, with A column by column.
     fn new(rows: usize, columns: usize, matrix: &[f64]) -> Self {
         let groups = columns.div_ceil(LANES);
-        let line = vec![[0.0; LANES]; groups];
         let mut units = vec![[0.0; LANES]; columns * groups];
         for p in 0..columns {
             units[p * groups + p / LANES][p % LANES] = 1.0;
@@ -98,32 +96,56 @@ impl BlockSolver {
             columns,
             matrix: padded,
             inverses: vec![[0.0; LANES]; rows * columns * groups],
-            west: line.clone(),
-            known: line.clone(),
-            image: line.clone(),
-            pivot: line,
+            workspace: vec![[0.0; LANES]; (4 + columns) * groups],
             units,
         }
     }
 
     fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
-        with_columns!(self.columns, B => vectorised(
-            #[inline(always)]
-            || self.solve_columns::<B>(coupling, centre, rhs)
-        ));
+        with_columns!(self.columns, B => {
+            const GROUPS: usize = B.div_ceil(LANES);
+            vectorised(
+                #[inline(always)]
+                || self.solve_columns::<B, GROUPS, { B * GROUPS }>(coupling, centre, rhs)
+            )
+        });
     }
 
+    /// `G`: registers of a column, and `N` those of a block; 0 if B is.
     #[inline(always)]
-    fn solve_columns<const B: usize>(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
+    fn solve_columns<const B: usize, const G: usize, const N: usize>(
+        &mut self,
+        coupling: &Coupling,
+        centre: &[f64],
+        rhs: &mut [f64],
+    ) {
         let b = if B == 0 { self.columns } else { B };
         let groups = b.div_ceil(LANES);
         let block = b * groups;
         let rows = centre.len() / b;
-        let (west, known, image) = (&mut self.west[..groups], &mut self.known[..groups], &mut self.image[..groups]);
-        for row in 0..rows {
+        // What is at hand stays in registers if its size is known.
+        let zero = [0.0; LANES];
+        let (mut columns, mut inverse) = ([[zero; G]; 4], [zero; N]);
+        let [known, pivot, first, second, inverse]: [&mut [Lanes]; 5] = if B == 0 {
+            let (known, rest) = self.workspace.split_at_mut(groups);
+            let (pivot, rest) = rest.split_at_mut(groups);
+            let (first, rest) = rest.split_at_mut(groups);
+            let (second, inverse) = rest.split_at_mut(groups);
+            [known, pivot, first, second, inverse]
+        } else {
+            let [known, pivot, first, second] = &mut columns;
+            [known, pivot, first, second, &mut inverse]
+        };
+        let images = [first, second];
+        // What a row has to do with the one before it or behind it, and that one with the row.
+        let between = |row: usize, side: usize, other: usize| {
+            let (own, others) =
+                if side == 0 { (&coupling.west, &coupling.east) } else { (&coupling.east, &coupling.west) };
+            (&own[row * b..][..b], &others[other * b..][..b])
+        };
+        for turn in 0..rows {
+            let (row, own) = place(turn, rows);
             let at = row * b;
-            let (before, rest) = self.inverses.split_at_mut(row * block);
-            let inverse = &mut rest[..block];
             for c in 0..b {
                 let (factor, own) = (coupling.within[at + c], centre[at + c]);
                 let (column, unit) = (&self.matrix[c * groups..][..groups], &self.units[c * groups..][..groups]);
@@ -131,36 +153,60 @@ impl BlockSolver {
                     *entry = plus(scaled(column[g], factor), scaled(unit[g], own));
                 }
             }
-            known.as_flattened_mut()[..b].copy_from_slice(&rhs[at..at + b]);
-            if row > 0 {
-                let last = &before[(row - 1) * block..][..block];
-                west.as_flattened_mut()[..b].copy_from_slice(&coupling.west[at..at + b]);
+            for (g, known) in known.iter_mut().enumerate() {
+                *known = register(&rhs[at..at + b], g);
+            }
+            // The last row, where both ways meet, has two rows beside it that are known.
+            for side in 0..2 {
+                let other = match side {
+                    _ if side != own && turn + 1 < rows => continue,
+                    0 if row > 0 => row - 1,
+                    1 if row + 1 < rows => row + 1,
+                    _ => continue,
+                };
+                let (to, from) = between(row, side, other);
+                let (image, last) = (&images[side], &self.inverses[other * block..][..block]);
                 for g in 0..groups {
-                    known[g] = minus(known[g], times(west[g], image[g]));
-                }
-                let east = &coupling.east[at - b..at];
-                for ((column, last), east) in inverse.chunks_exact_mut(groups).zip(last.chunks_exact(groups)).zip(east)
-                {
-                    for g in 0..groups {
-                        column[g] = minus(column[g], scaled(times(west[g], last[g]), *east));
+                    let beside = register(to, g);
+                    known[g] = minus(known[g], times(beside, image[g]));
+                    for (c, from) in from.iter().enumerate() {
+                        let k = c * groups + g;
+                        inverse[k] = minus(inverse[k], scaled(times(beside, last[k]), *from));
                     }
                 }
             }
-            invert::<B>(inverse, b, &mut self.pivot, &self.units);
-            multiply::<B>(inverse, b, known, image);
-            rhs[at..at + b].copy_from_slice(&image.as_flattened()[..b]);
+            invert::<B>(inverse, b, pivot, &self.units);
+            multiply::<B>(inverse, b, known, images[own]);
+            self.inverses[row * block..][..block].copy_from_slice(inverse);
+            rhs[at..at + b].copy_from_slice(&images[own].as_flattened()[..b]);
         }
-        for row in (0..rows.saturating_sub(1)).rev() {
-            let at = row * b;
-            for (r, known) in known.as_flattened_mut()[..b].iter_mut().enumerate() {
-                *known = coupling.east[at + r] * rhs[at + b + r];
+        for turn in (0..rows.saturating_sub(1)).rev() {
+            let (row, side) = place(turn, rows);
+            let (at, next) = (row * b, if side == 0 { row + 1 } else { row - 1 });
+            let (_, to) = between(next, side, row);
+            for g in 0..groups {
+                known[g] = times(register(to, g), register(&rhs[next * b..][..b], g));
             }
-            multiply::<B>(&self.inverses[row * block..][..block], b, known, image);
-            for (x, image) in rhs[at..at + b].iter_mut().zip(image.as_flattened()) {
+            multiply::<B>(&self.inverses[row * block..][..block], b, known, images[side]);
+            for (x, image) in rhs[at..at + b].iter_mut().zip(images[side].as_flattened()) {
                 *x -= image;
             }
         }
     }
+}
+
+/// The row that is eliminated in a turn, and from which end its way comes: both ways are gone at once, a row of each in turn, because neither
+/// has to wait for the other one's divisions. They meet in the middle.
+#[inline(always)]
+fn place(turn: usize, rows: usize) -> (usize, usize) {
+    if turn.is_multiple_of(2) { (turn / 2, 0) } else { (rows - 1 - turn / 2, 1) }
+}
+
+/// Register `g` of a column, padded with zeros.
+#[inline(always)]
+fn register(column: &[f64], g: usize) -> Lanes {
+    let at = |lane: usize| if g * LANES + lane < column.len() { column[g * LANES + lane] } else { 0.0 };
+    [at(0), at(1), at(2), at(3)]
 }
 
 #[inline(always)]

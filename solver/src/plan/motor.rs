@@ -80,7 +80,7 @@ impl Plan {
 
         let time = time(numerics, &numbers, motor, &rotor, spec);
         let flow = flow(numerics, &numbers, motor, spec);
-        let wedge = wedge(numerics, &numbers, motor, along, spec);
+        let wedge = wedge(numerics, &numbers, motor, &rotor, along, spec);
         let trapped = time.chosen == Choice::Time(Time::Trapped);
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;

@@ -10,6 +10,9 @@ use std::f64::consts::{PI, TAU};
 /// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
 /// along (measured, and bounded by `tests/plan.rs`).
 const WEDGE_EFFECT: f64 = 2.0;
+/// Share of the wave's amplitude that the gap is taken to open by at least, however far the rotor follows it (measured: 0.03 is
+/// too much for heavily loaded single teeth).
+const LEAST_OPENING: f64 = 0.02;
 /// Effect on α, relative, of solving the wedge term where a cell's Péclet number is above 1, per unit of that number: the
 /// upwinding it then needs spreads the gas in its stead; and more of it, the more unevenly a crown holds it (measured, and
 /// bounded by `tests/plan.rs`).
@@ -49,6 +52,7 @@ pub(super) fn wedge(
     numerics: &Numerics,
     numbers: &Dimensionless,
     motor: &Motor,
+    rotor: &Compliances,
     along: usize,
     spec: &Spec,
 ) -> Decision {
@@ -62,7 +66,7 @@ pub(super) fn wedge(
             Wedge::On => Some(false),
             Wedge::Off => Some(true),
         },
-        effect: wedge_effect(numbers, motor),
+        effect: wedge_effect(numbers, motor, rotor),
         unresolved: upwinding(numbers, motor, along),
         number: numbers.bearing_to_squeeze,
     }
@@ -90,7 +94,7 @@ pub(super) fn time(
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
             + yielding(motor, rotor, layer)
-            + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 }
+            + if motor.shear { wedge_effect(numbers, motor, rotor) } else { 0.0 }
             + rough,
         unresolved: 0.0,
         number: layer / motor.tooth_width.min(motor.contact_width),
@@ -138,15 +142,43 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
 /// Effect of the wedge term, relative to α, the sum of three, times how much more gas rough faces drag in:
 ///
 /// * Λ/σ = U/(2ωb) for what it carries over the ends of a tooth, and U k h/(2ωA) for what it squeezes, by how much ∂x(hU/2)
-///   adds to the wave's ∂h/∂t, h being the mean gap: the larger of the two;
+///   adds to the wave's ∂h/∂t, h being the mean gap; or what it changes where teeth roll more than they open ([`rolling`]): the
+///   largest of the three;
 /// * the square of B/2 over the boundary layer, by which it shifts the layer at the ends to and fro, and with it the gas that
 ///   they hold in the long run: in as much of the tooth as the film is wide;
 /// * if the rotor turns, how far that carries gas along a tooth, V_R τ/(2b), until it has leaked out of the closed film after
 ///   τ = 1/(π² D (1/b² + 1/w²)).
-fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
+fn wedge_effect(numbers: &Dimensionless, motor: &Motor, rotor: &Compliances) -> f64 {
     let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
-    let oscillating = sliding_effect(numbers.bearing_to_squeeze, motor) + WEDGE_EFFECT * shifted * end_share(motor);
+    let squeezed = sliding_effect(numbers.bearing_to_squeeze, motor).max(rolling(numbers, motor, rotor));
+    let oscillating = squeezed + WEDGE_EFFECT * shifted * end_share(motor);
     (dragged(motor) * (oscillating + carried(numbers, motor, motor.rotor_speed))).min(1.0)
+}
+
+/// Effect of the wedge term under teeth that roll, relative to α. The wave also tilts a tooth, by up to k A, which moves the place
+/// where a crown is highest to and fro by R k A. Sliding carries the gas after it, by up to B/2. If nothing else squeezes the
+/// gas, that leaves B/(2 R k A) less squeezing, and twice as much less of α, which goes with its square. At the ends of a tooth,
+/// whose gas is in w/b of it, the slope H/δ across the layer counts like that of the crown. If the gap also opens, by e, rolling
+/// is only t²/(e² + t²) of the squeezing, t being the tilt times half the length that takes part. One tooth a wave never
+/// opens: the rotor rides up and down with it. A rotor that follows the wave leaves less of A: e.
+fn rolling(numbers: &Dimensionless, motor: &Motor, rotor: &Compliances) -> f64 {
+    let amplitude = motor.normal_amplitude;
+    let wavenumber = TAU / motor.wavelength();
+    let opening = (amplitude - followed(motor, rotor)).max(LEAST_OPENING * amplitude);
+    let tilt = 0.5 * wavenumber * active_length(motor) * amplitude;
+    let share = if motor.teeth == 1 { 1.0 } else { tilt.powi(2) / (opening.powi(2) + tilt.powi(2)) };
+    let ends = motor.min_spacing / numbers.boundary_layer * end_share(motor) / motor.tooth_width;
+    let slope = motor.tooth_radius.map_or(0.0, f64::recip) + ends;
+    motor.tangential_amplitude * slope / (wavenumber * opening) * share
+}
+
+/// How far the rotor follows the wave \[m\] if it presses on tooth j of n with L/n (1 + cos 2πj/n), as when the last tooth is about to
+/// lift off: harmonics j n ± 1 of amplitude L/λ, of which those shorter than what a tooth is active on do not count.
+fn followed(motor: &Motor, rotor: &Compliances) -> f64 {
+    let length = motor.wavelength();
+    let times = |n: usize| [n - 1, n + 1].iter().filter(|m| m.is_multiple_of(motor.teeth)).count() as f64;
+    let shortest = ((length / active_length(motor)) as usize).max(1);
+    motor.load / length * (1..=shortest).map(|n| times(n) * rotor.harmonic(n)).sum::<f64>()
 }
 
 /// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].

@@ -6,7 +6,9 @@
 //! to −6 of a viscous film. So ln F(x) is followed by the secant, within a bracket: below, the gap at which the plate rests on its
 //! roughness; above, that at which no film could carry as much, since P is nowhere more than the greatest gap leaves in the least. First
 //! on coarse grids, then on those that the accuracy asks for, each solve started from the last. The gap is as accurate as the load is:
-//! its error is that of the load over |dF/dh|.
+//! its error is that of the load over |dF/dh|, with what is left of the bracket, or as far as to a gap at which the film carries too much or
+//! too little beyond its error. A budget that is spent ends no search, since a gap that is half found is none: it leaves the first grids of
+//! each solve, which take little time.
 
 use super::level::PlateLevel;
 use super::result::{add_errors, first_harmonic, numbers};
@@ -88,7 +90,15 @@ pub fn float(
     cancel: &Cancel,
 ) -> Result<(Periodic, Plan), FloatError> {
     let mut nobody = ();
-    let mut search = GapSearch { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
+    let mut search = GapSearch {
+        plate: plate.clone(),
+        load,
+        warm: None,
+        certain: [plate.min_spacing, f64::INFINITY],
+        stats: Stats::default(),
+        observer,
+        cancel,
+    };
     if plate.amplitude == 0.0 {
         return Err(search.rests(0.0, rough));
     }
@@ -97,7 +107,7 @@ pub fn float(
     let slope = -0.5 - 1.5 * away / (away + plate.amplitude);
     let roughly = search.seek(away.ln(), slope, rough, ROUGHLY)?;
     let sought = search.seek(roughly.x, roughly.slope, asked, 0.0)?;
-    let Sought { x, found, plan, .. } = sought;
+    let Sought { x, left, found, plan, .. } = sought;
     let at = search.at(x);
     let mut periodic = finish(&turned(&at, &plan), &plan, &found, search.stats);
     let pinned = found.pinned(&plan);
@@ -110,7 +120,8 @@ pub fn float(
     let result = &mut periodic.result;
     let off = result.film_load.error + (result.film_load.value - load).abs();
     result.film_load.error = off;
-    let mean_gap = Estimate { value: at.mean_gap, error: off / (stiffness.value.abs() - stiffness.error).max(0.0) };
+    let error = off / (stiffness.value.abs() - stiffness.error).max(0.0) + left;
+    let mean_gap = Estimate { value: at.mean_gap, error: error.min(search.farthest(x)) };
     // F ~ exp(−p x), about.
     let power = stiffness.value.abs() * x.exp() / load;
     stiffness.error += (power + 1.0) * stiffness.value.abs() * mean_gap.error / x.exp();
@@ -123,6 +134,9 @@ pub fn float(
     result.floating = Some(Floating { slow, ..floating });
     result.min_film_thickness.error = mean_gap.error;
     periodic.recording.min_film_thickness_error.fill(mean_gap.error);
+    if periodic.status == Status::Converged && mean_gap.error > mean_gap.value {
+        periodic.status = Status::NotResolved { error: mean_gap.error / mean_gap.value };
+    }
     Ok((periodic, plan))
 }
 
@@ -161,15 +175,19 @@ struct GapSearch<'a> {
     load: f64,
     /// The last solve, to start the next from.
     warm: Option<SolvedGrids<PlateLevel>>,
+    /// h − a \[m\] between which the film carries the load whatever its errors are.
+    certain: [f64; 2],
     stats: Stats,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
 }
 
-/// A gap whose film carries the load, in x = ln(h − a); the slope of ln F there, and its solve.
+/// A gap whose film carries the load, in x = ln(h − a); the slope of ln F there, and its solve; and if the search did not end there, what is
+/// left of its bracket \[m\].
 struct Sought {
     x: f64,
     slope: f64,
+    left: f64,
     found: SolvedGrids<PlateLevel>,
     plan: Plan,
 }
@@ -177,6 +195,12 @@ struct Sought {
 impl GapSearch<'_> {
     fn at(&self, x: f64) -> Plate {
         Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
+    }
+
+    /// How far it is from the gap of `x` to the farther one between which the film carries the load for certain \[m\].
+    fn farthest(&self, x: f64) -> f64 {
+        let [least, greatest] = self.certain;
+        (greatest - x.exp()).max(x.exp() - least)
     }
 
     fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, SolvedGrids<PlateLevel>), FloatError> {
@@ -193,7 +217,8 @@ impl GapSearch<'_> {
         Ok((stated(plate, plan, &found), found))
     }
 
-    /// The gap, from `x` and the `slope` of ln F there on, until the film carries the load to `within`, or to the error that it has.
+    /// The gap, from `x` and the `slope` of ln F there on, until the film carries the load to `within`, or to the error that it has: also after
+    /// the budget is spent, on the first grids.
     fn seek(
         &mut self,
         mut x: f64,
@@ -208,14 +233,21 @@ impl GapSearch<'_> {
         let floor = self.plate.min_spacing.ln();
         let ceiling = (cap.min(HIGHEST.max(amplitude + self.plate.min_spacing)) - amplitude).ln();
         let (mut low, mut high) = (floor, ceiling.max(floor));
+        self.certain[1] = self.certain[1].min(high.exp());
         let mut last: Option<(f64, f64)> = None;
         let mut solves = 0;
         loop {
+            let had_time = !self.cancel.is_spent();
             x = x.clamp(low, high);
             let plate = self.at(x);
             let plan = planned(&plate);
             let (carried, found) = self.solve(&plate, &plan)?;
             solves += 1;
+            if carried.value - carried.error > self.load {
+                self.certain[0] = self.certain[0].max(x.exp());
+            } else if carried.value + carried.error < self.load {
+                self.certain[1] = self.certain[1].min(x.exp());
+            }
             let y = (carried.value / self.load).max(NOTHING.exp()).ln();
             if let Some((x_before, y_before)) = last {
                 let secant = (y - y_before) / (x - x_before);
@@ -225,9 +257,13 @@ impl GapSearch<'_> {
             // What the load is known to is no reason to be content with more than a little.
             let known = SHARE * (carried.error / self.load).min(ROUGHLY);
             let close = (carried.value / self.load - 1.0).abs() <= known.max(within.max(target));
-            let enough = solves == MOST_SOLVES || solves > 1 && (high - low < 1e-12 || self.cancel.is_spent());
-            if close || enough {
-                return Ok(Sought { x, slope, found, plan });
+            let enough = solves == MOST_SOLVES || solves > 1 && high - low < 1e-12;
+            // The first grids alone do not tell whether it rests.
+            let may_rest = x <= floor && self.cancel.is_spent() && carried.value + carried.error >= self.load;
+            if close || enough || y < 0.0 && may_rest {
+                let end = if y > 0.0 { high } else { low };
+                let left = if close { 0.0 } else { (end.exp() - x.exp()).abs() };
+                return Ok(Sought { x, slope, left, found, plan });
             }
             self.warm = (!plan.turned).then_some(found);
             if y < 0.0 && x <= floor {
@@ -242,6 +278,10 @@ impl GapSearch<'_> {
                 high = x
             }
             last = Some((x, y));
+            if had_time && self.cancel.is_spent() {
+                // What finer grids told does not bracket the gap of the first ones, which there are from now on.
+                (low, high, last) = (floor, ceiling.max(floor), None);
+            }
             let next = x - y / slope;
             let untried = next <= low && low == floor || next >= high && high == ceiling;
             x = if next > low && next < high || untried { next } else { 0.5 * (low + high) };

@@ -32,13 +32,16 @@ const LARGEST_FACTOR: f64 = 2.0;
 impl LineLoads {
     /// Offset of tooth `tooth`, frame `frame`; `nodes` = `x.len()` values follow it.
     pub fn line_offset(&self, tooth: usize, frame: usize) -> usize {
-        let frames = self.frames;
-        let (tooth, frame) = if self.stored_teeth == self.teeth {
-            (tooth, frame)
+        self.line(tooth, frame) * self.x.len()
+    }
+
+    /// Which of the lines it is.
+    fn line(&self, tooth: usize, frame: usize) -> usize {
+        if self.stored_teeth == self.teeth {
+            tooth * self.frames + frame
         } else {
-            (0, (frame + tooth * frames / self.teeth) % frames)
-        };
-        (tooth * frames + frame) * self.x.len()
+            (frame + tooth * self.frames / self.teeth) % self.frames
+        }
     }
 
     /// This grid's lines less what the `coarse` one shows to be missing still.
@@ -177,8 +180,10 @@ impl LineLoads {
     fn series<T: Copy>(&self, of_line: impl Fn(Range<usize>) -> T, join: impl Fn(T, T) -> T) -> Vec<T> {
         let nodes = self.x.len();
         let lines: Vec<T> = (0..self.stored_teeth * self.frames).map(|k| of_line(k * nodes..(k + 1) * nodes)).collect();
-        let teeth = |frame: usize| (0..self.teeth).map(move |tooth| self.line_offset(tooth, frame) / nodes);
-        (0..self.frames).filter_map(|frame| teeth(frame).map(|line| lines[line]).reduce(&join)).collect()
+        let joined = |frame: usize| {
+            (1..self.teeth).map(|tooth| lines[self.line(tooth, frame)]).fold(lines[self.line(0, frame)], &join)
+        };
+        (0..self.frames).map(joined).collect()
     }
 }
 

@@ -40,6 +40,8 @@ pub struct Recording {
     pub transient: bool,
     /// Bound of what the scene's switches leave out of the film, relative to its mean load: no grid shows it.
     pub forced: f64,
+    /// Relative error of the film's mean load for want of nodes across: no grid shows it.
+    pub across: f64,
     /// Stator's normal displacement W_S \[m\], `[tooth][frame][node]` as the lines (zero for a plate).
     pub stator: Vec<f64>,
     /// x of the pressure map, from the middle of tooth or plate \[m\]; of a round plate the radius \[m\].

@@ -13,6 +13,7 @@ pub mod ring;
 
 use crate::budget::{self, Need, Purpose};
 use crate::control::Cancel;
+use crate::digits::short;
 use crate::problem::{Motor, RotorCompliance};
 use compliances::smooth_share;
 pub use compliances::{Compliances, RotorError, Wave};
@@ -178,7 +179,9 @@ impl Motor {
             missing.push(format!("waves as short as a tooth, {tooth:.0} 1/m, have that of the last row"));
         }
         (!missing.is_empty()).then(|| {
-            let rows = if rows.len() == 1 { format!("{first} 1/m only") } else { format!("{first} to {last} 1/m") };
+            let ends = [first, last].map(|end| short(end, 4));
+            let rows =
+                if rows.len() == 1 { format!("{} 1/m only", ends[0]) } else { format!("{} 1/m", ends.join(" to ")) };
             format!("rotor.compliance covers wavenumbers {rows}: {}", missing.join("; "))
         })
     }

@@ -66,6 +66,20 @@ impl FromStr for Limit {
     }
 }
 
+impl Limit {
+    /// By how much `found` is beyond the limit, and up to which size that says nothing.
+    fn over(&self, found: &Estimate) -> (f64, f64) {
+        let over = if self.below { found.value - self.value } else { self.value - found.value };
+        (over, found.error.max(2e-3 * self.value.abs()))
+    }
+
+    /// The limit, beside the number `found` of an optimum, in words.
+    pub fn told(&self, found: &Estimate) -> String {
+        let (over, unclear) = self.over(found);
+        format!("{}: {self}", if over > unclear { "NOT KEPT" } else { "allowed" })
+    }
+}
+
 impl std::fmt::Display for Limit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} {} {}", self.name, if self.below { '<' } else { '>' }, self.value)
@@ -392,11 +406,11 @@ fn describe(
     }
     let mut kept = true;
     for ((limit, _), found) in goal.limits.iter().zip(&limited) {
-        let over = if limit.below { found.value - limit.value } else { limit.value - found.value };
-        if over > found.error.max(2e-3 * limit.value.abs()) {
+        let (over, unclear) = limit.over(found);
+        if over > unclear {
             kept = false;
             warnings.push(format!("the limit {limit} cannot be kept: {} is reached", found));
-        } else if over.abs() <= found.error.max(2e-3 * limit.value.abs()) {
+        } else if over.abs() <= unclear {
             warnings.push(format!("the limit {limit} is what stops it"));
         }
     }

@@ -14,10 +14,10 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
 
-/// Default keys along x and y, in order of preference; the first that a scene has is taken.
+/// Default keys along x and y, in order of preference; the first that a scene has is taken, or else any that it has.
 const FIRST: [&[&str]; 2] = [
     &["plate.frequency_khz", "film.min_spacing_nm", "surface.rms_nm"],
-    &["plate.mean_gap_um", "motor.load_per_wave_n"],
+    &["plate.mean_gap_um", "motor.load_per_wave_n", "motor.load_n", "plate.amplitude_um"],
 ];
 /// Points of a line, and along each side of a map.
 const LINE: usize = 25;
@@ -49,10 +49,10 @@ impl AxisForm {
     pub fn around(scene: &Scene, key: &'static str, count: usize) -> Self {
         let mut form = Self { key, from: String::new(), to: String::new(), count: count.to_string(), log: false };
         let Some(parameter) = Parameter::find(key) else { return form };
-        let (range, log) = slider_range(scene, parameter);
+        let (slider, log) = slider_range(scene, parameter);
         let present = scene.get(key).or(parameter.usual()).and_then(|value| value.as_number()).unwrap_or_default();
         // What is beyond the slider is still allowed.
-        let range = if range.contains(present) { range } else { scene.range(key).unwrap_or(range) };
+        let range = if present == 0.0 { slider } else { scene.range(key).unwrap_or(slider) };
         let wanted = if log {
             [present / REACH, present * REACH]
         } else if present == 0.0 {
@@ -123,11 +123,13 @@ pub struct Form {
 impl Form {
     /// A form with defaults for `scene`.
     pub fn of(scene: &Scene) -> Self {
-        let first = |axis: usize| {
-            let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(FIRST[axis][0]);
-            AxisForm::around(scene, key, if axis == 0 { LINE } else { SIDE })
-        };
-        Self { axes: [first(0), first(1)], second: false, fidelity: Fidelity::default() }
+        let keys: Vec<&str> = candidates(scene).map(|parameter| parameter.key).collect();
+        let preferred = |axis: usize| FIRST[axis].iter().copied().filter(|key| keys.contains(key));
+        let first = preferred(0).next().unwrap_or(FIRST[0][0]);
+        let others = preferred(1).chain(keys.iter().copied());
+        let second = others.into_iter().find(|key| *key != first).unwrap_or(first);
+        let axes = [AxisForm::around(scene, first, LINE), AxisForm::around(scene, second, SIDE)];
+        Self { axes, second: false, fidelity: Fidelity::default() }
     }
 
     /// The axes in use.
@@ -368,6 +370,23 @@ mod tests {
                     assert!((from..=to).contains(&present), "{preset}, {}: {form:?}", parameter.key);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn what_is_typed_stays_whatever_kind_of_scene_it_is() {
+        let mut whole_ring = presets::find("fundamental").unwrap();
+        whole_ring.unset("motor.load_per_wave_n").unwrap();
+        whole_ring.set_all([("motor.load_n", "17")]).unwrap();
+        let presets = presets::BUILT_IN.iter().map(|preset| preset.scene().unwrap());
+        for scene in presets.chain([whole_ring]) {
+            let mut sweeps = SweepState::default();
+            sweeps.review(&scene);
+            ask(&mut sweeps, |form| form.axes[0].count = "9".to_owned());
+            ask(&mut sweeps, |form| form.set_second(true));
+            sweeps.review(&scene);
+            assert_eq!(sweeps.form.as_ref().unwrap().axes[0].count, "9", "{}", scene.name);
+            assert_eq!(sweeps.faults, [None, None], "{}", scene.name);
         }
     }
 

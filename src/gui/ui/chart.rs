@@ -4,7 +4,7 @@ use super::glossary::{self, Explained};
 use super::hint::text_width;
 use super::plot::{between, dots, framed, level, line, marks, numbered, tick, upright};
 use super::theme::on_screen;
-use crate::digits::{power_of_ten, short};
+use crate::digits::{power_of_ten, raised, short};
 use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Panel, Scale, Shape, ends};
 use crate::ticks::{Steps, decades};
 use eframe::egui::{self, Color32, Rect, RichText, Stroke, TextStyle, Visuals, vec2};
@@ -136,7 +136,7 @@ fn written(axis: &Axis, value: f64, step_size: f64) -> String {
     match (name, axis.scale) {
         (Some((_, name)), _) => name.clone(),
         (None, Scale::Log) if value.abs() > PLAIN_DECADES && value.fract() == 0.0 => power_of_ten(value),
-        (None, Scale::Log) => short(10f64.powf(value), DIGITS),
+        (None, Scale::Log) => raised(&short(10f64.powf(value), DIGITS)),
         (None, Scale::Linear) if step_size == 0.0 => short(value, DIGITS),
         (None, Scale::Linear) => tick(GridMark { value, step_size }),
     }

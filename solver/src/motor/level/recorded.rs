@@ -29,7 +29,7 @@ impl MotorLevel {
             node_length: x.lengths.clone(),
             touching_from: motor.touching_from(),
             contact: self.contact_load.clone(),
-            film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
+            film: (0..self.line.len()).map(|i| self.film_line_load(i - i % self.nx, i % self.nx)).collect(),
             film_thickness: self.film_thickness.clone(),
             peak,
             ambient: (0..self.nx)

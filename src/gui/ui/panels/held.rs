@@ -19,7 +19,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         ui.add_space(8.0);
         cx.note(
             ui,
-            "The plate in your hand, at this moment. The results of the vibrating plate are beside the other tabs.",
+            "The plate at this moment, held or let go. The results of the vibrating plate are beside the other tabs.",
         );
         ui.add_space(4.0);
         headline(ui, "", "Force", &uncertain(Estimate { value: reading.force, error: reading.error }), unit);

@@ -219,15 +219,15 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };
     number(ui, cx, "Time", &significant(time, 3), unit);
     if stats.warm_start {
-        cx.note(ui, "Warm start, from the fields of the scene before: counts and time depend on it");
+        cx.note(ui, "Warm start, from the fields of the scene before: counts, time, and values within their errors depend on it");
     }
     if !run.history.is_empty() {
         ui.add_space(6.0);
-        cx.note(ui, "Change in each round, one line for each grid; dashed, where it may stop");
+        cx.note(ui, "What further rounds would change, one line for each grid; dashed, where it may stop");
         let panel = &convergence(&run.history).panels[0];
         let height = ROUNDS * ui.text_style_height(&TextStyle::Body);
-        let words = (Some("Rounds"), "Change of the last round");
-        Chart { name: "Change in each round", height, panel, words }.show(ui);
+        let words = (Some("Rounds"), "Remaining change");
+        Chart { name: "Remaining change by round", height, panel, words }.show(ui);
     }
     ui.add_space(4.0);
 }
@@ -240,8 +240,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             // A grid that the time did not suffice for is given up before it has converged.
             let last = run.history.iter().rev().find(|round| round.residual <= round.tolerance);
             let text = last.map_or_else(String::new, |last| {
-                let [changed, allowed] = [last.residual, last.tolerance].map(percent);
-                format!(": the last round changed {changed}, allowed {allowed}")
+                let [changed, allowed] = [last.residual, last.tolerance].map(in_one_piece);
+                format!(": further rounds would change {changed}, allowed {allowed}")
             });
             let mut job = egui::text::LayoutJob::default();
             let font = TextStyle::Body.resolve(ui.style());
@@ -251,8 +251,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             ui.add_space(2.0);
         }
         Status::NotConverged { residual, tolerance } => {
-            let [changed, allowed] = [*residual, *tolerance].map(percent);
-            let text = format!("The last round still changed by {changed}, allowed {allowed}");
+            let [changed, allowed] = [*residual, *tolerance].map(in_one_piece);
+            let text = format!("Further rounds would still change it by {changed}, allowed {allowed}");
             banner(ui, cx.colours.alarm, "Not converged", &text);
         }
         Status::NotResolved { .. } => {
@@ -260,6 +260,11 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
         }
         Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
     }
+}
+
+/// A share in per cent that no line break divides.
+fn in_one_piece(share: f64) -> String {
+    percent(share).replace(' ', "\u{a0}")
 }
 
 /// A title and a sentence on a tinted ground.

@@ -285,13 +285,13 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
             ui.end_row();
         };
         let before = found.before.map_or_else(
-            || "cannot be solved as the scene was".to_owned(),
-            |before| format!("{before} as the scene was"),
+            || "cannot be solved where the search began".to_owned(),
+            |before| format!("{before} where the search began"),
         );
         let value = found.value.to_string();
         row(ui, sought, "The result that is sought, with its numerical error", value, before);
         for (((limit, _), words), reached) in found.goal.limits.iter().zip(limited).zip(&found.limited) {
-            row(ui, words, "A result that is limited", reached.to_string(), format!("allowed: {limit}"));
+            row(ui, words, "A result that is limited", reached.to_string(), limit.told(reached));
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;

@@ -21,13 +21,15 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
-use crate::gui::ui::plot::{between, line};
+use crate::gui::ui::plot::{self, between, line};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::scene::Scale;
 use crate::solution::StoppedBy;
 use crate::ticks::Steps;
-use eframe::egui::{Color32, CursorIcon, FontId, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
-use egui_plot::{LineStyle, PlotPoint, PlotResponse, PlotUi, Text};
+use eframe::egui::{
+    Color32, CursorIcon, FontId, Id, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, vec2,
+};
+use egui_plot::{LineStyle, PlotMemory, PlotPoint, PlotResponse, PlotUi, Text};
 
 /// Radius of the ring round the point that is pointed at.
 const RING: f32 = 7.0;
@@ -97,12 +99,33 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
         _ => return,
     };
     // The drawing follows the pointer of the frame before, which is this one while it rests.
+    if let Some(point) = clicked(ui, &response, pointed.map(|row| row.point)) {
+        cx.push(SweepCommand::Open(point));
+    }
     let Some(row) = pointed else { return };
-    let response = response.on_hover_cursor(CursorIcon::PointingHand);
-    cx.on_click(&response, SweepCommand::Open(row.point));
-    response.on_hover_ui_at_pointer(|ui| {
+    response.on_hover_cursor(CursorIcon::PointingHand).on_hover_ui_at_pointer(|ui| {
         ui.label(plotted.words(row));
     });
+}
+
+/// The point that was clicked. In a chart that was moved or zoomed, which a double click brings back, a click waits for the second one.
+fn clicked(ui: &Ui, response: &Response, pointed: Option<usize>) -> Option<usize> {
+    let waiting = Id::unique("the point that was clicked");
+    let (now, longest) =
+        (ui.input(|input| input.time), ui.options(|options| options.input_options.max_double_click_delay));
+    let moved = PlotMemory::load(ui.ctx(), plot::id(NAME)).is_some_and(|memory| !memory.auto_bounds.all());
+    let mut waits: Option<(usize, f64)> = ui.data(|data| data.get_temp(waiting)).flatten();
+    let mut found = waits.take_if(|(_, since)| now - *since > longest).map(|(point, _)| point);
+    if response.double_clicked() {
+        waits = None;
+    } else if response.clicked() && moved {
+        waits = pointed.map(|point| (point, now));
+        ui.request_repaint_after_secs(longest as f32);
+    } else if response.clicked() {
+        found = pointed;
+    }
+    ui.data_mut(|data| data.insert_temp(waiting, waits));
+    found
 }
 
 /// Explanation of a varied parameter, shown on hover.
