@@ -5,7 +5,7 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
@@ -223,16 +223,21 @@ fn sweep_quantities(window: &Window) -> Vec<Quantity> {
     swept(window.state()).sweep.quantities()
 }
 
-#[test]
-fn a_point_is_read_and_opened_as_one_edit() {
+/// A window after a sweep over five points, and where its chart is.
+fn five_points() -> (Window, Rect) {
     let mut window = window("plate-crossover");
     solved(&mut window);
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "5");
     window.click_on("Start the sweep");
     until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
-    let drawing = "Sweep: point to read a value, click to make its scene the present one";
-    let rect = window.get_by_label(drawing).rect();
+    let rect = window.get_by_label("Sweep: point to read a value, click to make its scene the present one").rect();
+    (window, rect)
+}
+
+#[test]
+fn a_point_is_read_and_opened_as_one_edit() {
+    let (mut window, rect) = five_points();
     // Right of the middle: the fourth of five.
     let at = rect.lerp_inside(Vec2::new(0.76, 0.5));
     window.hover_at(at);
@@ -252,13 +257,7 @@ fn a_point_is_read_and_opened_as_one_edit() {
 
 #[test]
 fn a_double_click_brings_a_moved_chart_back_and_opens_no_point() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
-    window.ctrl(Key::Num3);
-    window.type_into("Values along x", "5");
-    window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
-    let rect = window.get_by_label("Sweep: point to read a value, click to make its scene the present one").rect();
+    let (mut window, rect) = five_points();
     // Two points farther: another one is now where the fourth was.
     let [from, to] = [0.285, 0.76].map(|share| rect.lerp_inside(Vec2::new(share, 0.5)));
     let before = window.known().document.scene().clone();

@@ -32,7 +32,7 @@ use std::f64::consts::TAU;
 
 /// Speeds from rest to the stator's greatest speed, equally spaced, among which the greatest power is looked for.
 const SPEEDS: usize = 11;
-/// Steps of the golden section that follows; each narrows the place by 0.62. A parabola through what is left is as exact as ten more.
+/// Steps of the golden section that follows; each narrows the place by 0.62. A parabola through what is left comes last.
 const NARROWED: usize = 10;
 /// Speed ratios on either side at which the error of a point is looked at too.
 const NEAR: f64 = 0.02;

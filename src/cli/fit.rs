@@ -74,8 +74,8 @@ pub(super) struct Arguments {
 
     /// A key to vary, with bounds in the key's unit or another of its kind; may be repeated
     ///
-    /// The search begins at the value in the preset or from --set, or, if that is not within the bounds, in their middle. Bounds with a ratio of ten or more are searched on a log
-    /// scale; :log and :lin override this.
+    /// The search begins at the value in the preset or from --set, or, if that is not within the bounds, in their middle. Bounds
+    /// with a ratio of ten or more are searched on a log scale; :log and :lin override this.
     #[arg(long, value_name = "KEY=FROM:TO[:log]", required = true)]
     vary: Vec<Bounds>,
 
