@@ -182,6 +182,15 @@ const FAMILIES: &[(&[&str], &[&str])] = &[
         ],
     ),
     (&["motor.rotor_speed_rpm=300", "motor.rotor_speed_rpm=-3000"], &["", "stator.tooth_width_mm=0.5"]),
+    // A turning rotor carries gas into the narrowest gap under a crown.
+    (
+        &["stator.teeth_per_wave=1 stator.tooth_width_mm=17 stator.tooth_radius_m=0.2 rotor.contact_width_mm=0.7"],
+        &["motor.rotor_speed_rpm=60", "motor.rotor_speed_rpm=200", "motor.rotor_speed_rpm=600"],
+    ),
+    (
+        &["stator.tooth_radius_m=0.2 rotor.contact_width_mm=0.6"],
+        &["motor.rotor_speed_rpm=60 motor.load_per_wave_n=6", "motor.rotor_speed_rpm=-200 film.min_spacing_nm=100"],
+    ),
     (
         &["stator.frequency_khz=10000 film.ambient_pressure_kpa=3"],
         &["", "film.min_spacing_nm=20", "film.min_spacing_nm=60"],

@@ -60,8 +60,8 @@ pub struct Fall {
     pub outcome: Option<Outcome>,
 }
 
-/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles`, until its height is within
-/// `tolerance` of where it settles, as its changes over 32 cycles tell. `None` if the scene has no plate under a load.
+/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles` and until a budget is spent, until its height is
+/// within `tolerance` of where it settles, as its changes over 32 cycles tell. `None` if the scene has no plate under a load.
 ///
 /// # Errors
 /// [`SolveError`] if a step has no solution to working precision, or it would need more memory than is allowed.
@@ -84,12 +84,14 @@ pub fn fall(
             (settled(problem, &solution.outcome).into_owned(), floats, Some(solution.outcome))
         }
         Err(SolveError::Float(error @ (FloatError::Rests { .. } | FloatError::High))) => {
-            (problem.clone(), Err(error.to_string()), None)
+            let scenario = Scenario::Plate(plate.resting());
+            (Problem { scenario, ..problem.clone() }, Err(error.to_string()), None)
         }
         Err(error) => return Err(error),
     };
     let Scenario::Plate(found) = &found.scenario else { return Ok(None) };
-    let gap = floats.clone().unwrap_or(Estimate::exact(plate.amplitude + plate.min_spacing));
+    let cancel = &cancel.started();
+    let gap = floats.clone().unwrap_or(Estimate::exact(found.mean_gap));
     let start = gap * FROM;
     let plan = Plan::plate(found, fidelity, &problem.numerics);
     let need = memory::plate(found, &plan);
@@ -135,6 +137,9 @@ pub fn fall(
                 return Ok(Some(Fall { status: Status::Converged, cycles: number, floats, outcome }));
             }
             status = Status::NotConverged { residual, tolerance };
+        }
+        if cancel.is_spent() {
+            return Ok(Some(Fall { status, cycles: number, floats, outcome }));
         }
     }
     Ok(Some(Fall { status, cycles, floats, outcome }))

@@ -30,6 +30,8 @@ pub const REACH: [f64; 2] = [0.2, 3.0];
 /// Largest change of ln h in a step, and the longest step over the leak time of the present gap and pressure.
 const LONGEST_MOVE: f64 = 0.04;
 const LONGEST_STEP: f64 = 1.0 / 40.0;
+/// Least step of a plate that falls, over the longest one in which it moves by no more than it may.
+const LEAST_STEP: f64 = 1.0 / 8.0;
 /// By how much a step may be longer than the one before.
 const GROWTH: f64 = 2.0;
 /// Least W over Z after a change of the step.
@@ -166,7 +168,7 @@ impl Hold {
         let moves = ((to / from).ln().abs() / LONGEST_MOVE).ceil().max(1.0);
         let mut done = 0.0;
         while done < duration {
-            let most = self.longest_step(duration / moves);
+            let most = self.longest_step(duration / moves, 0.0);
             // Equal steps to the end, so that none is a crumb.
             let left = duration - done;
             let count = (left / most).ceil().max(1.0);
@@ -178,11 +180,11 @@ impl Hold {
         Ok(())
     }
 
-    /// The longest step \[s\] that the film may take, at most `most`.
-    fn longest_step(&self, most: f64) -> f64 {
+    /// The longest step \[s\] that the film may take, at most `most`, and `least` whatever leaks.
+    fn longest_step(&self, most: f64, least: f64) -> f64 {
         let greatest_ratio = self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap));
         let leak = leak_time(&self.plate, self.gap) / greatest_ratio;
-        let most = most.min(LONGEST_STEP * leak) / self.finer;
+        let most = most.min(least.max(LONGEST_STEP * leak)) / self.finer;
         self.coarse.last_step.map_or(most, |last| most.min(GROWTH * last))
     }
 
@@ -216,7 +218,9 @@ impl Hold {
             let bounce = SHARE_OF_BOUNCE * (mass * self.gap / (gas + force.max(0.0))).sqrt();
             let closing = (free.speed - omega * free.amplitude * free.phase.sin()).abs();
             let approach = LONGEST_MOVE * self.gap / closing.max(f64::MIN_POSITIVE);
-            let most = self.longest_step(cycle.min(bounce).min(approach));
+            let most = cycle.min(bounce).min(approach);
+            // A film that leaks much faster than the plate moves follows at once.
+            let most = self.longest_step(most, LEAST_STEP * most);
             let left = duration - done;
             let count = (left / most).ceil().max(1.0);
             let step = left / count;

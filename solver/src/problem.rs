@@ -309,6 +309,11 @@ impl Plate {
         Self { length, width: self.width.map(|_| self.length), ..self.clone() }
     }
 
+    /// The plate where its vibration just does not lift it off its roughness: it comes down to the least gap in every cycle.
+    pub fn resting(&self) -> Self {
+        Self { mean_gap: self.amplitude + self.min_spacing, ..self.clone() }
+    }
+
     /// Film thickness h \[m\] at phase `t_over_period` of the cycle.
     pub fn gap(&self, t_over_period: f64) -> f64 {
         self.mean_gap + self.amplitude * (std::f64::consts::TAU * t_over_period).cos()

@@ -347,6 +347,16 @@ fn headline(outcome: &Outcome) -> Estimate {
     }
 }
 
+/// The headline, least and greatest load \[N or N/m\], and highest pressure \[Pa\].
+fn extremes(outcome: &Outcome) -> [f64; 4] {
+    let others = match outcome {
+        Outcome::Motor(result) => [result.film_load_min, result.film_load_max, result.max_pressure],
+        Outcome::Plate(result) => [result.film_load_min, result.film_load_max, result.max_pressure],
+    };
+    let [least, greatest, pressure] = others.map(|found| found.value);
+    [headline(outcome).value, least, greatest, pressure]
+}
+
 /// Either scene on its way.
 enum SceneTransient<'a> {
     Motor(Box<motor::MotorTransient<'a>>),
@@ -363,38 +373,41 @@ impl<'a> SceneTransient<'a> {
         cancel: &Cancel,
     ) -> Result<Self, SolveError> {
         if !plan.spectral || plan.grids.len() < 2 {
-            return Self::on(problem, plan, 0.0, stats);
+            return Self::on(problem, plan, [0.0; 4], stats);
         }
         let coarsest = plan.grids[0];
         let with = |across: usize, grid: &Grid| Grid { across, ..*grid };
-        let first = |across: usize| -> Result<f64, SolveError> {
+        let first = |across: usize| -> Result<[f64; 4], SolveError> {
             let grids = vec![with(across, &coarsest)];
             let (plan, mut stats) = (Plan { grids, maps: false, ..plan.clone() }, Stats::default());
-            let cycle = Self::on(problem, &plan, 0.0, &mut stats)?.cycle(&mut stats, cancel)?;
-            Ok(cycle.map_or(0.0, |cycle| headline(&cycle.outcome).value))
+            let cycle = Self::on(problem, &plan, [0.0; 4], &mut stats)?.cycle(&mut stats, cancel)?;
+            Ok(cycle.map_or([0.0; 4], |cycle| extremes(&cycle.outcome)))
         };
         let mut across = coarsest.across.max(2);
         let (mut narrower, mut before) = (first(across - 1)?, 0.0);
-        let error = loop {
+        let errors = loop {
             let wider = first(across)?;
-            let change = (wider - narrower).abs();
-            let error = error_across(change, before);
+            let changes: [f64; 4] = std::array::from_fn(|k| (wider[k] - narrower[k]).abs());
+            let error = error_across(changes[0], before);
             if error <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
-                break error;
+                let [_, least, greatest, pressure] = changes;
+                break [error, least, greatest, pressure];
             }
-            (narrower, before) = (wider, change);
+            (narrower, before) = (wider, changes[0]);
             across += 1;
         };
         let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();
-        Self::on(problem, &Plan { grids, ..plan.clone() }, error, stats)
+        Self::on(problem, &Plan { grids, ..plan.clone() }, errors, stats)
     }
 
-    /// On the grids of `plan`; `width_error` is that of the nodes across, of the headline.
-    fn on(problem: &'a Problem, plan: &Plan, width_error: f64, stats: &mut Stats) -> Result<Self, SolveError> {
+    /// On the grids of `plan`; `width_errors` are those of the nodes across, of the headline and of the other [`extremes`].
+    fn on(problem: &'a Problem, plan: &Plan, width_errors: [f64; 4], stats: &mut Stats) -> Result<Self, SolveError> {
         Ok(match &problem.scenario {
-            Scenario::Motor(motor) => Self::Motor(Box::new(motor::MotorTransient::at_rest(motor, plan, width_error)?)),
+            Scenario::Motor(motor) => {
+                Self::Motor(Box::new(motor::MotorTransient::at_rest(motor, plan, width_errors[0])?))
+            }
             Scenario::Plate(plate) => {
-                Self::Plate(Box::new(plate::PlateTransient::at_rest(plate, plan, width_error, stats)?))
+                Self::Plate(Box::new(plate::PlateTransient::at_rest(plate, plan, width_errors, stats)?))
             }
         })
     }

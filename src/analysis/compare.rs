@@ -233,14 +233,15 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()
 }
 
-/// 100 (b − a)/|a|, and the sum of what the two errors make of it.
+/// 100 (b − a)/|a|, and the most that the two errors make of it.
 fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
     // Of what may be nothing at all there is no share; an error that is not known hides nothing.
     if a.value.abs() <= a.error.max(0.0) {
         return None;
     }
     let ratio = b.value / a.value;
-    let error = 100.0 * (b.error.abs() + ratio.abs() * a.error.abs()) / a.value.abs();
+    let most = (b.value.abs() + b.error.abs()) / (a.value.abs() - a.error.abs());
+    let error = 100.0 * (most - ratio.abs());
     let value = 100.0 * (ratio - 1.0) * a.value.signum();
     Some(Estimate { value, error }).filter(|found| found.value.is_finite())
 }

@@ -43,7 +43,7 @@ pub(super) fn run(
     let (floats, validity) = (floats(&ended), validity(problem, &ended));
     let object = object((scene, problem), fidelity, &ended, &seen, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
-    let human = text(scene, &seen, &ended, tolerance, floats, &validity);
+    let human = text(scene, &seen, &ended, (cycles, tolerance), floats, &validity);
     terminal::result(json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
@@ -63,7 +63,7 @@ fn text(
     scene: &Scene,
     cycles: &[Cycle],
     ended: &Fall,
-    tolerance: f64,
+    (most, tolerance): (usize, f64),
     floats: Option<Estimate>,
     validity: &[Excess],
 ) -> String {
@@ -76,14 +76,14 @@ fn text(
         }
         Status::NotResolved { .. } => {
             format!(
-                "NOT RESOLVED after {} cycles: where it bounces, errors of steps and grids have grown to half of its height; \
-                     a higher --fidelity follows it further",
+                "NOT RESOLVED after {} cycles: where it bounces, errors of steps and grids have grown to half of its height",
                 ended.cycles
             )
         }
-        Status::NotConverged { .. } => {
-            format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles)
+        Status::NotConverged { .. } if ended.cycles < most => {
+            format!("STILL MOVING after {} cycles, when the time allowed was up", ended.cycles)
         }
+        Status::NotConverged { .. } => format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles),
         Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
     };
     let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();

@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{capitalised, duration, percent, significant};
+use crate::digits::{capitalised, duration, percent, significant, with_error};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::SensitivityStudy;
@@ -256,14 +256,14 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
         }
         if let Some(carlo) = found.carlo {
             let spread = carlo.spread(i);
-            if spread.as_ref().is_some_and(|spread| spread.is_off(value.value)) {
+            if spread.as_ref().is_some_and(|spread| spread.is_off(value)) {
                 bent.push(output.words());
             }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
-                format!("{} ({})", digits(spread.mean), significant(spread.deviation, 2))
+                format!("{} ({})", with_error(spread.mean, spread.mean_error()), significant(spread.deviation, 2))
             }));
             row.push(spread.map_or_else(String::new, |spread| {
-                format!("{} … {}", digits(spread.quantiles[0]), digits(spread.quantiles[2]))
+                format!("{} … {}", spread.quantiles[0], spread.quantiles[2])
             }));
         }
         columns.row(row);
@@ -283,9 +283,14 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             "more uncertain than they are large, to first order; --monte-carlo 500 says what so great a change does.",
         );
     }
-    remark(
-        &bent,
-        "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters. The range says more than a standard deviation.",
+    let again = if found.carlo.is_some_and(|carlo| carlo.redrawn > 0) {
+        ", or because draws outside of the ranges were drawn again"
+    } else {
+        ""
+    };
+    let told = format!(
+        "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters{again}. The range says more than a standard deviation."
     );
+    remark(&bent, &told);
     text
 }

@@ -6,7 +6,7 @@ use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Figure, Line, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
-use crate::problem::Problem;
+use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::Status;
 use serde_json::{Value, json};
@@ -47,9 +47,13 @@ pub fn object(
     })
 }
 
-/// The limits of the model that its last cycle exceeds; without one, those that the scene alone does.
+/// The limits of the model that are exceeded where the plate floats, or rests.
 pub fn validity(problem: &Problem, ended: &Fall) -> Vec<Excess> {
-    of_outcome(problem, ended.outcome.as_ref(), &[])
+    let mut problem = problem.clone();
+    if let (Scenario::Plate(plate), None) = (&mut problem.scenario, &ended.outcome) {
+        *plate = plate.resting();
+    }
+    of_outcome(&problem, ended.outcome.as_ref(), &[])
 }
 
 /// The mean gap \[µm\] at which it floats; `None` if it does not.

@@ -322,9 +322,13 @@ pub fn status_name(status: &Status) -> &'static str {
     }
 }
 
-/// A status, or that of a run in files, as it is marked beside numbers: in capitals; empty where all is well.
+/// A status, or that of a run in files, as it is marked beside numbers: in capitals, but for a reason after a colon; empty where all is well.
 pub fn mark(status: &str) -> String {
-    if status == status_name(&Status::Converged) { String::new() } else { status.to_uppercase() }
+    match status.split_once(": ") {
+        _ if status == status_name(&Status::Converged) => String::new(),
+        Some((status, reason)) => format!("{}: {reason}", status.to_uppercase()),
+        None => status.to_uppercase(),
+    }
 }
 
 #[cfg(test)]

@@ -34,9 +34,12 @@ fn spread(spread: Spread) -> Value {
         "mean": spread.mean,
         "mean_error": spread.mean_error(),
         "standard_deviation": spread.deviation,
-        "quantile_5": spread.quantiles[0],
-        "quantile_50": spread.quantiles[1],
-        "quantile_95": spread.quantiles[2],
+        "quantile_5": spread.quantiles[0].value,
+        "quantile_5_error": spread.quantiles[0].error,
+        "quantile_50": spread.quantiles[1].value,
+        "quantile_50_error": spread.quantiles[1].error,
+        "quantile_95": spread.quantiles[2].value,
+        "quantile_95_error": spread.quantiles[2].error,
     })
 }
 

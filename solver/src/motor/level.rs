@@ -428,7 +428,7 @@ impl MotorLevel {
             // The force is that of the gas before the slow shift.
             self.drift += self.force_of_change(&self.line, &self.next);
             report.round(round, residual, self.mean_film_load());
-            if residual < plan.tolerance && self.astray() <= self.allowed(plan.accuracy) {
+            if residual < plan.tolerance && self.astray() <= self.allowed(plan) {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
@@ -436,18 +436,16 @@ impl MotorLevel {
         }
         // What has not become small enough: what single nodes change by, or else what is left of α.
         let (residual, tolerance) = match residual < plan.tolerance {
-            true => (self.astray(), self.allowed(plan.accuracy)),
+            true => (self.astray(), self.allowed(plan)),
             false => (residual, plan.tolerance),
         };
         Ok(Status::NotConverged { residual, tolerance })
     }
 
-    /// How far α may still be from that of a cycle that repeats, if it is asked for this exactly; any distance, if no accuracy is.
-    fn allowed(&self, accuracy: f64) -> f64 {
-        if accuracy == 0.0 {
-            return f64::INFINITY;
-        }
-        (REPEATING_SHARE * accuracy * self.unit()).max(LEAST_CHANGE)
+    /// How far α may still be from that of a cycle that repeats: a share of the error that is asked for, or on given grids of the fidelity's.
+    fn allowed(&self, plan: &Plan) -> f64 {
+        let aim = if plan.accuracy == 0.0 { plan.target_error } else { plan.accuracy };
+        (REPEATING_SHARE * aim * self.unit()).max(LEAST_CHANGE)
     }
 
     /// Film line load \[N/m\] at node `ix` of the line that begins at `line`, from the film's own pressure.

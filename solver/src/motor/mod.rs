@@ -307,21 +307,24 @@ impl<'a> MotorTransient<'a> {
         );
         let Some(Marched { mut recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
         let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
-        recording.judge_series(astray.min(1.0), astray.min(1.0).max(plan.left_out), UNEVEN * plan.irregular);
-        let mut result = summarise(motor, &recording);
-        // Its frames begin with the start of the cycle, and have not its end.
-        let grown = end - recording.film_load[0] / motor.load;
         // What floats carries its load whatever the gas is, and whatever was left out.
-        let left_out = match result.levitated {
+        let floats = recording.teeth_in_contact.iter().all(|teeth| *teeth == 0);
+        let left_out = match floats {
             true => plan.forced.min(1.0),
             false => plan.left_out * mean.value.abs() + self.width_error,
         };
-        // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
-        let finest = self.levels.last().filter(|_| !result.levitated);
-        let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load);
-        let elsewhere = left_out + astray.min(1.0) * gas.max(1.0);
+        // What film and contact still disagree by, as a force of the gas.
+        let finest = self.levels.last().filter(|_| !floats);
+        let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load).max(1.0);
+        let elsewhere = left_out + astray.min(1.0) * gas;
+        recording.judge_series(elsewhere / gas, (elsewhere / gas).max(plan.left_out), UNEVEN * plan.irregular);
+        recording.across = self.width_error / (mean.value.abs() + f64::MIN_POSITIVE);
+        let mut result = summarise(motor, &recording);
+        // Its frames begin with the start of the cycle, and have not its end.
+        let grown = end - recording.film_load[0] / motor.load;
         let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
-        let error = mean.error.min(1.0) + (alpha - mean.value).abs() + elsewhere;
+        let grids = (mean.error * plan.irregular).min(1.0);
+        let error = claimed(plan, alpha, grids + (alpha - mean.value).abs() + elsewhere);
         result.set_alpha(motor, Estimate { value: alpha, error });
         let unsettled = (astray > tolerance).then_some((astray, tolerance));
         Ok(Some(TransientCycle { outcome: Outcome::Motor(result), recording, change, elsewhere, unsettled }))
@@ -361,9 +364,13 @@ fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let value = found.headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
     let left_out = plan.left_out * value.abs();
     let error = estimate.error.min(1.0) + astray + level.astray() + found.width_error() + left_out;
-    // Of a share of the load so small that the accuracy is not relative to it, no more is claimed than a quarter of what was asked.
-    let error = if unit(value) > value.abs() { error.max(0.25 * plan.accuracy * unit(value)) } else { error };
-    Estimate { value, error }
+    Estimate { value, error: claimed(plan, value, error) }
+}
+
+/// The `error` of α, and a quarter of what is asked for at least if α is so small that the accuracy is not relative to it.
+fn claimed(plan: &Plan, alpha: f64, error: f64) -> f64 {
+    let small = plan.accuracy > 0.0 && unit(alpha) > alpha.abs();
+    if small { error.max(0.25 * plan.target_error * unit(alpha)) } else { error }
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.

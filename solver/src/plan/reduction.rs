@@ -147,7 +147,8 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
 /// * the square of B/2 over the boundary layer, by which it shifts the layer at the ends to and fro, and with it the gas that
 ///   they hold in the long run: in as much of the tooth as the film is wide;
 /// * if the rotor turns, how far that carries gas along a tooth, V_R τ/(2b), until it has leaked out of the closed film after
-///   τ = 1/(π² D (1/b² + 1/w²)).
+///   τ = 1/(π² D (1/b² + 1/w²)); under a crown over √(2 R H_m), where it opens the closed film by a quarter at most, if that is
+///   less than b: what is carried into the narrowest gap is compressed there. This is a share of α with the term.
 fn wedge_effect(numbers: &Dimensionless, motor: &Motor, rotor: &Compliances) -> f64 {
     let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
     let squeezed = sliding_effect(numbers.bearing_to_squeeze, motor).max(rolling(numbers, motor, rotor));
@@ -199,10 +200,13 @@ fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
     WEDGE_EFFECT * bearing_to_squeeze * squeezed.max(1.0)
 }
 
-/// How far steady sliding at `speed` \[m/s\] carries gas along a tooth until it has leaked out, over twice its length.
+/// Effect of steady sliding at `speed` \[m/s\], relative to α without it: how far it carries gas along a tooth until that has leaked out,
+/// over twice the length that the closed film is even on, is a share of α with it.
 fn carried(numbers: &Dimensionless, motor: &Motor, speed: f64) -> f64 {
     let wavenumber = PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
-    0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width)
+    let even = motor.tooth_radius.map_or(f64::INFINITY, |radius| (2.0 * radius * motor.min_spacing).sqrt());
+    let share = 0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width.min(even));
+    share / (1.0 - share.min(1.0))
 }
 
 /// Share of a tooth whose gas is, in the long run, that of its ends rather than of its sides.

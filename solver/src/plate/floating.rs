@@ -58,7 +58,7 @@ pub enum FloatError {
     #[error("plate.amplitude_um = {}: the plate does not float: at the smallest gap that film.min_spacing_nm = {} allows, the film carries only {} % of the load; {}",
         brief(amplitude * 1e6), brief(min_spacing * 1e9), brief(100.0 * share.clamp(0.0, 0.999)),
         match needed {
-            Some(needed) => format!("it floats with an amplitude of about {} µm or more", brief(needed * 1e6)),
+            Some(needed) => format!("it floats with an amplitude of about {} µm", brief(needed * 1e6)),
             None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", brief(LARGEST_AMPLITUDE * 1e6)),
         })]
     Rests {
@@ -312,7 +312,7 @@ impl GapSearch<'_> {
     /// That the plate rests on its roughness, where the film carries this `share` of the load, and what it would need.
     fn rests(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> FloatError {
         let (amplitude, min_spacing) = (self.plate.amplitude, self.plate.min_spacing);
-        match self.needed(share, plan) {
+        match self.needed(plan) {
             Ok(needed) => FloatError::Rests { amplitude, min_spacing, share, needed },
             Err(error) => error,
         }
@@ -320,32 +320,53 @@ impl GapSearch<'_> {
 
     /// The least amplitude \[m\] with which the film carries the load as its least gap is that of the roughness. It carries more with
     /// a larger one at first, as gas is trapped, until the gap is so wide that gas leaves.
-    fn needed(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> Result<Option<f64>, FloatError> {
+    fn needed(&mut self, plan: &dyn Fn(&Plate) -> Plan) -> Result<Option<f64>, FloatError> {
         let (plate, spacing) = (self.plate.clone(), self.plate.min_spacing);
         self.warm = None;
+        let most = LARGEST_AMPLITUDE - spacing;
         let carried = |search: &mut Self, amplitude: f64| -> Result<f64, FloatError> {
-            let plate = Plate { amplitude, mean_gap: amplitude + spacing, ..plate.clone() };
+            let plate = Plate { amplitude, ..plate.clone() }.resting();
             let (load, _) = search.solve(&plate, &plan(&plate))?;
             Ok(load.value / search.load)
         };
         let ratio = self.load / (self.plate.gas.ambient_pressure * self.plate.area());
         // No film could carry it with less.
-        let mut low = (0.5 * spacing * ratio * (2.0 + ratio)).max(self.plate.amplitude);
-        if low > LARGEST_AMPLITUDE - spacing {
+        let mut low = 0.5 * spacing * ratio * (2.0 + ratio);
+        if low > most {
             return Ok(None);
         }
-        let mut of_low = if low > self.plate.amplitude { carried(self, low)? } else { share };
-        let mut high = low;
+        let (mut before, mut of_low, mut high) = (low, carried(self, low)?, low);
         while of_low < 1.0 {
-            high = low * of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0);
-            if high > LARGEST_AMPLITUDE - spacing {
+            if low == most {
                 return Ok(None);
             }
+            high = most.min(low * of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0));
             let of_high = carried(self, high)?;
             if of_high >= 1.0 {
                 break;
             }
-            (low, of_low) = (high, of_high);
+            if of_high < of_low {
+                // It carries the most in between.
+                low = before;
+                loop {
+                    if high / low < 1.0 + NEEDED {
+                        return Ok(None);
+                    }
+                    let inner = [1.0, 2.0].map(|third| low * (high / low).powf(third / 3.0));
+                    let [left, right] = [carried(self, inner[0])?, carried(self, inner[1])?];
+                    if left.max(right) >= 1.0 {
+                        (low, high) = (before, if left >= 1.0 { inner[0] } else { inner[1] });
+                        break;
+                    }
+                    if left < right {
+                        low = inner[0];
+                    } else {
+                        high = inner[1];
+                    }
+                }
+                break;
+            }
+            (before, low, of_low) = (low, high, of_high);
         }
         while high / low > 1.0 + NEEDED {
             let middle = (low * high).sqrt();

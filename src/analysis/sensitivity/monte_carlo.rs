@@ -36,16 +36,16 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
-    /// Quantiles of 5, 50 and 95 %.
-    pub quantiles: [f64; 3],
+    /// Quantiles of 5, 50 and 95 %; their error is the standard deviation that they have because there are so many draws and no more.
+    pub quantiles: [Estimate; 3],
     /// Bins of equal width from the least draw to the greatest: where the first begins, how wide they are, how many draws each has.
     pub bins: (f64, f64, Vec<usize>),
 }
 
 impl Spread {
-    /// Whether the mean is not `value`, by more than chance and than a tenth of the spread.
-    pub fn is_off(&self, value: f64) -> bool {
-        (self.mean - value).abs() > (3.0 * self.mean_error()).max(0.1 * self.deviation)
+    /// Whether the mean is not `value`, by more than chance, than a tenth of the spread and than its numerical error.
+    pub fn is_off(&self, value: Estimate) -> bool {
+        (self.mean - value.value).abs() > (3.0 * self.mean_error()).max(0.1 * self.deviation).max(value.error)
     }
 
     /// The standard deviation that the mean has because there are so many draws and no more.
@@ -79,7 +79,11 @@ impl MonteCarlo {
             let bin = if width > 0.0 { ((value - found[0]) / width) as usize } else { 0 };
             bins[bin.min(number - 1)] += 1;
         }
-        let quantiles = [0.05, 0.5, 0.95].map(|share| quantile(&found, share));
+        let quantiles = [0.05, 0.5, 0.95_f64].map(|share| {
+            let chance = (share * (1.0 - share) / count as f64).sqrt();
+            let [low, high] = [share - chance, share + chance].map(|share| quantile(&found, share.clamp(0.0, 1.0)));
+            Estimate { value: quantile(&found, share), error: 0.5 * (high - low) }
+        });
         Some(Spread { count, mean, deviation, quantiles, bins: (found[0], width, bins) })
     }
 }

@@ -104,8 +104,6 @@ impl MotorLevel {
         report: &mut Reporter<'_>,
         cancel: &Cancel,
     ) -> Result<Status, Stop> {
-        // Nothing else says that a cycle repeats: on grids that the scene prescribes as well.
-        let accuracy = if plan.accuracy == 0.0 { plan.target_error } else { plan.accuracy };
         let (mut loads, mut unbalanced) = (Vec::new(), 0);
         for cycle in 1..=CYCLE_LIMIT {
             let change = self.transient_cycle(SETTLED_SHARE * plan.tolerance, stats, cancel, &mut |_| ())?;
@@ -115,7 +113,7 @@ impl MotorLevel {
             let [.., first, _, _, middle, _, _, last] = loads[..] else { continue };
             let (before, after) = ((middle - first).abs(), (last - middle).abs());
             self.drift = left(before, after, 0.7, CREEP);
-            let allowed = self.allowed(accuracy);
+            let allowed = self.allowed(plan);
             if self.astray() <= allowed {
                 return Ok(Status::Converged);
             }
@@ -124,7 +122,7 @@ impl MotorLevel {
                 break;
             }
         }
-        Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(accuracy) })
+        Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(plan) })
     }
 
     /// One step, to instant `m` of the cycle.

@@ -1,7 +1,7 @@
 //! The sensitivity tab: how much each result changes with every parameter, and how uncertain it is if the parameters are.
 
 use crate::analysis::sensitivity::{Sensitivity, Uncertainties};
-use crate::digits::{percent, short, significant};
+use crate::digits::{percent, short, significant, with_error};
 use crate::export::sensitivity::{bars, distribution};
 use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::uncertain;
@@ -110,11 +110,9 @@ fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncer
         if let Some(spread) = cx.state.sensitivity.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
             let text = format!(
-                "random scenes: mean {}, standard deviation {}, 90 % of them from {} to {}",
-                significant(spread.mean, 4),
+                "random scenes: mean {}, standard deviation {}, 90 % of them from {low} to {high}",
+                with_error(spread.mean, spread.mean_error()),
                 significant(spread.deviation, 2),
-                significant(low, 4),
-                significant(high, 4)
             );
             glossary::term(ui, RichText::new(text).color(cx.colours.film), "Random scenes");
         }
