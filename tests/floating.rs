@@ -345,7 +345,14 @@ fn a_load_that_no_film_carries_is_refused_with_the_amplitude_it_needs() {
     );
     assert!(with(&(1.01 * needed).to_string(), "5").is_ok());
     assert!(with(&(0.9 * needed).to_string(), "5").unwrap_err().to_string().contains("does not float"));
-    assert!(with("0", "5").unwrap_err().to_string().contains("or more"));
+    assert!(with("0", "5").unwrap_err().to_string().contains("about "));
+    // With a large one gas leaves again: it floats from about 30 µm to less than 60.
+    for too_large in ["60", "300"] {
+        let error = with(too_large, "196").unwrap_err().to_string();
+        let needed: f64 = error.split("about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!((25.0..32.0).contains(&needed), "{error}");
+        assert!(with(&(1.02 * needed).to_string(), "196").is_ok(), "{needed}");
+    }
     // A load that is 10¹⁸ times what ambient pressure would carry, as well.
     for absurd in [&[("plate.load_n", "1e5")][..], &[("plate.load_n", "1e6"), ("plate.radius_mm", "0.001")]] {
         let refused = solved(&scene("floating-disc", &[absurd]), Fidelity::Draft).1.unwrap_err();

@@ -3,7 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
-use squeezefilm::export::surface::preset;
+use squeezefilm::digits::significant;
+use squeezefilm::export::surface::{lay, lengths, preset};
 use squeezefilm::scene::presets;
 use squeezefilm::surface::height_map::{HeightMap, HeightMapError};
 use squeezefilm::surface::texture::{Pair, Texture, measured};
@@ -70,6 +71,23 @@ fn the_lay_is_by_how_much_a_face_is_stretched() {
         let [along, across] = Pair::of(&texture, &texture).flow_factors(2.0);
         assert_eq!(along > across, stretched > 1.0);
     }
+}
+
+#[test]
+fn of_grooves_longer_than_the_face_the_lay_is_a_bound() {
+    // Along y nothing changes; along x 8.5 µm from groove to groove, whose autocorrelation cos k lag falls to ½ at a sixth of that.
+    let height = |k: usize| 50e-9 * (TAU * (k % 80) as f64 / 8.5).sin();
+    let face = HeightMap { nx: 80, ny: 60, spacing: [1e-6; 2], heights: (0..80 * 60).map(height).collect() };
+    let texture = Texture::of(&face.levelled(1));
+    assert!(texture.correlation[1].is_none());
+    let bound = 8.5 / 6.0 / 29.0;
+    assert!((texture.lay().unwrap() / bound - 1.0).abs() < 0.1, "{:?} {bound}", texture.lay());
+    let told = lengths(&texture, texture.correlation);
+    assert!(told.starts_with("1.") && told.ends_with(" µm, longer than half the face"), "{told}");
+    assert_eq!(lay(&texture).unwrap(), format!("at most {}", significant(texture.lay().unwrap(), 3)));
+    // They keep the gas from flowing along x.
+    let [along, across] = Pair::of(&texture, &texture).flow_factors(2.0);
+    assert!(along < 0.9 && across > 1.1, "{along} {across}");
 }
 
 #[test]

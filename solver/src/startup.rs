@@ -384,16 +384,15 @@ impl<'a> SceneTransient<'a> {
             Ok(cycle.map_or([0.0; 4], |cycle| extremes(&cycle.outcome)))
         };
         let mut across = coarsest.across.max(2);
-        let (mut narrower, mut before) = (first(across - 1)?, 0.0);
+        let (mut narrower, mut before) = (first(across - 1)?, [0.0; 4]);
         let errors = loop {
             let wider = first(across)?;
             let changes: [f64; 4] = std::array::from_fn(|k| (wider[k] - narrower[k]).abs());
-            let error = error_across(changes[0], before);
-            if error <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
-                let [_, least, greatest, pressure] = changes;
-                break [error, least, greatest, pressure];
+            let errors: [f64; 4] = std::array::from_fn(|k| error_across(changes[k], before[k]));
+            if errors[0] <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
+                break errors;
             }
-            (narrower, before) = (wider, changes[0]);
+            (narrower, before) = (wider, changes);
             across += 1;
         };
         let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();

@@ -8,7 +8,7 @@ use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
 use crate::export::files::Files;
 use crate::export::json;
-use crate::export::surface::{RATIOS, object, preset};
+use crate::export::surface::{RATIOS, lay, lengths, object, preset};
 use crate::input::read_text;
 use crate::scene::heights::LARGEST;
 use crate::surface::height_map::HeightMap;
@@ -90,12 +90,6 @@ fn text(faces: &[Face], pair: &Pair) -> String {
     let mut row = |name: &str, value: &dyn Fn(&Texture) -> String, note: &str| {
         of_faces(name, &|(_, (_, texture))| value(texture), note);
     };
-    let lengths =
-        |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length * 1e6, 3))) {
-            [Some(x), Some(y)] => format!("{x}, {y} µm"),
-            [Some(x), None] => format!("{x} µm"),
-            _ => "longer than half the face".to_owned(),
-        };
     row("Sa", &|face| format!("{} nm", significant(face.mean * 1e9, 4)), "mean magnitude of the heights, level");
     row("Sq", &|face| format!("{} nm", significant(face.rms * 1e9, 4)), "their standard deviation");
     row("Sz", &|face| format!("{} nm", significant(face.peak_to_valley * 1e9, 4)), "peak to valley");
@@ -104,11 +98,11 @@ fn text(faces: &[Face], pair: &Pair) -> String {
         &|face| format!("{}, {}", signed(format!("{:.2}", face.skewness)), signed(format!("{:.2}", face.kurtosis))),
         "skewness and kurtosis; 0 and 3 if normally distributed",
     );
-    row("correlation length", &|face| lengths(face.correlation), "along x and y, where the autocorrelation falls to ½");
-    row("", &|face| lengths(face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
+    row("correlation length", &|face| lengths(face, face.correlation), "along x and y, where the autocorrelation falls to ½");
+    row("", &|face| lengths(face, face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
     row(
         "lay  γ",
-        &|face| face.lay().map_or_else(|| "unknown, taken to be 1".to_owned(), |lay| significant(lay, 3)),
+        &|face| lay(face).unwrap_or_else(|| "unknown, taken to be 1".to_owned()),
         "along x over across",
     );
     let mut text = columns.text(&[]);

@@ -1,6 +1,6 @@
 //! Measured faces: the object of `--json`, and the lines of a preset.
 
-use crate::digits::rounded;
+use crate::digits::{rounded, significant};
 use crate::scene::Parameter;
 use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
@@ -73,6 +73,29 @@ pub fn preset(pair: &Pair) -> String {
     );
     let commented: String = other.lines().map(|line| format!("# {line}\n")).collect();
     format!("[film]\n{spacing}\n{commented}")
+}
+
+/// Two `lengths` \[m\] of a face, along x and y, in words; of a profile one.
+pub fn lengths(face: &Texture, lengths: [Option<f64>; 2]) -> String {
+    let longer = "longer than half the face";
+    let number = |length: f64| significant(length * 1e6, 3);
+    match lengths {
+        [Some(x), Some(y)] => format!("{}, {} µm", number(x), number(y)),
+        [None, Some(y)] => format!("{longer}, {} µm", number(y)),
+        [Some(x), None] if face.autocorrelation[1].is_empty() => format!("{} µm", number(x)),
+        [Some(x), None] => format!("{} µm, {longer}", number(x)),
+        [None, None] => longer.to_owned(),
+    }
+}
+
+/// The lay of a face in words; `None` if it is not known.
+pub fn lay(face: &Texture) -> Option<String> {
+    let bound = match face.correlation {
+        [Some(_), None] => "at most ",
+        [None, Some(_)] => "at least ",
+        _ => "",
+    };
+    face.lay().map(|lay| format!("{bound}{}", significant(lay, 3)))
 }
 
 #[cfg(test)]

@@ -86,10 +86,12 @@ impl Texture {
         }
     }
 
-    /// γ: how much longer asperities are along x than along y.
+    /// γ: how much longer asperities are along x than along y. Of a length beyond half the face that half is taken, so that γ is a bound;
+    /// `None` of a profile, and where both are.
     pub fn lay(&self) -> Option<f64> {
-        let [x, y] = self.correlation;
-        Some(x? / y?)
+        let longest = |axis: usize| self.autocorrelation[axis].last().map(|(lag, _)| *lag).filter(|lag| *lag > 0.0);
+        let [x, y] = [0, 1].map(|axis| self.correlation[axis].or_else(|| longest(axis)));
+        (self.correlation != [None, None]).then_some(x? / y?)
     }
 }
 

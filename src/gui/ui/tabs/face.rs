@@ -2,6 +2,7 @@
 
 use crate::digits::{signed, significant};
 use crate::export::figure::{Axis, Colour, Line, Panel, Style};
+use crate::export::surface::{lay, lengths};
 use crate::gui::command::Command;
 use crate::gui::derived::scales::span;
 use crate::gui::state::dialogs::Purpose;
@@ -101,10 +102,8 @@ fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {
 /// Its statistics, and what follows from two faces like it.
 fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
     let (own, both) = (&face.texture, &face.pair);
-    let lengths = own.correlation.iter().flatten().map(|length| significant(length * 1e6, 3));
-    let lengths = lengths.collect::<Vec<_>>().join(", ");
-    let lengths = if lengths.is_empty() { "longer than half the face".to_owned() } else { format!("{lengths} µm") };
-    let lay = own.lay().map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3));
+    let lengths = lengths(own, own.correlation);
+    let lay = lay(own).unwrap_or_else(|| "unknown, taken to be 1".to_owned());
     let nm = |value: f64| format!("{} nm", significant(value * 1e9, 4));
     let rows = [
         ["Sa, Sq", &format!("{}, {}", nm(own.mean), nm(own.rms)), "Roughness, both faces", &nm(both.rms)],
