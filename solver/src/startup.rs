@@ -43,6 +43,15 @@ pub struct Cycle {
     pub recording: Recording,
 }
 
+impl Cycle {
+    /// The same, of whose fields only the film's load over the period is left.
+    pub fn slim(&self) -> Self {
+        let Recording { period, film_load, .. } = &self.recording;
+        let recording = Recording { period: *period, film_load: film_load.clone(), ..Recording::default() };
+        Self { recording, ..*self }
+    }
+}
+
 /// How a start-up is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {

@@ -9,9 +9,9 @@ use crate::analysis::validity::{Excess, beside_headline};
 use crate::control::Cancel;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{figure, floats, object, row, validity};
-use crate::export::files::{Files, Folder};
-use crate::export::{csv, json};
+use crate::export::fall::{floats, object, validity};
+use crate::export::files::{self, Folder};
+use crate::export::json;
 use crate::fall::{Cycle, Fall, fall};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -47,14 +47,8 @@ pub(super) fn run(
     terminal::result(json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
     if let Some(folder) = folder {
-        let mut files = Files::new(folder)?;
-        files.add("startup.csv", |out| csv::rows(seen.iter().map(row), out))?;
-        files.json("startup.json", &object)?;
-        let mut drawn = figure(problem, &seen, floats);
-        drawn.provenance.fidelity = fidelity.to_string();
-        files.figure("startup", &drawn)?;
-        files.text("scene.toml", &scene.to_toml())?;
-        terminal::wrote(folder.path, &files.commit()?);
+        let paths = files::fall(folder, (scene, problem), fidelity, (&ended, &seen), wall_s)?;
+        terminal::wrote(folder.path, &paths);
     }
     Ok(Some(Exit::of(&ended.status)))
 }

@@ -11,9 +11,9 @@ use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::validity::{Excess, beside_headline};
 use crate::digits::{duration, percent, significant};
 use crate::estimate::Estimate;
-use crate::export::files::Files;
+use crate::export::files;
 use crate::export::json;
-use crate::export::startup::{CycleRow, figure, object, place, steady, validity, warnings, write_csv};
+use crate::export::startup::{CycleRow, object, place, steady, validity, warnings};
 use crate::fall::CYCLES;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -81,23 +81,23 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (cycles, tolerance) = (cycles(usual.cycles), arguments.tolerance);
     let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
-    let (mut rows, mut loads): (Vec<CycleRow>, Vec<Vec<f64>>) = Default::default();
+    let mut seen: Vec<Cycle> = Vec::new();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = CycleRow::of(&problem, &cycle);
             let main = significant(row.numbers.main().value, 4);
-            if row.cycle > rows.len() {
+            if row.cycle > seen.len() {
                 bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
             } else {
                 bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
             }
-            place(&mut rows, cycle.number, row);
-            place(&mut loads, cycle.number, cycle.recording.film_load);
+            place(&mut seen, cycle.number, cycle.slim());
         };
         startup::startup(&problem, &settings, &mut each, &cancel)
     });
     let ended = ended?;
     arguments.common.solve.tell_if_late("the start-up", wall_s);
+    let rows: Vec<CycleRow> = seen.iter().map(|cycle| CycleRow::of(&problem, cycle)).collect();
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
     let object = object((&scene, &problem), &settings, &ended, &rows, wall_s);
@@ -106,17 +106,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = &folder {
-        let mut files = Files::new(folder)?;
-        files.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
-        files.json("startup.json", &object)?;
-        let mut drawn = figure(&problem, &rows, steady, &loads);
-        drawn.provenance.fidelity = settings.fidelity.to_string();
-        if let Some(last) = rows.last() {
-            drawn.provenance.error = format!("ends at {}", last.numbers.main());
-        }
-        files.figure("startup", &drawn)?;
-        files.text("scene.toml", &scene.to_toml())?;
-        terminal::wrote(folder.path, &files.commit()?);
+        let paths = files::startup(folder, (&scene, &problem), &settings, (&ended, &seen), wall_s)?;
+        terminal::wrote(folder.path, &paths);
     }
     Ok(Exit::of(&ended.status))
 }

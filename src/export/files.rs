@@ -6,7 +6,7 @@ use super::compare::{self, all_figures, movies, report};
 pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
 use super::json::{self, Summary};
-use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
+use super::{csv, fall, figures, fit, npz, sensitivity, startup, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::quantity::Quantity;
@@ -14,11 +14,15 @@ use crate::analysis::sweep::{Sweep, SweepRow};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
+use crate::export::startup::CycleRow;
+use crate::fall::Fall;
+use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::Scene;
 use crate::solution::Solution;
 use crate::solve::Settings;
+use crate::startup::Startup;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::io;
@@ -365,6 +369,47 @@ pub fn optimum(
     files.add("optimum.csv", |out| fit::write_optimum_csv(found, out))?;
     files.figure("optimum", &fit::optimum_figure(problem, found))?;
     files.text("fitted.toml", &found.scene.to_toml())?;
+    files.commit()
+}
+
+/// Writes the files of `squeezefilm startup --out` into a folder. `wall_s`: by the caller's clock, or not a number.
+pub fn startup(
+    folder: &Folder<'_>,
+    (scene, problem): (&Scene, &Problem),
+    settings: &crate::startup::Settings,
+    (ended, cycles): (&Startup, &[crate::startup::Cycle]),
+    wall_s: f64,
+) -> Result<Vec<PathBuf>, WriteError> {
+    let rows: Vec<CycleRow> = cycles.iter().map(|cycle| CycleRow::of(problem, cycle)).collect();
+    let mut files = Files::new(folder)?;
+    files.add("startup.csv", |out| startup::write_csv(problem, &rows, out))?;
+    files.json("startup.json", &startup::object((scene, problem), settings, ended, &rows, wall_s))?;
+    let loads = cycles.iter().map(|cycle| cycle.recording.film_load.as_slice());
+    let mut drawn = startup::figure(problem, &rows, startup::steady(problem, ended), loads);
+    drawn.provenance.fidelity = settings.fidelity.to_string();
+    if let Some(last) = rows.last() {
+        drawn.provenance.error = format!("ends at {}", last.numbers.main());
+    }
+    files.figure("startup", &drawn)?;
+    files.text("scene.toml", &scene.to_toml())?;
+    files.commit()
+}
+
+/// Writes the files of `squeezefilm startup --out` for a plate that is dropped into a folder. `wall_s`: by the caller's clock, or not a number.
+pub fn fall(
+    folder: &Folder<'_>,
+    (scene, problem): (&Scene, &Problem),
+    fidelity: Fidelity,
+    (ended, cycles): (&Fall, &[crate::fall::Cycle]),
+    wall_s: f64,
+) -> Result<Vec<PathBuf>, WriteError> {
+    let mut files = Files::new(folder)?;
+    files.add("startup.csv", |out| csv::rows(cycles.iter().map(fall::row), out))?;
+    files.json("startup.json", &fall::object((scene, problem), fidelity, ended, cycles, wall_s))?;
+    let mut drawn = fall::figure(problem, cycles, fall::floats(ended));
+    drawn.provenance.fidelity = fidelity.to_string();
+    files.figure("startup", &drawn)?;
+    files.text("scene.toml", &scene.to_toml())?;
     files.commit()
 }
 

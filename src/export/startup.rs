@@ -170,7 +170,12 @@ pub(super) fn periodic(value: f64) -> Mark {
 }
 
 /// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
-pub fn figure(problem: &Problem, rows: &[CycleRow], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
+pub fn figure<'a>(
+    problem: &Problem,
+    rows: &[CycleRow],
+    steady: Option<Estimate>,
+    loads: impl Iterator<Item = &'a [f64]>,
+) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
     let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
     let at = |row: &CycleRow| (row.cycle as f64, row.numbers.main());
@@ -180,7 +185,7 @@ pub fn figure(problem: &Problem, rows: &[CycleRow], steady: Option<Estimate>, lo
         .layer(Band::new("error of the grids", band, Colour::FILM))
         .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)))
         .layers(steady.map(|found| periodic(found.value)));
-    let instants = loads.iter().enumerate().flat_map(|(cycle, loads)| {
+    let instants = loads.enumerate().flat_map(|(cycle, loads)| {
         let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;
         loads.iter().enumerate().map(move |(step, load)| [at(step), *load])
     });

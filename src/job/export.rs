@@ -15,9 +15,11 @@ use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::Summary;
 use crate::export::sweep::{self as swept, primary, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
+use crate::fall::{self, Fall};
 use crate::fidelity::Fidelity;
 use crate::lessons::record::{self, Record};
 use crate::solve::Settings;
+use crate::startup::{self, Startup};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -92,6 +94,10 @@ pub enum Content {
     Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>),
     /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
     Fit(String, Box<Posed>, Arc<fit::FitResult>),
+    /// A start-up: its scene, how it was computed, how it ended, and its cycles without fields.
+    Startup(Box<Posed>, startup::Settings, Box<Startup>, Vec<startup::Cycle>),
+    /// A plate that was dropped: its scene, the fidelity, how it ended, and its cycles.
+    Fall(Box<Posed>, Fidelity, Fall, Vec<fall::Cycle>),
     /// Error against time of the scene of this name.
     Tradeoff(OfTradeoff, String, Tradeoff),
     /// The record of what a student did.
@@ -144,6 +150,14 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
             let found = sensitivity::SensitivityStudy { sensitivity: &sensitivity, uncertainties, carlo };
             files::sensitivity(&folder(path, BESIDE_DATA), &found)?
+        }
+        Content::Startup(posed, settings, ended, cycles) => {
+            let (out, scene) = (folder(path, BESIDE_DATA), (&posed.scene, &posed.problem));
+            files::startup(&out, scene, &settings, (&ended, &cycles), f64::NAN)?
+        }
+        Content::Fall(posed, fidelity, ended, cycles) => {
+            let (out, scene) = (folder(path, BESIDE_DATA), (&posed.scene, &posed.problem));
+            files::fall(&out, scene, fidelity, (&ended, &cycles), f64::NAN)?
         }
         Content::Fit(name, posed, found) => {
             let (out, preset, problem) = (folder(path, BESIDE_DATA), name.as_str(), &posed.problem);
@@ -281,6 +295,22 @@ mod tests {
         let found = Arc::new(fit::FitResult::Optimum(optimum));
         let content = || Content::Fit(scene.name.clone(), Box::new(posed.clone()), Arc::clone(&found));
         assert!(made_twice("fit", &content) > 3);
+
+        let mut cycles = Vec::new();
+        let settings = startup::Settings { fidelity: Fidelity::Draft, cycles: 3, ..startup::Settings::default() };
+        let each = &mut |cycle: startup::Cycle| cycles.push(cycle.slim());
+        let ended = startup::startup(&problem, &settings, each, &cancel).unwrap();
+        let from_rest = Box::new(Posed::try_from(scene.clone()).unwrap());
+        let content =
+            || Content::Startup(from_rest.clone(), settings, Box::new(ended.clone()), cycles.clone());
+        assert!(made_twice("startup", &content) > 3);
+
+        let heavy = Box::new(crate::job::work::tests::posed("floating-disc"));
+        let mut way = Vec::new();
+        let ended = fall::fall(&heavy.problem, Fidelity::Draft, 3, 1e-3, &mut |cycle| way.push(cycle), &cancel);
+        let ended = ended.unwrap().unwrap();
+        let content = || Content::Fall(heavy.clone(), Fidelity::Draft, ended.clone(), way.clone());
+        assert!(made_twice("fall", &content) > 3);
 
         let candidates = candidates(&problem).into_iter().take(2).collect();
         let effort = Effort { repeats: Some(1), ..Effort::default() };

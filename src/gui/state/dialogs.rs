@@ -35,6 +35,8 @@ pub enum Export {
     Sensitivity,
     /// All that `fit --out` writes.
     Fit,
+    /// All that `startup --out` writes.
+    Startup,
     /// The answers given in lessons.
     Answers,
 }
@@ -88,6 +90,8 @@ impl Export {
                 "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"),
             Self::Fit => ("Fit, into a folder…", "fit", None,
                 "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"),
+            Self::Startup => ("Start-up, into a folder…", "startup", None,
+                "Every cycle of the start-up as CSV and JSON, a figure, and the scene"),
             Self::Answers => ("Save my answers…", "answers.csv", Some(("Record", &["csv", "jsonl"])),
                 "What you answered and did in lessons, to hand in: nothing leaves this computer by itself"),
         };

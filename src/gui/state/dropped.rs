@@ -14,7 +14,8 @@ use crate::solution::Status;
 pub struct Dropped {
     /// The task; its messages are the cycles, its result is how it ended.
     pub work: Background<Cycle, Fall>,
-    scene: Scene,
+    /// The scene that was dropped.
+    pub scene: Scene,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
     /// The plate at the end of each cycle so far; the first is the beginning.

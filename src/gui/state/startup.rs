@@ -56,6 +56,8 @@ pub struct StartupState {
     pub count: u64,
     /// All cycles, in order.
     pub points: Vec<CycleRow>,
+    /// Likewise, without fields.
+    pub cycles: Vec<Cycle>,
     /// Runs that are kept, by the number of their cycle.
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
@@ -78,6 +80,7 @@ impl StartupState {
             fidelity,
             count,
             points: Vec::new(),
+            cycles: Vec::new(),
             kept: BTreeMap::new(),
             ranges: None,
             ended: None,
@@ -101,6 +104,7 @@ impl StartupState {
     fn take(&mut self, cycle: Cycle) {
         let newest = cycle.number > self.points.len();
         place(&mut self.points, cycle.number, CycleRow::of(&self.problem, &cycle));
+        place(&mut self.cycles, cycle.number, cycle.slim());
         let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));

@@ -177,6 +177,10 @@ impl State {
             }
             Export::Sensitivity => self.sensitivity.found.is_some(),
             Export::Fit => self.fit.found.is_some(),
+            Export::Startup if self.document.scene().floats() => {
+                self.dropped.as_ref().is_some_and(|dropped| matches!(dropped.ended, Some(Ok(_))))
+            }
+            Export::Startup => self.startup.as_ref().is_some_and(|startup| matches!(startup.ended, Some(Ok(_)))),
             Export::Answers => !self.lessons.records().is_empty(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff.points.is_empty())

@@ -8,6 +8,7 @@ use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
 use crate::job::work::Posed;
+use crate::startup::Settings;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -83,6 +84,18 @@ impl Updater {
                 let (scene, found) = self.state.fit.found.as_ref()?;
                 let posed = Posed::try_from(found.scene().clone()).ok()?;
                 Some(Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found)))
+            }
+            Export::Startup if self.state.document.scene().floats() => {
+                let dropped = self.state.dropped.as_ref()?;
+                let (posed, ended) = (Posed::try_from(dropped.scene.clone()).ok()?, dropped.ended.clone()?.ok()?);
+                Some(Content::Fall(Box::new(posed), dropped.fidelity, ended, dropped.cycles.clone()))
+            }
+            Export::Startup => {
+                let startup = self.state.startup.as_ref()?;
+                let posed = Posed { scene: startup.scene.clone(), problem: startup.problem.clone() };
+                let settings = Settings { fidelity: startup.fidelity, ..Settings::default() };
+                let ended = Box::new(startup.ended.clone()?.ok()?);
+                Some(Content::Startup(Box::new(posed), settings, ended, startup.cycles.clone()))
             }
             Export::Answers => Some(Content::Answers(self.state.lessons.records())),
             Export::TradeoffTable => of_tradeoff(OfTradeoff::Table),

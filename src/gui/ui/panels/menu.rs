@@ -86,11 +86,14 @@ const EXPORTS: &[&[Export]] = &[
     &[Export::TradeoffTable, Export::TradeoffFigure],
     &[Export::Sensitivity],
     FIT,
+    STARTUP,
 ];
 /// Exports of the pinned runs.
 pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport];
 /// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
+/// Exports of a start-up.
+pub const STARTUP: &[Export] = &[Export::Startup];
 /// Exports of a fit.
 pub const FIT: &[Export] = &[Export::Fit];
 

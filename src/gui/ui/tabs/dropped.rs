@@ -5,10 +5,12 @@ use crate::estimate::Estimate;
 use crate::export::fall::panel;
 use crate::fall::Fall;
 use crate::gui::command::StartupCommand;
+use crate::gui::state::dialogs::Export;
 use crate::gui::state::dropped::Dropped;
 use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::panels::menu::{STARTUP, export_button};
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, Color32, RichText};
 
@@ -18,15 +20,20 @@ const SHARE: f32 = 0.75;
 pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
     let dropped = cx.state.dropped.as_ref();
-    ui.horizontal_wrapped(|ui| match dropped.filter(|dropped| dropped.work.running()) {
-        Some(_) => {
-            cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
+    ui.horizontal_wrapped(|ui| {
+        match dropped.filter(|dropped| dropped.work.running()) {
+            Some(_) => {
+                cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
+            }
+            None => {
+                let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
+                cx.mark(ui, "start", button.rect);
+                cx.lead_to(ui, "start", button.id);
+                cx.on_click(&button, StartupCommand::Start);
+            }
         }
-        None => {
-            let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
-            cx.mark(ui, "start", button.rect);
-            cx.lead_to(ui, "start", button.id);
-            cx.on_click(&button, StartupCommand::Start);
+        if cx.state.can_export(Export::Startup) {
+            export_button(ui, STARTUP, cx);
         }
     });
     let Some(dropped) = dropped else {
