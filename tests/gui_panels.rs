@@ -395,6 +395,36 @@ fn a_table_comes_from_its_file() {
 }
 
 #[test]
+fn a_first_support_holds_the_inner_edge_of_the_ring_and_a_second_is_like_it() {
+    let mut harness = panel(Edited::of(presets::find("ring-rotor").unwrap()));
+    open_all(&mut harness);
+    let supports = |harness: &Harness<'_, Edited>| match harness.state().scene().get("rotor.support") {
+        Some(Value::Records(supports)) => supports,
+        _ => panic!("no supports"),
+    };
+    click(&mut harness, "Add support");
+    let lengths = [24.9, 24.9, 0.75, 5.75].map(Value::Number);
+    let first = [&lengths[..], &[Value::Text("axial".into())]].concat();
+    assert_eq!(supports(&harness), std::slice::from_ref(&first));
+    assert_eq!(harness.state().state.rejected.of("rotor.support"), None);
+    harness.get_by_role_and_label(Role::SpinButton, "Inner radius in mm, support 1");
+    click(&mut harness, "Add support");
+    assert_eq!(supports(&harness), [first.clone(), first]);
+}
+
+#[test]
+fn what_an_array_was_refused_for_goes_with_the_next_edit() {
+    let mut edited = Edited::of(presets::find("ring-rotor").unwrap());
+    let nowhere = [1.0, 1.0, 1.0, 1.0].map(Value::Number);
+    let support = [&nowhere[..], &[Value::Text("axial".into())]].concat();
+    edited.apply(&Command::Set { key: "rotor.support", value: Value::Records(vec![support]), dragging: false });
+    let mut harness = panel(edited);
+    harness.get_by_label_contains("no part is within");
+    enter(&mut harness, "Minimum spacing H_m in nm", "150");
+    assert!(harness.query_by_label_contains("no part is within").is_none());
+}
+
+#[test]
 fn names_are_kept_on_one_line() {
     let mut harness = panel(Edited::of(Scene::motor()));
     click_a(&mut harness, Role::MultilineTextInput, "Name");

@@ -14,6 +14,13 @@ pub fn lengths(part: &[Value]) -> Option<[f64; 4]> {
     numbers.try_into().ok()
 }
 
+/// The [`lengths`] of a box on the inner edge of the innermost of `parts` \[mm\]; `None` if there is no part.
+pub fn inner_edge(parts: &[Vec<Value>]) -> Option<[f64; 4]> {
+    let boxes = parts.iter().filter_map(|part| lengths(part));
+    let [inner, _, bottom, top] = boxes.min_by(|one, other| one[0].total_cmp(&other[0]))?;
+    Some([inner, inner, bottom, top])
+}
+
 /// The edges that move together with the edge `which` of the part `number`, itself first. An edge is the index of a part and of one of its
 /// [`lengths`].
 fn together(parts: &[Vec<Value>], (number, which): (usize, usize)) -> Vec<(usize, usize)> {
@@ -77,6 +84,8 @@ mod tests {
         assert_eq!(moved((1, 2), 0.2), [(0, 3), (1, 2)]);
         assert_eq!(moved((1, 3), 1.5), [(1, 3)]);
         assert_eq!(moved((3, 1), 26.0), [(2, 0), (3, 1)]);
+        assert_eq!(inner_edge(&parts), Some([24.9, 24.9, 0.75, 5.75]));
+        assert_eq!(inner_edge(&[]), None);
         let lining = reach(&parts, (0, 3), 0.01);
         assert!((lining.start() - 0.01).abs() < 1e-9 && (lining.end() - 1.19).abs() < 1e-9, "{lining:?}");
         let rim = reach(&parts, (1, 1), 0.01);

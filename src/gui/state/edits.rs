@@ -61,12 +61,13 @@ impl RejectedEdits {
     }
 
     /// Checks the rejected edits again after a change of the scene: drops those that it would accept now, and renews the reasons of the others.
+    /// An array is dropped in any case: it was made of what the scene was before.
     pub fn review(&mut self, scene: &Scene) {
         self.0.retain(|key, (change, message)| match change.applied(scene, key) {
             Ok(_) => false,
             Err(error) => {
                 *message = error;
-                true
+                !matches!(change, Change::Value(Value::Records(_)))
             }
         });
     }

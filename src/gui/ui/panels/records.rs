@@ -5,7 +5,7 @@ use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::parts::number_box;
-use crate::scene::edges::with_edge;
+use crate::scene::edges::{inner_edge, with_edge};
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, RichText};
 
@@ -70,7 +70,16 @@ pub fn show(
         });
     }
     if ui.button(format!("Add {one}")).hint(format!("Another {one}, as the last one")).clicked() {
-        let new = || columns.iter().map(|column| column.default().unwrap_or(Value::Number(0.0))).collect();
+        // The first support is on the inner edge of the ring, because one that touches no part is refused.
+        let edge = match cx.state.document.scene().get("rotor.part") {
+            Some(Value::Records(parts)) => inner_edge(&parts),
+            _ => None,
+        };
+        let new = || {
+            let mut lengths = edge.into_iter().flatten().map(Value::Number);
+            let first = |column: &Parameter| column.range().and_then(|_| lengths.next()).or_else(|| column.default());
+            columns.iter().map(first).map(|value| value.unwrap_or(Value::Number(0.0))).collect()
+        };
         let mut another: Vec<Value> = records.last().cloned().unwrap_or_else(new);
         // On top of the last one, so that it is connected and nothing overlaps.
         let at = |key: &str| columns.iter().position(|column| column.key == key);
