@@ -437,6 +437,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     go_on(&mut window);
     let progress = window.known().lessons.progress_text();
     let memory = left(&mut window);
+    assert_eq!(memory.0["unsaved"], "true");
     drop(window);
     let mut window = window_with(memory);
     window.run_steps(2);
