@@ -218,6 +218,13 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
     assert_eq!(window.known().document.scene().name, name);
     solved(&mut window);
     assert!((alpha(window.known().run.as_deref()) - 1.0).abs() < 1e-5);
+    // A plate has no rotor to show.
+    window.ctrl(Key::Num8);
+    assert_eq!(window.known().view.tab, Tab::Rotor);
+    window.click_on("Presets");
+    let name = presets::find("floating-finger-pad").unwrap().name;
+    window.click_part(&name);
+    assert_eq!((window.known().document.scene().name.as_str(), window.known().view.tab), (name.as_str(), Tab::Motion));
 }
 
 #[test]
