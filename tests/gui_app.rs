@@ -218,6 +218,13 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
     assert_eq!(window.known().document.scene().name, name);
     solved(&mut window);
     assert!((alpha(window.known().run.as_deref()) - 1.0).abs() < 1e-5);
+    // A plate has no rotor to show.
+    window.ctrl(Key::Num8);
+    assert_eq!(window.known().view.tab, Tab::Rotor);
+    window.click_on("Presets");
+    let name = presets::find("floating-finger-pad").unwrap().name;
+    window.click_part(&name);
+    assert_eq!((window.known().document.scene().name.as_str(), window.known().view.tab), (name.as_str(), Tab::Motion));
 }
 
 #[test]
@@ -245,6 +252,19 @@ fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     let document = &window.known().document;
     assert!(document.is_dirty() && document.path().is_none() && document.scene().name == "My motor");
     assert!(window.known().modal.is_none());
+    // What it was made as is what its parameters are reset to.
+    assert!(!window.shows("Reset "));
+    window.type_into("Frequency in kHz", "41");
+    window.click_on("Reset frequency");
+    let frequency = |window: &Window| window.known().document.scene().get("stator.frequency_khz");
+    assert_eq!(frequency(&window), Some(Value::Number(40.0)));
+    // It stays unsaved after a crash.
+    let memory = left(&mut window);
+    drop(window);
+    let window = reopen(memory, 900.0, Platform::default());
+    let document = &window.known().document;
+    assert!(document.is_dirty() && frequency(&window) == Some(Value::Number(40.0)));
+    assert!(!window.shows("Reset "));
 }
 
 #[test]

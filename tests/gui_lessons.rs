@@ -9,7 +9,8 @@ use eframe::egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::gui::command::Command;
+use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::{Command, LessonCommand};
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::lessons::LessonState;
@@ -436,6 +437,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     go_on(&mut window);
     let progress = window.known().lessons.progress_text();
     let memory = left(&mut window);
+    assert_eq!(memory.0["unsaved"], "true");
     drop(window);
     let mut window = window_with(memory);
     window.run_steps(2);
@@ -950,13 +952,53 @@ fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not(
     change(&mut window, "plate.amplitude_um", "0.2");
     solved(&mut window);
     assert!(told(&window) == kept && window.shows(ANOTHER));
-    // Opened again, the scene is that of the beginning.
+    // Opened again, it is the one that did the task.
     let memory = left(&mut window);
     drop(window);
     let mut window = window_with(memory);
     open(&mut window, "Pushing on trapped air");
+    until(&mut window, "the run that did the task", |app| {
+        app.state().document.scene().get("plate.amplitude_um") == Some(Value::Number(0.5))
+    });
     solved(&mut window);
-    assert!(window.shows("203 kPa") && window.shows(ANOTHER));
+    assert!(window.shows("203 kPa") && !window.shows(ANOTHER));
+}
+
+#[test]
+fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
+    const KEY: &str = "plate.amplitude_um";
+    let amplitude = |app: &App| app.state().document.scene().get(KEY);
+    let mut window = window("fundamental");
+    open(&mut window, "Why the mean force");
+    go_on(&mut window);
+    let (_, step) = step(&window);
+    assert!(step.tab.is_none(), "the step before has set one");
+    solved(&mut window);
+    predict(&mut window, &step);
+    change(&mut window, KEY, "0.5");
+    solved(&mut window);
+    assert!(work(&window).fulfilled);
+    go_on(&mut window);
+    window.click_on("Leave");
+    // Then from the step before.
+    window.ctrl(Key::Num9);
+    assert_eq!(window.known().view.tab, Tab::Sensitivity);
+    open(&mut window, "Why the mean force");
+    window.press(Key::PageUp);
+    assert_eq!((self::step(&window).0, window.known().view.tab), (1, Tab::Motion));
+    until(&mut window, "the run that did the task", |app| amplitude(app) == Some(Value::Number(0.5)));
+    solved(&mut window);
+    let start = &window.known().lessons.running.as_ref().unwrap().start;
+    assert!(start.scene == step.scene && start.numbers.get(Quantity::LoadRatio).is_some());
+    assert!(window.shows("✔ Done") && work(&window).fulfilled);
+    // Whoever changes something first keeps that.
+    let app = window.state_mut();
+    app.carry_out(Command::Lesson(LessonCommand::Back));
+    app.carry_out(Command::Lesson(LessonCommand::Next));
+    app.carry_out(Command::Set { key: KEY, value: Value::Number(0.3), dragging: false });
+    solved(&mut window);
+    window.run_steps(5);
+    assert_eq!(amplitude(window.state()), Some(Value::Number(0.3)));
 }
 
 #[test]

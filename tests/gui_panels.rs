@@ -343,6 +343,24 @@ fn choices_and_flags_are_set() {
 }
 
 #[test]
+fn a_list_closes_when_enter_takes_an_entry() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    open_all(&mut harness);
+    let slip = "Slip at the walls";
+    harness.get_by_role_and_label(Role::ComboBox, slip).focus();
+    harness.run();
+    press(&mut harness, Key::Enter);
+    // It is the box that the key was pressed on: the list is open.
+    assert!(harness.query_by_label("Second-order").is_some());
+    harness.get_by_label("Fukui and Kaneko").focus();
+    harness.run();
+    press(&mut harness, Key::Enter);
+    assert_eq!(harness.state().scene().get("film.slip"), Some(Value::Text("fukui-kaneko".into())));
+    assert!(harness.query_by_label("Second-order").is_none(), "it is closed");
+    assert!(harness.get_by_role_and_label(Role::ComboBox, slip).is_focused());
+}
+
+#[test]
 fn what_follows_from_the_gas_is_shown_and_not_edited() {
     let mut harness = panel(Edited::of(Scene::motor()));
     open_all(&mut harness);

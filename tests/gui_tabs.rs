@@ -777,6 +777,19 @@ fn an_optimum_is_found_within_limits_and_taken() {
     assert!(!window.shows("Found for another question"));
     window.click_on("Take these values");
     assert_eq!(window.known().document.scene().get(load.0), Some(Value::Number(load.1)));
+    fits_beside_the_results(&mut window);
+}
+
+/// In a small window no chart of the tab lies under the results.
+fn fits_beside_the_results(window: &mut Window) {
+    window.set_size(Vec2::new(1024.0, 700.0));
+    window.run_steps(5);
+    let results = window.query_all_by_label_contains("share of the load carried by air").next().unwrap().rect().left();
+    let charts: Vec<Rect> = window.query_all_by_role(Role::Image).map(|image| image.rect()).collect();
+    let charts: Vec<Rect> = charts.into_iter().filter(|chart| chart.left() < results).collect();
+    assert!(!charts.is_empty() && charts.iter().all(|chart| chart.right() <= results), "{charts:?} {results}");
+    window.set_size(Vec2::new(1400.0, 1000.0));
+    window.run_steps(5);
 }
 
 #[test]
@@ -882,6 +895,7 @@ fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let faults = &mut Vec::new();
     explains(faults, &window, "Measured face", &["Measured face"]);
     assert!(faults.is_empty(), "{faults:#?}");
+    fits_beside_the_results(&mut window);
     let follows = heights::keys_of(&window.known().face.found.as_ref().unwrap().pair);
     let rms = |window: &Window| window.known().document.scene().get("surface.rms_nm");
     let before = rms(&window);

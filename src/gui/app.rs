@@ -10,7 +10,7 @@ use super::ui::modals::glossary::is_searched;
 use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
-use super::update::storage::keep;
+use super::update::storage::{UNSAVED, keep};
 use super::update::updater::Updater;
 use crate::digits::parse_duration;
 use crate::platform::Instant;
@@ -196,6 +196,8 @@ impl eframe::App for App {
         let document = state.lessons.student_document(&state.document);
         storage.set_string("scene", document.scene().to_toml());
         storage.set_string("saved", document.saved().to_toml());
+        storage.set_string("new", document.is_new().to_string());
+        storage.set_string(UNSAVED, document.is_dirty().to_string());
         storage.set_string("path", document.path().map(|p| p.display().to_string()).unwrap_or_default());
         storage.set_string("lessons", state.lessons.progress_text());
         storage.set_string("pins", state.pins.stored());
@@ -275,5 +277,5 @@ fn last_document(stored: &dyn Fn(&str) -> Option<String>, faults: &mut Vec<Strin
     let scene = parse("scene")?;
     let saved = parse("saved").unwrap_or_else(|| scene.clone());
     let path = stored("path").map(PathBuf::from).filter(|path| path.is_absolute());
-    Some(Document::restored(scene, saved, path))
+    Some(Document::restored(scene, saved, path).with_new(stored("new").as_deref() == Some("true")))
 }

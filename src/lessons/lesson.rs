@@ -4,6 +4,7 @@ use super::check::{Check, Name};
 use super::text::{Block, Inline, plain};
 use crate::scene::{Parameter, Scene};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The names of the window that a lesson may use.
 #[derive(Clone, Copy, Debug, Default)]
@@ -220,6 +221,20 @@ impl Step {
             question.why.iter().chain(replies.iter().flat_map(|choice| &choice.reply))
         });
         said.chain(self.task.iter().flat_map(|task| &task.then))
+    }
+
+    /// What `scene` has other than the scene that the step begins with: values by key, as `--set` takes them.
+    pub fn changes(&self, scene: &Scene) -> BTreeMap<String, String> {
+        let text = |parameter: &Parameter| scene.given_text(parameter).unwrap_or_else(|| "none".to_owned());
+        scene.changed(&self.scene).map(|parameter| (parameter.key.to_owned(), text(parameter))).collect()
+    }
+
+    /// The scene that the step begins with, with these changes; `None` if there are none, or if they are not allowed.
+    pub fn changed(&self, changes: &BTreeMap<String, String>) -> Option<Scene> {
+        let mut scene = self.scene.clone();
+        let pairs = changes.iter().map(|(key, value)| (key.as_str(), value.as_str()));
+        let set = scene.set_all(pairs).is_ok();
+        (set && !changes.is_empty()).then_some(scene)
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Document {
     target: Fidelity,
     saved: Scene,
     path: Option<PathBuf>,
+    /// Whether neither a file nor a preset has it: then it counts as unsaved as it is.
+    new: bool,
     undo: Vec<(Scene, Fidelity)>,
     redo: Vec<(Scene, Fidelity)>,
     /// The parameter that a pointer is dragging: its edits are one.
@@ -56,7 +58,8 @@ impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
         let (saved, path) = (scene.clone(), path.as_deref().map(absolute));
-        Self { saved, scene, target: TARGET, path, undo: Vec::new(), redo: Vec::new(), dragging: None, practice: false }
+        let (undo, redo) = (Vec::new(), Vec::new());
+        Self { saved, scene, target: TARGET, path, new: false, undo, redo, dragging: None, practice: false }
     }
 
     /// A scene to try things on: it never counts as unsaved.
@@ -74,9 +77,20 @@ impl Document {
         Self { saved, ..Self::opened(scene, path) }
     }
 
-    /// A motor that nothing has yet, so that it counts as unsaved.
+    /// A scene that nothing has yet, so that it counts as unsaved.
     pub fn made(scene: Scene) -> Self {
-        Self::restored(scene, Scene::motor(), None)
+        Self::opened(scene, None).with_new(true)
+    }
+
+    /// The same document; `new`: neither a file nor a preset has it.
+    pub fn with_new(self, new: bool) -> Self {
+        Self { new, ..self }
+    }
+
+    /// What is left of it without unsaved changes; a motor with defaults if nothing has it.
+    pub fn discarded(&self) -> Self {
+        let saved = if self.new { Scene::motor() } else { self.saved.clone() };
+        Self::opened(saved, self.path.clone()).with_target(self.target)
     }
 
     /// The fundamental case.
@@ -97,7 +111,7 @@ impl Document {
         self.target
     }
 
-    /// The scene as it was opened or last saved.
+    /// The scene as it was opened, made or last saved.
     pub fn saved(&self) -> &Scene {
         &self.saved
     }
@@ -107,9 +121,14 @@ impl Document {
         self.path.as_deref()
     }
 
+    /// Whether neither a file nor a preset has it.
+    pub fn is_new(&self) -> bool {
+        self.new
+    }
+
     /// Whether there are unsaved changes.
     pub fn is_dirty(&self) -> bool {
-        !self.practice && self.scene != self.saved
+        !self.practice && (self.new || self.scene != self.saved)
     }
 
     /// The name of the scene, and a dot if there are unsaved changes.
@@ -209,7 +228,7 @@ impl Document {
     /// If the file cannot be written; nothing changes then.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
-        if self.path.is_none() && scene.changed(&self.saved).next().is_some() {
+        if self.path.is_none() && !self.new && scene.changed(&self.saved).next().is_some() {
             scene.made_from(&self.saved);
         }
         let scene = presets::disclaimed(scene);
@@ -217,6 +236,7 @@ impl Document {
         self.saved = scene.clone();
         self.scene = scene;
         self.path = Some(absolute(path));
+        self.new = false;
         Ok(())
     }
 }
@@ -282,6 +302,22 @@ mod tests {
         assert!(!document.is_dirty());
         assert_eq!(&Scene::load(&path).unwrap(), document.scene());
     }
+
+    #[test]
+    fn what_was_made_is_unsaved_until_it_is_saved_and_reset_to_what_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = with_spacing(&Document::fundamental().unwrap(), "90");
+        let mut document = Document::made(scene.clone());
+        assert!(document.is_dirty() && document.is_new() && document.saved() == &scene);
+        document.edit(with_spacing(&document, "80"), "film.min_spacing_nm", false);
+        assert!(document.undo() && document.is_dirty());
+        let discarded = document.discarded();
+        assert!(!discarded.is_dirty() && discarded.scene() == &Scene::motor());
+        document.save(&folder.path().join("a.toml")).unwrap();
+        assert!(!document.is_dirty() && !document.is_new());
+        assert_eq!(document.discarded().scene(), document.scene());
+    }
+
     #[test]
     fn a_changed_preset_is_saved_under_a_name_that_says_so() {
         let folder = tempfile::tempdir().unwrap();

@@ -7,13 +7,15 @@ use super::lesson_tabs::{OffTabs, OnScreen};
 use super::running_lesson::{REVEALED, RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
+use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::lessons::check::Reading;
+use crate::lessons::live::Live;
 use crate::lessons::record::{self, Record};
 use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Answer, Lesson, LessonError, Step, WindowNames};
 use crate::platform::Instant;
-use crate::scene::Scene;
+use crate::scene::{Kind, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -268,6 +270,7 @@ impl LessonState {
             student: std::mem::replace(document, practice),
             before: (view.tab, view.parameters, view.results),
             start: StartingPoint::of(scene),
+            kept: None,
             newest: None,
             tabs: OffTabs::default(),
             reveal: 0,
@@ -299,19 +302,22 @@ impl LessonState {
         }
         running.step = to;
         running.all_results = false;
-        let again = by < 0 || lesson.steps.get(to).is_some_and(|step| step.sets);
+        let done = running.work.get(to).is_some_and(|work| work.fulfilled);
+        let again = by < 0 || done || lesson.steps.get(to).is_some_and(|step| step.sets);
+        // A step that sets no scene goes on with what did the task of the one before.
+        let kept = running.kept.take().filter(|_| !again);
+        let brought = kept.is_some_and(|scene| document.change(scene, document.target()));
         self.keep();
-        self.set_up(document, view, again)
+        self.set_up(document, view, again) || brought
     }
 
-    /// Sets up the view of the present step and, if `scene`, its scene. Returns whether that has to be solved anew.
+    /// Sets up the view of the present step and, if `scene`, its scene; that of a task that is done follows ([`Self::done_before`]). Returns
+    /// whether the scene has to be solved anew.
     pub fn set_up(&mut self, document: &mut Document, view: &mut View, scene: bool) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
         let Some(step) = lesson.steps.get(running.step) else { return false };
-        if let Some(tab) = step.tab.as_deref().and_then(tab) {
-            view.tab = tab;
-        }
+        view.tab = tab_at(lesson, running.step).unwrap_or(view.tab);
         // What is highlighted is to be seen, and the lesson stands where the results are.
         view.parameters |= !step.light.is_empty();
         view.results = true;
@@ -323,7 +329,24 @@ impl LessonState {
         }
         running.start = StartingPoint::of(document.scene().clone());
         running.tabs = OffTabs::default();
+        let done = running.work.get(running.step).filter(|work| scene && work.fulfilled);
+        running.kept = done.and_then(|work| step.changed(&work.changes));
         changed
+    }
+
+    /// The scene that did the task of the step on screen, which was set up once more, as soon as the run that it is compared with is there;
+    /// none if something else has been changed by then.
+    pub fn done_before(&mut self, document: &Document) -> Option<Scene> {
+        let running = self.running.as_mut().filter(|running| running.kept.is_some())?;
+        let (start, lesson) = (&running.start, self.lessons.get(running.lesson)?);
+        let torque = document.scene().kind() == Kind::Motor && tab_at(lesson, running.step) == Some(Tab::Torque);
+        let good = document.target().min(Fidelity::Standard);
+        let solved = start.run.as_ref().is_some_and(|run| run.fidelity >= good);
+        let known = solved && (!torque || running.tabs.start.get(Live::Stall).is_some());
+        if *document.scene() != start.scene {
+            running.kept = None;
+        }
+        running.kept.take_if(|_| known)
     }
 
     /// Makes the changes that fulfil the task; whether the scene has to be solved anew.
@@ -387,6 +410,11 @@ impl LessonState {
         }
         self.highlights.reveal || self.highlights.enter.is_some()
     }
+}
+
+/// The tab that a step shows: its own or, if it has none, that of the last step before it that has one.
+fn tab_at(lesson: &Lesson, step: usize) -> Option<Tab> {
+    lesson.steps.iter().take(step + 1).rev().find_map(|step| tab(step.tab.as_deref()?))
 }
 
 /// The tab of a name in a lesson.

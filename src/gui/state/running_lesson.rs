@@ -53,6 +53,8 @@ pub struct RunningLesson {
     pub(super) before: (Tab, bool, bool),
     /// Scene and run that the step began with.
     pub start: StartingPoint,
+    /// The scene that did the task of a step that is set up once more: it is brought back when the run that it is compared with is there.
+    pub(super) kept: Option<Scene>,
     /// The newest run of the present scene.
     pub newest: Option<Numbers>,
     /// Numbers read off the tabs.
@@ -140,6 +142,7 @@ impl RunningLesson {
             // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
             if does && work.fulfilled && !task.check.live().any(Live::is_done_by_hand) {
                 work.readings = quoted().collect();
+                work.changes = step.changes(&run.scene);
             }
             return;
         }
@@ -152,6 +155,7 @@ impl RunningLesson {
         if does {
             work.fulfilled = true;
             work.readings = quoted().collect();
+            work.changes = step.changes(&run.scene);
         }
     }
 }

@@ -55,6 +55,11 @@ impl Tab {
         self != if plate { Self::Rotor } else { Self::Hold }
     }
 
+    /// Whether it has a label: a plate has no rotor, but where a motor is shown, the tab to hold a plate offers one.
+    pub fn is_listed(self, plate: bool) -> bool {
+        self != Self::Rotor || !plate
+    }
+
     /// Whether something moves in it.
     pub fn moves(self) -> bool {
         matches!(self, Self::Motion | Self::Compare | Self::Startup | Self::Hold)

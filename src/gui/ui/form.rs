@@ -8,7 +8,7 @@ use crate::gui::state::sweep::AxisForm;
 use crate::plan::Decision;
 use crate::scene::{Parameter, Value};
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Button, ComboBox, Response, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, Key, Response, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
 
 /// Width of the list of parameters, in heights of the text.
 const PARAMETERS: f32 = 11.0;
@@ -21,6 +21,27 @@ pub(super) fn field(ui: &mut Ui, (name, about): (&str, &str), (text, empty): (&m
     response.hint(about);
 }
 
+/// Shows the `entries` of a list, and returns its box. It closes when Enter or the space bar takes an entry, as it does after a click; then the
+/// box has the keyboard again.
+pub(super) fn show_list(ui: &mut Ui, list: ComboBox<'_>, entries: impl FnOnce(&mut Ui)) -> Response {
+    let shown = list.show_ui(ui, |ui| {
+        entries(ui);
+        // The key that opens the list is pressed on its box, which is in another layer.
+        let pressed = ui.input(|input| [Key::Enter, Key::Space].iter().any(|key| input.key_pressed(*key)));
+        let focused = ui.memory(|memory| memory.focused()).filter(|_| pressed);
+        let focused = focused.and_then(|id| ui.ctx().read_response(id));
+        let taken = focused.is_some_and(|entry| entry.layer_id == ui.layer_id());
+        if taken {
+            ui.close();
+        }
+        taken
+    });
+    if shown.inner == Some(true) {
+        shown.response.request_focus();
+    }
+    shown.response
+}
+
 /// A list called `name` that shows what is chosen; `entries` draws what can be. The width of the box is in heights of the text.
 pub(super) fn list(
     ui: &mut Ui,
@@ -31,7 +52,7 @@ pub(super) fn list(
 ) {
     let em = ui.text_style_height(&TextStyle::Body);
     let list = ComboBox::from_id_salt(id).selected_text(chosen).width(width * em).height(36.0 * em);
-    let response = list.show_ui(ui, entries).response;
+    let response = show_list(ui, list, entries);
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
     response.hint(about);
 }
@@ -46,7 +67,7 @@ pub(super) fn choices(
     cx: &DrawContext<'_>,
 ) -> Response {
     let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, name, plan));
-    let shown = list.width(width).truncate().show_ui(ui, |ui| {
+    show_list(ui, list.width(width).truncate(), |ui| {
         for option in options {
             // A table is chosen by giving its file, below.
             let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
@@ -58,8 +79,7 @@ pub(super) fn choices(
                 cx.push(Command::Set { key: parameter.key, value, dragging: false });
             }
         }
-    });
-    shown.response
+    })
 }
 
 /// A parameter with two values, as they are typed.

@@ -62,8 +62,8 @@ pub(super) fn number_box(
     response
 }
 
-/// A striped table called `name`, with so much room between its columns. Wider than the tab only in a small window with large text: then it
-/// is scrolled.
+/// A striped table called `name`, with so much room between its columns. Where it is wider than the tab it is
+/// scrolled, so that what comes below keeps the width of the tab.
 pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: impl FnOnce(&mut Ui)) {
     let grid = Grid::new(name).num_columns(columns).striped(true).spacing([gap, 4.0]);
     ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true).show(ui, |ui| grid.show(ui, rows));

@@ -40,6 +40,10 @@ impl Updater {
     /// Checks the lesson against what is on screen, and notes the time of what was done. Returns whether another frame is needed soon.
     pub fn observe(&mut self) -> bool {
         let soon = self.state.observe();
+        let State { document, lessons, .. } = &mut self.state;
+        if let Some(scene) = lessons.done_before(document) {
+            self.change_scene(scene);
+        }
         if let Ok(since) = (self.platform.date)().duration_since(SystemTime::UNIX_EPOCH) {
             self.state.lessons.note_times(since.as_secs());
         }

@@ -169,9 +169,7 @@ impl Updater {
         self.leave_lesson();
         if next == Next::Quit {
             // The next window begins with what is saved.
-            let document = &self.state.document;
-            let (saved, path) = (document.saved().clone(), document.path().map(Path::to_path_buf));
-            self.state.document = Document::opened(saved, path).with_target(document.target());
+            self.state.document = self.state.document.discarded();
         }
         self.proceed_now(next);
     }

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 /// So many windows at once have files of their own.
 const MOST: usize = 64;
+/// What a window says of itself under this key: whether it holds unsaved work, `true` or `false`.
+pub const UNSAVED: &str = "unsaved";
 
 /// The file of this window: no other has it until this is dropped.
 #[derive(Debug)]
@@ -19,8 +21,9 @@ pub struct StorageFile {
 }
 
 impl StorageFile {
-    /// Of the files in `folder` that no window has, the one that was written last: there is what a window left that crashed or was closed last. If
-    /// all are taken, a new one, which begins as a copy of that.
+    /// Of the files in `folder` that no window has, the one that was written last: there is what a window left that crashed or was closed last.
+    /// Those with unsaved work come before the others, so that it is not hidden by a window that was closed after a crash. If all are taken, a
+    /// new one, which begins as a copy of the one that was written last.
     ///
     /// # Errors
     /// If the folder cannot be made, or no file can be locked.
@@ -30,6 +33,7 @@ impl StorageFile {
         let mut paths: Vec<PathBuf> = (1..=MOST).map(|number| folder.join(name(number))).collect();
         paths.sort_by_key(|path| Reverse(path.metadata().and_then(|of| of.modified()).ok()));
         let last = paths.iter().find(|path| path.is_file()).cloned();
+        paths.sort_by_cached_key(|path| !holds_unsaved(path));
         for path in paths {
             // What is no file, such as a pipe, would block.
             if [&path, &path.with_extension("lock")].iter().any(|path| path.exists() && !path.is_file()) {
@@ -49,6 +53,13 @@ impl StorageFile {
         }
         Err(io::Error::other(format!("{MOST} windows are open")))
     }
+}
+
+/// Whether the file at `path` says that it holds unsaved work. Quotes within its texts are escaped: none of them looks like an entry.
+fn holds_unsaved(path: &Path) -> bool {
+    let text = if path.is_file() { fs::read_to_string(path).unwrap_or_default() } else { String::new() };
+    let said = text.split_once(&format!("\"{UNSAVED}\":"));
+    said.is_some_and(|(_, said)| said.trim_start().starts_with("\"true\""))
 }
 
 /// Copies the file at `path` beside it, under a name that is free, and returns that; nothing if there is no such file.
@@ -87,6 +98,27 @@ mod tests {
         let second = other.path.clone();
         drop(other);
         assert_eq!(StorageFile::claim(folder.path()).unwrap().path, second);
+    }
+
+    #[test]
+    fn unsaved_work_comes_before_what_was_written_later() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        let entry = |unsaved: bool| format!("{{\n    \"theme\": \"dark\",\n    \"{UNSAVED}\": \"{unsaved}\",\n}}");
+        let write = |name: &str, text: &str, age: u64| {
+            fs::write(place(name), text).unwrap();
+            let at = std::time::SystemTime::now() - std::time::Duration::from_secs(age);
+            File::options().append(true).open(place(name)).unwrap().set_modified(at).unwrap();
+        };
+        write("app.ron", &entry(true), 30);
+        write("app-2.ron", &entry(true), 20);
+        write("app-3.ron", &entry(false), 10);
+        write("app-4.ron", "{\"scene\": \"# \\\"unsaved\\\": \\\"true\\\"\"}", 0);
+        let claimed: Vec<StorageFile> = (0..5).map(|_| StorageFile::claim(folder.path()).unwrap()).collect();
+        let names = ["app-2.ron", "app.ron", "app-4.ron", "app-3.ron", "app-5.ron"];
+        assert_eq!(claimed.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), names.map(place));
+        // A new one begins with what was written last.
+        assert_eq!(fs::read(place("app-5.ron")).unwrap(), fs::read(place("app-4.ron")).unwrap());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::dialogs::Dialogs;
 use super::platform::Platform;
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
 use crate::job::export::Files;
 use crate::job::task::{BackgroundTask, TaskOf};
@@ -12,7 +13,7 @@ use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
 use crate::problem::Problem;
-use crate::scene::{Scene, Value};
+use crate::scene::{Kind, Scene, Value};
 use eframe::egui;
 use std::path::Path;
 use std::sync::Arc;
@@ -101,8 +102,11 @@ impl Updater {
         }
     }
 
-    /// Follows a change of the whole scene: clears messages about edits, and solves it.
+    /// Follows a change of the whole scene: clears messages about edits, leaves a tab that it does not have, and solves it.
     pub(super) fn scene_replaced(&mut self) {
+        if !self.state.view.tab.is_listed(self.state.document.scene().kind() == Kind::Plate) {
+            self.state.view.tab = Tab::Motion;
+        }
         self.state.rejected.clear();
         self.state.switches.edited();
         self.refine();

@@ -4,6 +4,7 @@ use super::frame::{Answer, heading};
 use crate::gui::command::Command;
 use crate::gui::derived::words::label;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::form::show_list;
 use crate::gui::ui::theme::outline_fields;
 use crate::scene::Parameter;
 use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
@@ -76,12 +77,13 @@ fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawCon
     let mut answer = present.to_owned();
     if let Accepts::Choice(names) = question.accepts {
         let shown = if present.is_empty() { hint } else { present };
-        let combo = egui::ComboBox::from_id_salt(question.name).selected_text(shown).show_ui(ui, |ui| {
+        let combo = egui::ComboBox::from_id_salt(question.name).selected_text(shown);
+        let combo = show_list(ui, combo, |ui| {
             for name in names {
                 ui.selectable_value(&mut answer, (*name).to_owned(), *name);
             }
         });
-        combo.response.labelled_by(label.id);
+        combo.labelled_by(label.id);
     } else {
         let field = egui::TextEdit::singleline(&mut answer).hint_text(hint).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);

@@ -29,7 +29,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
             let plate = document.scene().kind() == Kind::Plate;
             for &(tab, _) in Tab::ALL {
-                item(ui, tab.label(plate), tab != Tab::Rotor || !plate, Command::Show(tab), cx);
+                item(ui, tab.label(plate), tab.is_listed(plate), Command::Show(tab), cx);
             }
             ui.separator();
             item(ui, other, true, Command::ToggleTheme, cx);

@@ -3,6 +3,7 @@
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::form::show_list;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::parts::number_box;
 use crate::scene::edges::{inner_edge, with_edge};
@@ -125,7 +126,8 @@ fn cell(
         }
         (ParameterKind::Choice { options, .. }, Value::Text(chosen)) => {
             let mut picked = None;
-            let combo = egui::ComboBox::from_id_salt(name).selected_text(choice(of.key, chosen)).show_ui(ui, |ui| {
+            let combo = egui::ComboBox::from_id_salt(name).selected_text(choice(of.key, chosen));
+            let combo = show_list(ui, combo, |ui| {
                 for option in options {
                     let row = ui.add(egui::Button::selectable(*option == chosen, choice(of.key, option)));
                     if row.clicked() && *option != chosen {
@@ -133,7 +135,7 @@ fn cell(
                     }
                 }
             });
-            combo.response.labelled_by(name).hint_beside(ui, of.about);
+            combo.labelled_by(name).hint_beside(ui, of.about);
             picked.map(|value| (value, false))
         }
         (_, Value::Text(text)) => {

@@ -7,6 +7,7 @@ use crate::gui::derived::format::{thousands, time};
 use crate::gui::state::hold::HoldState;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::form::show_list;
 use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::keys;
@@ -34,18 +35,16 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             let [most, least] = periods.map(|period| thousands(seconds / period));
             if alike { format!("slowed {most}×") } else { format!("slowed {least} to {most}×") }
         };
-        let speed =
-            egui::ComboBox::from_id_salt("speed").selected_text(slowed(view.seconds_per_cycle)).show_ui(ui, |ui| {
-                for seconds in SPEEDS {
-                    let text = format!("one cycle in {seconds} s, {}", slowed(seconds));
-                    cx.on_click(
-                        &ui.selectable_label(seconds == view.seconds_per_cycle, text),
-                        Command::SecondsPerCycle(seconds),
-                    );
-                }
-            });
-        name(&speed.response, "Speed");
-        speed.response.explained_here(ui, "Slow motion");
+        let speed = egui::ComboBox::from_id_salt("speed").selected_text(slowed(view.seconds_per_cycle));
+        let speed = show_list(ui, speed, |ui| {
+            for seconds in SPEEDS {
+                let text = format!("one cycle in {seconds} s, {}", slowed(seconds));
+                let entry = ui.selectable_label(seconds == view.seconds_per_cycle, text);
+                cx.on_click(&entry, Command::SecondsPerCycle(seconds));
+            }
+        });
+        name(&speed, "Speed");
+        speed.explained_here(ui, "Slow motion");
         if let Some(at) = scrub(ui, place, frames, ["Time in the cycle", "Drag to an instant of the cycle"]) {
             // To a recorded frame; the end of the cycle is its start.
             cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));

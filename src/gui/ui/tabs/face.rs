@@ -12,8 +12,9 @@ use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
+use crate::gui::ui::parts::table;
 use crate::surface::height_map::HeightMap;
-use eframe::egui::{self, Color32, ColorImage, Grid, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, ColorImage, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
 use std::sync::Arc;
 
 /// Most points of the map that are drawn along a side.
@@ -117,7 +118,7 @@ fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
         ["Correlation length", &lengths, "Summits", &format!("{} 1/mm²", significant(both.summit_density * 1e-6, 4))],
         ["Lay", &lay, "Lay, both faces", &significant(both.lay, 3)],
     ];
-    Grid::new("face").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+    table(ui, "face", 4, 12.0, |ui| {
         for [name, value, follows, of_both] in rows {
             for (name, value) in [(name, value), (follows, of_both)] {
                 glossary::term(ui, RichText::new(name).color(cx.colours.quiet), "Measured face");

@@ -18,7 +18,7 @@ use crate::gui::ui::panels::menu::{FIT, export_button};
 use crate::gui::ui::parts::{first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
 use crate::problem::Problem;
-use eframe::egui::{Grid, RichText, TextStyle, Ui};
+use eframe::egui::{RichText, TextStyle, Ui};
 use std::sync::Arc;
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
@@ -242,7 +242,7 @@ fn drawn(found: &FitResult) -> Drawn {
 
 fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
-    Grid::new("values").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
+    table(ui, "values", 3, 10.0, |ui| {
         for one in &found.unknowns {
             value(ui, one, cx);
             ui.end_row();
@@ -277,7 +277,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
     cx.warn(ui, &found.warnings);
     let Some((sought, limited)) = drawn.words.split_first() else { return };
     let strong = ui.visuals().strong_text_color();
-    Grid::new("optimum").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
+    table(ui, "optimum", 3, 10.0, |ui| {
         let row = |ui: &mut Ui, name: &str, about: &str, value: String, beside: String| {
             ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
             ui.label(RichText::new(value).color(strong));

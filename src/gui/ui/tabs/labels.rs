@@ -17,7 +17,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let (present, pinned, solved) = (state.view.tab, state.pins.runs.len(), state.run.is_some());
     let plate = state.document.scene().kind() == Kind::Plate;
     let labels = |ui: &mut egui::Ui| {
-        for &(tab, _) in Tab::ALL.iter().filter(|(tab, _)| *tab != Tab::Rotor || !plate) {
+        for &(tab, _) in Tab::ALL.iter().filter(|(tab, _)| tab.is_listed(plate)) {
             let name = tab.label(plate);
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
             let label = ui.selectable_label(tab == present, text).hint(keys::about(&Command::Show(tab)));
