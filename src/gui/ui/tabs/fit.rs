@@ -301,8 +301,9 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
                 None => "",
             };
             let (from, to) = scan.flat;
-            let flat = format!("{at}within {} from {} to {}", percent(FLAT), significant(from, 3), significant(to, 3));
-            let value = format!("{} {}", significant(scan.value, 4), parameter.unit);
+            let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(FLAT));
+            let value = parameter.with_unit(significant(scan.value, 4));
             row(ui, label(parameter), parameter.about, value, flat);
         }
     });
