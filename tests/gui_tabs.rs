@@ -77,7 +77,7 @@ fn two_pinned() -> Window {
 fn two_runs_are_pinned_and_the_table_has_their_difference() {
     let mut window = two_pinned();
     let name = presets::find("fundamental").unwrap().name;
-    assert_eq!(labels(window.state()), [name.clone(), format!("{name}, min spacing 100 nm")]);
+    assert_eq!(labels(window.state()), [name.clone(), format!("{name}, minimum spacing H_m 100 nm")]);
     window.get_by_label("Compare (2)");
 
     // The numbers are those of the analysis, of runs that were solved by themselves.
