@@ -399,6 +399,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
     let heading =
         document.unwrap().descendants().find(|node| node.has_tag_name("h1")).unwrap().text().unwrap().to_owned();
     assert_eq!(heading, name, "a report of one run names no other");
+    assert!(page.contains("squeezefilm compare scene.toml --"), "how it is made again");
     let nothing_left = |names: Vec<String>| names.iter().all(|name| !name.starts_with('.'));
     assert!(nothing_left(names(folder.path())));
 
