@@ -165,6 +165,11 @@ fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
     runs.iter().filter_map(performance).collect()
 }
 
+/// The name of a run above figures: its label, or what its scene's name only counts.
+fn headline(run: &ComparedRun) -> String {
+    if run.label == run.scene.name { run.scene.headline() } else { run.label.clone() }
+}
+
 /// Where the numbers of a comparison come from.
 pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
@@ -183,7 +188,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
         fidelity: fidelity.unwrap_or_default(),
         error: runs.iter().filter_map(main).collect::<Vec<_>>().join(", "),
         note: if unsolved == 0 { String::new() } else { format!("{unsolved} NOT CONVERGED") },
-        ..Provenance::named(&runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "))
+        ..Provenance::named(&runs.iter().map(headline).collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -290,8 +295,11 @@ pub fn report(
     movies: &[(String, Vec<u8>)],
     command: &[String],
 ) -> String {
-    let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
-    let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
+    if runs.is_empty() {
+        return Page::new("squeezefilm", "Nothing to compare", "").finish("");
+    }
+    let names: Vec<String> = runs.iter().map(headline).collect();
+    let others = &names[1..];
     let mut found: Vec<String> = Vec::new();
     for solution in runs.iter().filter_map(|run| run.solved.as_ref().ok()) {
         let exactness = exactness(&solution.model.fidelity);
@@ -316,9 +324,9 @@ pub fn report(
         )
     };
     let mut page = if others.is_empty() {
-        Page::new("squeezefilm · report", &first.label, &lead)
+        Page::new("squeezefilm · report", &names[0], &lead)
     } else {
-        Page::new("squeezefilm · comparison", &[&[first.label.as_str()], &others[..]].concat().join(" · "), &lead)
+        Page::new("squeezefilm · comparison", &names.join(" · "), &lead)
     };
     for run in runs {
         if !run.converged() {
