@@ -208,9 +208,11 @@ impl Parameter {
         self.key.split_once('.').map_or(self.key, |(_, leaf)| leaf)
     }
 
-    /// Its name as part of a sentence, or of an axis: `minimum spacing H_m`.
+    /// Its name as part of a sentence, or of an axis: `minimum spacing H_m`. Of a value in an array of tables also that of its table:
+    /// `part flange r outer`.
     pub fn words(&self) -> String {
-        self.name.map_or_else(|| self.key_words(), uncapitalised)
+        let in_array = self.key.matches('.').count() > 1;
+        self.name.filter(|_| !in_array).map_or_else(|| self.key_words(), uncapitalised)
     }
 
     /// The key within its table in words, without its unit: `min spacing`.
@@ -328,6 +330,7 @@ mod tests {
             ("motor.load_per_wave_n", "load on one wave"),
             ("film.min_spacing_nm", "minimum spacing H_m"),
             ("motor.contact_radius_mm", "contact radius"),
+            ("rotor.part.flange.r_outer_mm", "part flange r outer"),
         ] {
             assert_eq!(Parameter::find(key).unwrap().words(), words);
         }
