@@ -1,6 +1,6 @@
 //! The fit tab: parameters fitted to measurements, or optimised for a result: the table, the form, and the result.
 
-use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
+use crate::analysis::fit::{Bound, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, percent, signed, significant, with_error};
 use crate::export::figure::Panel;
 use crate::export::fit::{figures, optimum_figure};
@@ -302,7 +302,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
             };
             let (from, to) = scan.flat;
             let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
-            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(FLAT));
+            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(found.flatness()));
             let value = parameter.with_unit(significant(scan.value, 4));
             row(ui, label(parameter), parameter.about, value, flat);
         }
