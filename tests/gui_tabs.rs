@@ -775,7 +775,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
     choose(&mut window, "What is looked for", "agreement with measurements");
     assert!(window.shows("Found for another question"));
     choose(&mut window, "What is looked for", "the greatest value of");
-    window.type_into("Limits on other results", "alpha < 0.3");
+    window.type_into("Limits on other results", "α ≤ 0,3");
     assert!(!window.shows("Found for another question"));
     window.click_on("Take these values");
     assert_eq!(window.known().document.scene().get(load.0), Some(Value::Number(load.1)));

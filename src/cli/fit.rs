@@ -99,7 +99,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     minimise: Option<String>,
 
-    /// A limit on another result at the optimum: alpha<0.3 or stall_torque_nm>0.2; may be repeated
+    /// A limit on another result at the optimum: alpha<30% or stall_torque_nm>0.2; may be repeated
     #[arg(long, value_name = "NAME<VALUE")]
     subject_to: Vec<Limit>,
 

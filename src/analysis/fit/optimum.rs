@@ -12,7 +12,7 @@ use crate::control::Cancel;
 use crate::digits::{percent, short};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
-use crate::scene::{Scene, show_text};
+use crate::scene::{Scene, quantity_text, show_text};
 use crate::solve::Settings;
 use basin::{
     BoxBounds, Cobyla, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, CostFunction, Executor,
@@ -52,17 +52,22 @@ impl FromStr for Limit {
     type Err = AnalysisError;
 
     fn from_str(text: &str) -> Result<Self, AnalysisError> {
-        let fault = || {
-            let found = show_text(text);
-            AnalysisError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
-        };
-        let below = text.contains('<');
-        let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
-        let value: f64 = value.trim_start_matches('=').trim().parse().map_err(|_| fault())?;
-        if !value.is_finite() {
-            return Err(fault());
+        let spelled = text.replace('≤', "<").replace('≥', ">");
+        let below = spelled.contains('<');
+        let (name, value) = spelled.split_once(if below { '<' } else { '>' }).unwrap_or_default();
+        let (name, value) = (name.trim(), value.trim_start_matches('=').trim());
+        let name = if name == "α" { Quantity::Alpha.name() } else { name };
+        let unit = Quantity::all().find(|quantity| quantity.name() == name).map_or("", Quantity::usual_unit);
+        match quantity_text::number(unit, value) {
+            Some(value) => Ok(Self { name: name.to_owned(), below, value }),
+            None => {
+                let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
+                Err(AnalysisError::Input(format!(
+                    "limit {}: expected name<value or name>value, as in alpha<0.3{unit}",
+                    show_text(text)
+                )))
+            }
         }
-        Ok(Self { name: name.trim().to_owned(), below, value })
     }
 }
 
@@ -104,7 +109,7 @@ impl Goal {
         let find = |option: &'static str, name: &str| {
             named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
         };
-        let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
+        let limits = limits.iter().map(|limit| Ok((limit.clone(), find("limit", &limit.name)?)));
         let limits = limits.collect::<Result<Vec<_>, AnalysisError>>()?;
         Ok(Self { quantity: find(if greatest { "maximise" } else { "minimise" }, name)?, greatest, limits })
     }
@@ -508,7 +513,19 @@ mod tests {
         let limit: Limit = "alpha < 0.3".parse().unwrap();
         assert_eq!((limit.name.as_str(), limit.below, limit.value), ("alpha", true, 0.3));
         assert!(!"stall_torque_nm>=0.2".parse::<Limit>().unwrap().below);
-        for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf"] {
+        for (text, told) in [
+            ("alpha < 20 %", "alpha < 0.2"),
+            ("α<0.2", "alpha < 0.2"),
+            ("alpha ≤ 0,3", "alpha < 0.3"),
+            ("max_efficiency ≥ 5%", "max_efficiency > 0.05"),
+            ("stall_torque_nm > 200 mN·m", "stall_torque_nm > 0.2"),
+            ("stall_torque_nm > 0,2 N·m", "stall_torque_nm > 0.2"),
+            ("min_gap_nm>0.05 µm", "min_gap_nm > 50"),
+            ("max_power_w>0.3 W", "max_power_w > 0.3"),
+        ] {
+            assert_eq!(text.parse::<Limit>().unwrap().to_string(), told, "{text}");
+        }
+        for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf", "min_gap_nm<3 %", "min_gap_nm<3 kHz"] {
             assert!(wrong.parse::<Limit>().unwrap_err().to_string().contains("expected name<value"), "{wrong}");
         }
     }
