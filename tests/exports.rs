@@ -218,6 +218,7 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     assert_eq!((floats["validity"].as_str(), limits(2).as_str()), ("", ""));
     let report = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert!(report.contains(squeezefilm::export::compare::LIMITS), "names of limits in the report's results");
+    assert!(report.contains("slip law") && !report.contains("slip-law"), "in words");
 
     assert_eq!(
         names(folder.path()),
@@ -243,7 +244,8 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     assert_eq!(areas, 3);
     let tables = tables(&page);
     let [parameters, results] = &tables[..] else { panic!("{} tables", tables.len()) };
-    assert!(parameters.iter().any(|row| row[..] == ["film.min_spacing_nm", "200", "100", "200"]), "{parameters:?}");
+    let spacing = ["Minimum spacing H_m, nm", "film.min_spacing_nm", "200", "100", "200"];
+    assert!(parameters.iter().any(|row| row[..] == spacing), "{parameters:?}");
     let film = results.iter().find(|row| row[0].starts_with("film load")).unwrap();
     assert!(film[1].contains(" ± ") && film[3].ends_with(" %"), "{film:?}");
     // The animation in the page is the file beside it.

@@ -381,6 +381,8 @@ fn an_optimum_keeps_its_limits() {
         line.points.iter().zip(&line.kept).all(|((spacing, _), kept)| *kept == (*spacing >= line.value)),
         "{line:?}"
     );
+    // The range in which it hardly changes ends there, too.
+    assert_eq!(line.flat.0, line.value);
     // Where it is kept nowhere, that is no optimum.
     let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
     let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft"]].concat());
@@ -406,9 +408,7 @@ fn an_optimum_keeps_its_limits() {
         (1, &Cancel::new(), &|_, _| ()),
     );
     let found = found.unwrap().unwrap();
-    assert!(
-        found.warnings[0].contains("bound, ") && found.warnings[0].ends_with("max_torque_nm changes by less than 1 %")
-    );
+    assert!(found.warnings[0].contains("bound, ") && found.warnings[0].contains("max_torque_nm changes by less than "));
     let error = Goal::new(&motor, "torque", true, &[]).unwrap_err().to_string();
     assert!(error.contains("maximise torque: no such number; allowed: alpha,"), "{error}");
 }

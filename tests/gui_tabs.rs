@@ -77,7 +77,7 @@ fn two_pinned() -> Window {
 fn two_runs_are_pinned_and_the_table_has_their_difference() {
     let mut window = two_pinned();
     let name = presets::find("fundamental").unwrap().name;
-    assert_eq!(labels(window.state()), [name.clone(), format!("{name}, min spacing 100 nm")]);
+    assert_eq!(labels(window.state()), [name.clone(), format!("{name}, minimum spacing H_m 100 nm")]);
     window.get_by_label("Compare (2)");
 
     // The numbers are those of the analysis, of runs that were solved by themselves.
@@ -399,6 +399,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
     let heading =
         document.unwrap().descendants().find(|node| node.has_tag_name("h1")).unwrap().text().unwrap().to_owned();
     assert_eq!(heading, name, "a report of one run names no other");
+    assert!(page.contains("squeezefilm compare scene.toml --"), "how it is made again");
     let nothing_left = |names: Vec<String>| names.iter().all(|name| !name.starts_with('.'));
     assert!(nothing_left(names(folder.path())));
 
@@ -763,6 +764,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
     assert!(optimum.limited[0].value < 0.3);
     let load = found.values()[0];
     assert!(window.shows("at its upper bound") && window.shows("allowed: alpha < 0.3"));
+    assert!(window.shows("the result stays within 1.0 % of the optimum from"));
     let faults = &mut Vec::new();
     explains(faults, &window, "Fit, optimum", &["Line through the optimum"]);
     assert!(faults.is_empty(), "{faults:#?}");
@@ -773,7 +775,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
     choose(&mut window, "What is looked for", "agreement with measurements");
     assert!(window.shows("Found for another question"));
     choose(&mut window, "What is looked for", "the greatest value of");
-    window.type_into("Limits on other results", "alpha < 0.3");
+    window.type_into("Limits on other results", "α ≤ 0,3");
     assert!(!window.shows("Found for another question"));
     window.click_on("Take these values");
     assert_eq!(window.known().document.scene().get(load.0), Some(Value::Number(load.1)));

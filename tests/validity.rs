@@ -242,6 +242,15 @@ fn contact_against_yield() {
     };
     check(&rough("100", "50"), "contact-stress", 3.125, 1.0);
     assert!(!names(&rough("10", "500")).contains(&"contact-stress"));
+    // Of a ring it is what its lowest part is made of.
+    let mut scene = Scene::motor();
+    scene.set("rotor.model", "ring").unwrap();
+    let mut solution = solution(2e-7);
+    let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
+    result.max_contact = 120e3;
+    let found = outside(&Problem::try_from(&scene).unwrap(), Some(&solution));
+    let stress = found.iter().find(|excess| excess.name == "contact-stress").unwrap();
+    assert!(stress.text.contains("PEEK yields at 98 MPa"), "{}", stress.text);
 }
 
 #[test]

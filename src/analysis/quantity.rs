@@ -163,6 +163,11 @@ impl Quantity {
         }
     }
 
+    /// Its unit in the results of scenes whose forces are not per metre of width.
+    pub fn usual_unit(self) -> &'static str {
+        TABLE[self as usize].3
+    }
+
     /// For the head of a table: what it is, with its unit after a comma.
     pub fn label(self, problem: &Problem) -> String {
         labelled(self.words(), self.unit(problem))

@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
-    Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
+    Bound, Bounds, ErrorSize, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
 use crate::digits::{duration, percent, short, signed, significant, with_error};
 use crate::export::files;
@@ -99,7 +99,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     minimise: Option<String>,
 
-    /// A limit on another result at the optimum: alpha<0.3 or stall_torque_nm>0.2; may be repeated
+    /// A limit on another result at the optimum: alpha<30% or stall_torque_nm>0.2; may be repeated
     #[arg(long, value_name = "NAME<VALUE")]
     subject_to: Vec<Limit>,
 
@@ -283,7 +283,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
         "key".to_owned(),
         "value".to_owned(),
         "bounds".to_owned(),
-        format!("within {} of the optimum", percent(FLAT)),
+        format!("within {} of the optimum", percent(found.flatness())),
         String::new(),
     ]);
     for line in &found.lines {

@@ -384,14 +384,21 @@ mod tests {
         let one = scene(&[("film.min_spacing_nm", "100")]);
         assert_eq!(one.name, "Fundamental case, changed: 1 key");
         assert_eq!(one.about, "Fundamental case with film.min_spacing_nm = 100 nm, was 200 nm.");
+        assert_eq!(one.headline(), "Fundamental case, minimum spacing H_m 100 nm");
+        assert_eq!(published.headline(), published.name);
         let three = [("film.min_spacing_nm", "100"), ("stator.tooth_radius_m", "3"), ("film.slip", "none")];
         assert_eq!(scene(&three).name, "Fundamental case, changed: 3 keys");
+        let named = scene(&three).headline();
+        assert!(named.contains(", minimum spacing H_m 100 nm") && named.contains(", tooth radius 3 m"), "{named}");
+        assert!(named.contains(", slip at the walls none"), "{named}");
+        let four = scene(&[&three[..], &[("motor.waves", "8")]].concat());
+        assert_eq!(four.headline(), "Fundamental case, changed: 4 keys");
         assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
         let long = scene(&[("film.min_spacing_nm", "123.456789012")]);
         assert!(long.about.contains("film.min_spacing_nm = 123.457 nm, was 200 nm."), "{}", long.about);
         assert_eq!(long.get("film.min_spacing_nm").unwrap().as_number(), Some(123.456789012));
         let named = scene(&[("film.min_spacing_nm", "100"), ("name", "Mine"), ("about", "My own.")]);
-        assert_eq!((named.name.as_str(), named.about.as_str()), ("Mine", "My own."));
+        assert_eq!((named.name.as_str(), named.about.as_str(), &*named.headline()), ("Mine", "My own.", "Mine"));
     }
 
     #[test]

@@ -12,12 +12,12 @@ use super::html::{Kind, Page, Table, shell};
 use super::json::{self, beside_limit, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::{effort, exactness, sentences};
-use crate::analysis::quantity::{Quantity, force_unit};
+use crate::analysis::quantity::{Quantity, force_unit, labelled};
 use crate::analysis::regime;
 use crate::analysis::torque::with_film;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
-use crate::digits::{change, raised, significant, with_error};
+use crate::digits::{capitalised, change, raised, significant, with_error};
 use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
@@ -165,6 +165,11 @@ fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
     runs.iter().filter_map(performance).collect()
 }
 
+/// The name of a run above figures: its label, or what its scene's name only counts.
+fn headline(run: &ComparedRun) -> String {
+    if run.label == run.scene.name { run.scene.headline() } else { run.label.clone() }
+}
+
 /// Where the numbers of a comparison come from.
 pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
@@ -183,7 +188,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
         fidelity: fidelity.unwrap_or_default(),
         error: runs.iter().filter_map(main).collect::<Vec<_>>().join(", "),
         note: if unsolved == 0 { String::new() } else { format!("{unsolved} NOT CONVERGED") },
-        ..Provenance::named(&runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "))
+        ..Provenance::named(&runs.iter().map(headline).collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -282,7 +287,7 @@ pub fn result_texts(runs: &[ComparedRun]) -> Vec<(Option<Quantity>, String, Vec<
 }
 
 /// The comparison as one HTML file that needs nothing else. `all`: parameters are listed that do not differ, too; `movies`: animations as
-/// GIF, each with its name; `command`: what makes it again.
+/// GIF, each with its name; `command`: what makes it again, empty if the window makes it.
 pub fn report(
     runs: &[ComparedRun],
     settings: &Settings,
@@ -290,8 +295,11 @@ pub fn report(
     movies: &[(String, Vec<u8>)],
     command: &[String],
 ) -> String {
-    let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
-    let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
+    if runs.is_empty() {
+        return Page::new("squeezefilm", "Nothing to compare", "").finish("");
+    }
+    let names: Vec<String> = runs.iter().map(headline).collect();
+    let others = &names[1..];
     let mut found: Vec<String> = Vec::new();
     for solution in runs.iter().filter_map(|run| run.solved.as_ref().ok()) {
         let exactness = exactness(&solution.model.fidelity);
@@ -316,9 +324,9 @@ pub fn report(
         )
     };
     let mut page = if others.is_empty() {
-        Page::new("squeezefilm · report", &first.label, &lead)
+        Page::new("squeezefilm · report", &names[0], &lead)
     } else {
-        Page::new("squeezefilm · comparison", &[&[first.label.as_str()], &others[..]].concat().join(" · "), &lead)
+        Page::new("squeezefilm · comparison", &names.join(" · "), &lead)
     };
     for run in runs {
         if !run.converged() {
@@ -328,7 +336,7 @@ pub fn report(
 
     page.section(if others.is_empty() { "Parameters" } else { "What differs" });
     let rows = parameter_rows(runs);
-    let all = all || others.is_empty();
+    let [asked, all] = [all, all || others.is_empty()];
     if all || rows.iter().any(|row| row.differs()) {
         page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
     } else {
@@ -370,7 +378,11 @@ pub fn report(
         }
         page.folded("the scene as a preset", &run.scene.to_toml());
     }
-    again(&mut page, command);
+    if command.is_empty() {
+        again_from_scenes(&mut page, runs, settings, asked && !others.is_empty());
+    } else {
+        again(&mut page, command);
+    }
     page.finish(&provenance(runs).line())
 }
 
@@ -378,20 +390,48 @@ pub fn report(
 pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
     if !validity.is_empty() {
         page.warning("Outside the limits of the model:");
-        page.list(validity.iter().map(|excess| format!("{}: {}. {}", excess.name, beside_limit(excess), excess.text)));
+        let name = |excess: &Excess| capitalised(&excess.name.replace('-', " "));
+        page.list(validity.iter().map(|excess| format!("{}: {}. {}", name(excess), beside_limit(excess), excess.text)));
     }
 }
 
-/// The section that says how the report is made again.
+/// Title of the section that says how a report is made again.
+const AGAIN: &str = "To make this report again";
+
+/// The section that says how the report is made again, by the command that made it.
 pub(super) fn again(page: &mut Page, command: &[String]) {
-    page.section("To make this report again");
-    let repeats = if command.is_empty() {
-        "The window starts each solve from the one before: another run agrees with it within the stated errors."
-    } else {
-        page.code(&shell(command));
-        "A run repeats to the last bit, whatever the number of threads; only times differ."
+    page.section(AGAIN);
+    page.code(&shell(command));
+    page.note(&format!(
+        "squeezefilm {}. A run repeats to the last bit, whatever the number of threads; only times differ.",
+        env!("CARGO_PKG_VERSION")
+    ));
+}
+
+/// The same section of a report that the window made: a command that reads the scenes in the page.
+fn again_from_scenes(page: &mut Page, runs: &[ComparedRun], settings: &Settings, all: bool) {
+    page.section(AGAIN);
+    let files: Vec<String> = match runs.len() {
+        1 => vec!["scene.toml".to_owned()],
+        count => (1..=count).map(|place| format!("scene-{place}.toml")).collect(),
     };
-    page.note(&format!("squeezefilm {}. {repeats}", env!("CARGO_PKG_VERSION")));
+    let (each, named) = if runs.len() == 1 {
+        ("", "scene.toml".to_owned())
+    } else {
+        (" of each run", format!("scene-1.toml to scene-{}.toml, in their order here", runs.len()))
+    };
+    page.text(&format!(
+        "This needs squeezefilm {}, and the text under “the scene as a preset”{each}, above, saved as {named}.",
+        env!("CARGO_PKG_VERSION")
+    ));
+    let how = match settings.method {
+        Method::Auto => settings.fidelity.option(),
+        Method::Paper => format!("--method {}", settings.method.name()),
+    };
+    let begins = ["squeezefilm", "compare"].map(str::to_owned).into_iter().chain(files);
+    let options = how.split(' ').chain(all.then_some("--all")).chain(["--out", "report"]).map(str::to_owned);
+    page.code(&shell(&begins.chain(options).collect::<Vec<_>>()));
+    page.note("The window starts each solve from the one before: another run agrees with it within the stated errors.");
 }
 
 /// The row of a table of results that names where the model is out of its depth, in each run.
@@ -402,7 +442,8 @@ const BESIDE: usize = 2;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
-    let mut table = Table::default().heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
+    let names = ["parameter", "key"].map(|head| (Kind::Words, head.to_owned()));
+    let mut table = Table::default().heads(names.into_iter().chain(labels));
     for row in rows {
         // What differs from the first run is marked.
         let values = row.values.iter().map(|value| match value {
@@ -410,7 +451,8 @@ fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a Para
             Some(shown) => (Kind::Strong, shown.to_string()),
             None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
         });
-        table.row([(Kind::Words, row.parameter.key.to_owned())].into_iter().chain(values));
+        let name = capitalised(&labelled(&row.parameter.words(), row.parameter.unit));
+        table.row([(Kind::Words, name), (Kind::Quiet, row.parameter.key.to_owned())].into_iter().chain(values));
     }
     table
 }
@@ -433,7 +475,9 @@ fn result_table(runs: &[ComparedRun]) -> Table {
         };
         let mut cells = vec![(Kind::Words, name)];
         for (i, [value, difference]) in texts.into_iter().enumerate() {
-            let (value, difference) = (raised(&value), raised(&difference));
+            // Limits are named in words.
+            let value = if quantity.is_none() { value.replace('-', " ") } else { raised(&value) };
+            let difference = raised(&difference);
             match (beside, i) {
                 (true, 1..) => cells.extend([(kind, value), (Kind::Number, difference)]),
                 _ => cells.push((kind, format!("{value}\n{difference}").trim_end().to_owned())),

@@ -185,6 +185,13 @@ pub fn solve_figures(
     Ok(files.commit()?)
 }
 
+/// The problem with the name that it has above its figures, which may name what was changed.
+fn titled(solved: &Solved<'_>) -> Problem {
+    let name =
+        if solved.problem.name == solved.scene.name { solved.scene.headline() } else { solved.problem.name.clone() };
+    Problem { name, ..solved.problem.clone() }
+}
+
 /// Adds the figures of a solve, drawn several at a time.
 fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>) -> Result<(), ExportError> {
     let mut formats = files.folder.formats.clone();
@@ -193,7 +200,7 @@ fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>
     if formats.is_empty() {
         return Ok(());
     }
-    let figures = figures::of(solved.problem, solved.solution, solved.history, solved.torque);
+    let figures = figures::of(&titled(solved), solved.solution, solved.history, solved.torque);
     let asked: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(asked.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {
@@ -234,13 +241,13 @@ pub fn animation(
     // A wrong extension is told before the work, not after it.
     let format = super::animation::Format::of(path)?;
     let all = animated_frames(solved.solution, options, format);
-    let Solved { problem, solution, .. } = *solved;
+    let (problem, solution) = (titled(solved), solved.solution);
     control.counted(all, |done| match format {
         super::animation::Format::Mp4 => {
-            write_video(path, problem, solution, options, done, control.cancel)?;
+            write_video(path, &problem, solution, options, done, control.cancel)?;
             Ok(vec![path.to_owned()])
         }
-        _ => Ok(cycle(problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
+        _ => Ok(cycle(&problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
     })
 }
 

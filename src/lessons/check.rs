@@ -123,7 +123,7 @@ mod tests {
         );
         assert_eq!(
             unmet(source, &[("film.min_spacing_nm", "150")], 0.5),
-            Some("Min spacing is 150 nm, and should be at most 100 nm".to_owned())
+            Some("Minimum spacing H_m is 150 nm, and should be at most 100 nm".to_owned())
         );
         assert_eq!(unmet("alpha about 0.5", &[], 0.51), None);
         assert_ne!(unmet("alpha about 0.5", &[], 0.53), None);

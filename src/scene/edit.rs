@@ -12,6 +12,8 @@ use std::path::Path;
 
 /// Digits of the numbers in a description; the scene has all of them.
 const DIGITS: usize = 6;
+/// Most changes that a headline names.
+const MOST_NAMED: usize = 3;
 
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
@@ -196,6 +198,24 @@ impl Scene {
             self.about = format!("{} with {changes}.", original.name);
         }
         self.name = title;
+    }
+
+    /// Its name above a figure. Of a scene with the title and the description that [`Scene::retitle`] gives, and at most three changes, these in
+    /// place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
+    pub fn headline(&self) -> String {
+        let changes = || {
+            let (head, _) = self.name.rsplit_once(": ")?;
+            let original = head.strip_suffix(" again").or_else(|| head.strip_suffix(", changed"))?;
+            let changes: Vec<&str> =
+                self.about.strip_prefix(original)?.strip_prefix(" with ")?.strip_suffix('.')?.split("; ").collect();
+            let named = |change: &&str| {
+                let (key, value) = change.split_once(", was ")?.0.split_once(" = ")?;
+                Some(format!("{} {value}", Parameter::find(key)?.words()))
+            };
+            let named = changes.iter().map(named).collect::<Option<Vec<_>>>()?;
+            (named.len() <= MOST_NAMED).then(|| format!("{original}, {}", named.join(", ")))
+        };
+        changes().unwrap_or_else(|| self.name.clone())
     }
 }
 

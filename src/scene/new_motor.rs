@@ -343,8 +343,9 @@ impl NewMotor {
         let why = "the law that holds at every spacing; the paper's, first-order, is inaccurate in films thinner than ten mean free paths";
         draft.assume_text("film.slip", "fukui-kaneko".to_owned(), why);
         draft.pairs.push(("name", answer(answers, "name").unwrap_or("My motor").to_owned()));
-        let keys: Vec<_> = draft.assumed.iter().map(|assumption| assumption.key).collect();
-        draft.pairs.push(("about", format!("From a data sheet; assumed: {}.", keys.join(", "))));
+        let words = |assumption: &Assumption| Parameter::find(assumption.key).map(Parameter::words);
+        let assumed: Vec<String> = draft.assumed.iter().filter_map(words).collect();
+        draft.pairs.push(("about", format!("From a data sheet. Assumed: {}.", assumed.join(", "))));
         let mut scene = Scene::motor();
         let fault = |error: SceneError| error.to_string();
         scene.set_all(&draft.pairs).map_err(fault)?;
@@ -391,7 +392,12 @@ mod tests {
         let text = motor.to_toml();
         assert_eq!(Scene::from_toml(&text, "new").unwrap(), motor.scene);
         assert_eq!(text.matches("# Assumed: ").count(), motor.assumed.len());
-        assert!(motor.scene.about.contains("film.min_spacing_nm"));
+        let about = &motor.scene.about;
+        assert!(
+            about.starts_with("From a data sheet. Assumed: contact radius, waves round the ring, teeth on"),
+            "{about}"
+        );
+        assert!(about.contains("minimum spacing H_m") && !about.contains("_nm"), "{about}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The description of a key of a scene: its unit, range, default and meaning, and the scenes that have it.
 
 use super::value::{Value, show_number};
+use crate::digits::uncapitalised;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -207,8 +208,15 @@ impl Parameter {
         self.key.split_once('.').map_or(self.key, |(_, leaf)| leaf)
     }
 
-    /// The key within its table in words, without its unit: `min spacing`.
+    /// Its name as part of a sentence, or of an axis: `minimum spacing H_m`. Of a value in an array of tables also that of its table:
+    /// `part flange r outer`.
     pub fn words(&self) -> String {
+        let in_array = self.key.matches('.').count() > 1;
+        self.name.filter(|_| !in_array).map_or_else(|| self.key_words(), uncapitalised)
+    }
+
+    /// The key within its table in words, without its unit: `min spacing`.
+    pub(crate) fn key_words(&self) -> String {
         let stem = UNITS.iter().find_map(|(ending, ..)| self.leaf().strip_suffix(ending));
         stem.filter(|_| !self.unit.is_empty()).unwrap_or(self.leaf()).replace(['_', '.'], " ")
     }
@@ -315,6 +323,14 @@ mod tests {
             ("motor.load_per_wave_n", "load per wave"),
             ("film.min_spacing_nm", "min spacing"),
             ("motor.waves", "waves"),
+        ] {
+            assert_eq!(Parameter::find(key).unwrap().key_words(), words);
+        }
+        for (key, words) in [
+            ("motor.load_per_wave_n", "load on one wave"),
+            ("film.min_spacing_nm", "minimum spacing H_m"),
+            ("motor.contact_radius_mm", "contact radius"),
+            ("rotor.part.flange.r_outer_mm", "part flange r outer"),
         ] {
             assert_eq!(Parameter::find(key).unwrap().words(), words);
         }

@@ -32,6 +32,8 @@ const KINDS: &[Kind] = &[
     // Of answers in lessons.
     &[("mNm", 1e-3), ("Nm", 1.0), ("kNm", 1e3)],
     &[("mNs/m", 1e-3), ("Ns/m", 1.0)],
+    // Of limits on results.
+    &[("mW", 1e-3), ("W", 1.0)],
     &[("N/m", 1.0), ("kN/m", 1e3), ("N/mm", 1e3), ("N/um", 1e6)],
     &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
 ];

@@ -9,10 +9,10 @@ use crate::analysis::attempt::{attempt, caught};
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
-use crate::digits::short;
+use crate::digits::{percent, short};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
-use crate::scene::{Scene, show_text};
+use crate::scene::{Scene, quantity_text, show_text};
 use crate::solve::Settings;
 use basin::{
     BoxBounds, Cobyla, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, CostFunction, Executor,
@@ -52,17 +52,22 @@ impl FromStr for Limit {
     type Err = AnalysisError;
 
     fn from_str(text: &str) -> Result<Self, AnalysisError> {
-        let fault = || {
-            let found = show_text(text);
-            AnalysisError::Input(format!("subject-to {found}: expected name<value or name>value, as in alpha<0.3"))
-        };
-        let below = text.contains('<');
-        let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
-        let value: f64 = value.trim_start_matches('=').trim().parse().map_err(|_| fault())?;
-        if !value.is_finite() {
-            return Err(fault());
+        let spelled = text.replace('≤', "<").replace('≥', ">");
+        let below = spelled.contains('<');
+        let (name, value) = spelled.split_once(if below { '<' } else { '>' }).unwrap_or_default();
+        let (name, value) = (name.trim(), value.trim_start_matches('=').trim());
+        let name = if name == "α" { Quantity::Alpha.name() } else { name };
+        let unit = Quantity::all().find(|quantity| quantity.name() == name).map_or("", Quantity::usual_unit);
+        match quantity_text::number(unit, value) {
+            Some(value) => Ok(Self { name: name.to_owned(), below, value }),
+            None => {
+                let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
+                Err(AnalysisError::Input(format!(
+                    "limit {}: expected name<value or name>value, as in alpha<0.3{unit}",
+                    show_text(text)
+                )))
+            }
         }
-        Ok(Self { name: name.trim().to_owned(), below, value })
     }
 }
 
@@ -104,7 +109,7 @@ impl Goal {
         let find = |option: &'static str, name: &str| {
             named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
         };
-        let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
+        let limits = limits.iter().map(|limit| Ok((limit.clone(), find("limit", &limit.name)?)));
         let limits = limits.collect::<Result<Vec<_>, AnalysisError>>()?;
         Ok(Self { quantity: find(if greatest { "maximise" } else { "minimise" }, name)?, greatest, limits })
     }
@@ -152,6 +157,13 @@ pub struct Optimum {
     pub scene: Scene,
 }
 
+impl Optimum {
+    /// The share of the optimum within which the number stays over [`Scan::flat`]: [`FLAT`], or its own numerical error where that is greater.
+    pub fn flatness(&self) -> f64 {
+        flatness(&self.value)
+    }
+}
+
 /// The number that is sought along one unknown, the others being those of the optimum.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scan {
@@ -165,7 +177,7 @@ pub struct Scan {
     pub points: Vec<(f64, Option<f64>)>,
     /// Of each of them, whether all limits are kept.
     pub kept: Vec<bool>,
-    /// The range round the optimum in which the number stays within a hundredth of it.
+    /// The range round the optimum in which all limits are kept, and the number stays within [`Optimum::flatness`] of it.
     pub flat: (f64, f64),
 }
 
@@ -352,6 +364,7 @@ fn describe(
         return Err(no_start("the optimum could not be solved again"));
     };
     let sign = if goal.greatest { 1.0 } else { -1.0 };
+    let little = flatness(&best);
     let (mut lines, mut warnings) = (Vec::new(), Vec::new());
     let mut better: Option<(String, f64)> = None;
     for (k, places) in places.iter().enumerate() {
@@ -385,7 +398,8 @@ fn describe(
             let (parameter, at) = (unknown.parameter, short(unknown.value(*place), 4));
             warnings.push(format!("{} = {} cannot be computed: {reason}", parameter.key, parameter.with_unit(at)));
         }
-        let flat = (edge(&points, middle, best.value, false), edge(&points, middle, best.value, true));
+        let flat = [false, true].map(|upwards| edge((&points, &kept), (middle, best.value, little), upwards));
+        let flat = (flat[0], flat[1]);
         lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, kept, flat });
     }
     let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
@@ -397,8 +411,8 @@ fn describe(
         let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
         let flat = parameter.with_unit(short(flat_to, 3));
         let beyond = match (line.value - flat_to).abs() > PLATEAU * range {
-            true if lower => format!("up to {flat} {name} changes by less than 1 %"),
-            true => format!("from {flat} on {name} changes by less than 1 %"),
+            true if lower => format!("up to {flat} {name} changes by less than {}", percent(little)),
+            true => format!("from {flat} on {name} changes by less than {}", percent(little)),
             false => "a better value lies beyond it, if anywhere".to_owned(),
         };
         let (side, value) = (bound.name(), parameter.with_unit(short(line.value, 6)));
@@ -442,16 +456,29 @@ fn describe(
     }))
 }
 
-/// Where, above or below the optimum, the number first differs from it by more than [`FLAT`], linear between points; the end of the
-/// line if it nowhere does.
-fn edge(points: &[(f64, Option<f64>)], middle: usize, best: f64, upwards: bool) -> f64 {
+/// The share by which the number may differ within [`Scan::flat`]: [`FLAT`], or its own numerical error where that is greater.
+fn flatness(best: &Estimate) -> f64 {
+    let own = best.error / best.value.abs();
+    if own.is_finite() { own.max(FLAT) } else { FLAT }
+}
+
+/// Where, above or below the optimum, the number first differs from it by more than a share, linear between points; before that the last
+/// point at which all limits are kept; the end of the line if there is neither.
+fn edge(
+    (points, kept): (&[(f64, Option<f64>)], &[bool]),
+    (middle, best, little): (usize, f64, f64),
+    upwards: bool,
+) -> f64 {
     let order: Vec<usize> = if upwards { (middle..points.len()).collect() } else { (0..=middle).rev().collect() };
     let mut last = (points[middle].0, 0.0);
     for i in order {
         let (place, found) = points[i];
         let off = found.map_or(f64::INFINITY, |found| (found - best).abs() / best.abs().max(f64::MIN_POSITIVE));
-        if off > FLAT {
-            let share = if off.is_finite() { (FLAT - last.1) / (off - last.1) } else { 0.0 };
+        if i != middle && !kept[i] {
+            return last.0;
+        }
+        if off > little {
+            let share = if off.is_finite() { (little - last.1) / (off - last.1) } else { 0.0 };
             return last.0 + share * (place - last.0);
         }
         last = (place, off);
@@ -467,10 +494,18 @@ mod tests {
     fn the_edge_is_where_a_hundredth_is_lost() {
         let parabola: Vec<(f64, Option<f64>)> =
             (0..=100).map(|i| f64::from(i) / 100.0).map(|x| (x, Some(2.0 * (1.0 - (x - 0.4) * (x - 0.4))))).collect();
-        assert!((edge(&parabola, 40, 2.0, true) - 0.5).abs() < 1e-3);
-        assert!((edge(&parabola, 40, 2.0, false) - 0.3).abs() < 1e-3);
+        let mut kept = [true; 101];
+        assert!((edge((&parabola, &kept), (40, 2.0, FLAT), true) - 0.5).abs() < 1e-3);
+        assert!((edge((&parabola, &kept), (40, 2.0, FLAT), false) - 0.3).abs() < 1e-3);
+        // Not where a limit is not kept; and farther where the number is not known as well.
+        kept[35] = false;
+        assert_eq!(edge((&parabola, &kept), (40, 2.0, FLAT), false), 0.36);
+        let known = Estimate { value: 2.0, error: 0.08 };
+        assert!((edge((&parabola, &kept), (40, 2.0, flatness(&known)), true) - 0.6).abs() < 1e-3);
+        assert_eq!([flatness(&Estimate::exact(2.0)), flatness(&Estimate { value: 0.0, error: 1.0 })], [FLAT; 2]);
         let broken = [(0.0, Some(1.0)), (1.0, None)];
-        assert_eq!((edge(&broken, 0, 1.0, true), edge(&broken, 0, 1.0, false)), (0.0, 0.0));
+        let found = [true, false].map(|upwards| edge((&broken, &[true; 2]), (0, 1.0, FLAT), upwards));
+        assert_eq!(found, [0.0; 2]);
     }
 
     #[test]
@@ -478,7 +513,19 @@ mod tests {
         let limit: Limit = "alpha < 0.3".parse().unwrap();
         assert_eq!((limit.name.as_str(), limit.below, limit.value), ("alpha", true, 0.3));
         assert!(!"stall_torque_nm>=0.2".parse::<Limit>().unwrap().below);
-        for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf"] {
+        for (text, told) in [
+            ("alpha < 20 %", "alpha < 0.2"),
+            ("α<0.2", "alpha < 0.2"),
+            ("alpha ≤ 0,3", "alpha < 0.3"),
+            ("max_efficiency ≥ 5%", "max_efficiency > 0.05"),
+            ("stall_torque_nm > 200 mN·m", "stall_torque_nm > 0.2"),
+            ("stall_torque_nm > 0,2 N·m", "stall_torque_nm > 0.2"),
+            ("min_gap_nm>0.05 µm", "min_gap_nm > 50"),
+            ("max_power_w>0.3 W", "max_power_w > 0.3"),
+        ] {
+            assert_eq!(text.parse::<Limit>().unwrap().to_string(), told, "{text}");
+        }
+        for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf", "min_gap_nm<3 %", "min_gap_nm<3 kHz"] {
             assert!(wrong.parse::<Limit>().unwrap_err().to_string().contains("expected name<value"), "{wrong}");
         }
     }

@@ -262,7 +262,8 @@ pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
         _ => None,
     };
     let (what, limit) = lowest.map_or(("a rotor of aluminium 6061-T6", YIELD_MPA), |part| {
-        (part.material.name, part.material.yield_stress * 1e-6)
+        let name = if part.material.name == "peek" { "PEEK" } else { part.material.name };
+        (name, part.material.yield_stress * 1e-6)
     });
     if let Some(asperities) = motor.surface.asperities.filter(|_| pressure > 0.0) {
         let summits = asperities.summits();

@@ -1,6 +1,6 @@
 //! Plain words for the keys of a scene and for the names it can choose from.
 
-use crate::digits::{capitalised, rounded};
+use crate::digits::{capitalised, rounded, uncapitalised};
 use crate::plan::Decision;
 use crate::scene::{PARAMETERS, Parameter, Scene, Value};
 use std::collections::BTreeMap;
@@ -73,11 +73,6 @@ pub fn automatic(key: &str, name: &str) -> String {
     format!("Auto: {}", uncapitalised(&choice(key, name)))
 }
 
-fn uncapitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
-}
-
 /// The accessible name of the field in which a value is typed, beside the slider that carries the label.
 pub fn field_name(parameter: &Parameter) -> String {
     match parameter.unit {
@@ -126,7 +121,7 @@ mod tests {
     fn every_parameter_has_a_label() {
         for parameter in PARAMETERS {
             assert!(label(parameter).starts_with(char::is_uppercase), "{}", parameter.key);
-            assert_ne!(parameter.name, Some(&*capitalised(&parameter.words())), "{}", parameter.key);
+            assert_ne!(parameter.name, Some(&*capitalised(&parameter.key_words())), "{}", parameter.key);
             assert_eq!(parameter.switch.is_empty(), parameter.absent.is_none(), "{}", parameter.key);
             if let ParameterKind::Choice { options, .. } = parameter.kind {
                 let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));

@@ -127,11 +127,9 @@ pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBu
         return Ok(path);
     }
     let allowed = extensions.iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ");
-    Err(format!(
-        "{}: “.{extension}” is none of the formats of a {}: allowed {allowed}",
-        path.display(),
-        kind.to_lowercase()
-    ))
+    let kind = kind.to_lowercase();
+    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    Err(format!("{}: “.{extension}” is none of the formats of {article} {kind}: allowed {allowed}", path.display()))
 }
 
 /// Suggested file name of a picture of the window.
@@ -205,4 +203,19 @@ pub enum Answer {
     Cancelled,
     /// There was no dialog: the path has to be typed.
     NoDialog,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_extension_is_told_with_the_right_article() {
+        let refused = |kind| complete("cycle.txt".into(), kind, &["gif", "mp4"]).unwrap_err();
+        assert_eq!(
+            refused("Animation"),
+            "cycle.txt: “.txt” is none of the formats of an animation: allowed .gif, .mp4"
+        );
+        assert!(refused("Table").contains("the formats of a table"));
+    }
 }

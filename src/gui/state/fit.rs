@@ -67,9 +67,16 @@ pub struct FitState {
 }
 
 impl FitForm {
-    /// The limits on other numbers.
+    /// The limits on other numbers. A comma with a digit behind it is that of a decimal.
     fn limits(&self) -> Result<Vec<Limit>, String> {
-        let limits = self.limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
+        let mut limits: Vec<String> = Vec::new();
+        for piece in self.limits.split(',') {
+            match limits.last_mut() {
+                Some(last) if piece.starts_with(|c: char| c.is_ascii_digit()) => *last = format!("{last},{piece}"),
+                _ => limits.push(piece.to_owned()),
+            }
+        }
+        let limits = limits.iter().map(|limit| limit.trim()).filter(|limit| !limit.is_empty());
         limits.map(str::parse::<Limit>).collect::<Result<_, _>>().map_err(|error| error.to_string())
     }
 

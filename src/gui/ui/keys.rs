@@ -133,7 +133,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             Window.on(CTRL, Key::Num1, "Show the motion", || Command::Show(Tab::Motion)),
             Window.on(CTRL, Key::Num2, "Compare pinned runs", || Command::Show(Tab::Compare)),
             Window.on(CTRL, Key::Num3, "Sweep a parameter", || Command::Show(Tab::Sweep)),
-            Window.on(CTRL, Key::Num4, "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
+            Window.on(CTRL, Key::Num4, "Show the torque; of a plate, exact results", || Command::Show(Tab::Torque)),
             Window.on(CTRL, Key::Num5, "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             Window.on(CTRL, Key::Num6, "Show the start-up", || Command::Show(Tab::Startup)),
             Window.on(CTRL, Key::Num7, "Hold a plate", || Command::Show(Tab::Hold)),

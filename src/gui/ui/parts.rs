@@ -39,10 +39,7 @@ pub(super) fn number_box(
     let read = |text: &str| {
         let found = quantity_text::number(unit, text).filter(|number| range.contains(number));
         if found.is_none() {
-            let ends = [range.start(), range.end()].map(|end| signed(as_given(*end).to_string()));
-            let within =
-                if range.end().is_finite() { format!(" from {} to {}", ends[0], ends[1]) } else { String::new() };
-            refused.set(Some(format!("{}: expected a number{within} {unit}", show_text(text)).trim_end().to_owned()));
+            refused.set(Some(refusal(text, &range, unit)));
         }
         found
     };
@@ -60,6 +57,17 @@ pub(super) fn number_box(
         Tooltip::for_widget(&response).show(|ui| cx.alarm(ui, [reason]));
     }
     response
+}
+
+/// Why a text is not accepted as a number in this range and unit.
+fn refusal(text: &str, range: &RangeInclusive<f64>, unit: &str) -> String {
+    let [least, most] = [range.start(), range.end()].map(|end| signed(as_given(*end).to_string()));
+    let within = match range.end().is_finite() {
+        true => format!(" from {least} to {most} {unit}"),
+        false if unit.is_empty() => String::new(),
+        false => format!(", in {unit}"),
+    };
+    format!("{}: expected a number{within}", show_text(text)).trim_end().to_owned()
 }
 
 /// A striped table called `name`, with so much room between its columns. Where it is wider than the tab it is
@@ -99,4 +107,18 @@ fn scroll(ui: &mut Ui, area: ScrollArea, bar: f32, add: impl FnOnce(&mut Ui)) {
         ui.set_max_width(ui.available_width() - bar);
         add(ui);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_text_is_told_what_is_allowed() {
+        let any = f64::NEG_INFINITY..=f64::INFINITY;
+        assert_eq!(refusal("few", &any, "atmospheres"), "few: expected a number, in atmospheres");
+        assert_eq!(refusal("few", &any, ""), "few: expected a number");
+        assert_eq!(refusal("9", &(-1.0..=2.0), "mm"), "9: expected a number from −1 to 2 mm");
+        assert_eq!(refusal("9", &(0.0..=2.0), ""), "9: expected a number from 0 to 2");
+    }
 }

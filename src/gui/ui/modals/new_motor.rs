@@ -2,7 +2,7 @@
 
 use super::frame::{Answer, heading};
 use crate::gui::command::Command;
-use crate::gui::derived::words::label;
+use crate::gui::derived::words::{choice, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::show_list;
 use crate::gui::ui::theme::outline_fields;
@@ -76,11 +76,12 @@ fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawCon
     let hint = question.otherwise.unwrap_or("needed");
     let mut answer = present.to_owned();
     if let Accepts::Choice(names) = question.accepts {
-        let shown = if present.is_empty() { hint } else { present };
+        // The names are those of gases: the labels are those of the panel.
+        let shown = choice("film.gas", if present.is_empty() { hint } else { present });
         let combo = egui::ComboBox::from_id_salt(question.name).selected_text(shown);
         let combo = show_list(ui, combo, |ui| {
             for name in names {
-                ui.selectable_value(&mut answer, (*name).to_owned(), *name);
+                ui.selectable_value(&mut answer, (*name).to_owned(), choice("film.gas", name));
             }
         });
         combo.labelled_by(label.id);

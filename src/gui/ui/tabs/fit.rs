@@ -1,6 +1,6 @@
 //! The fit tab: parameters fitted to measurements, or optimised for a result: the table, the form, and the result.
 
-use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
+use crate::analysis::fit::{Bound, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, percent, signed, significant, with_error};
 use crate::export::figure::Panel;
 use crate::export::fit::{figures, optimum_figure};
@@ -117,7 +117,7 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
             }
         });
         ui.label("with");
-        let about = "Limits on other results, divided by commas: alpha<0.3, stall_torque_nm>0.2. Their names are those of the columns that are exported";
+        let about = "Limits on other results, divided by commas: alpha<30 %, stall_torque_nm>0.2 N·m. Their names are those of the columns that are exported";
         field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
     cx.alarm(ui, cx.state.fit.goal_fault.as_ref().filter(|_| sought != Sought::Agreement));
@@ -301,8 +301,9 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
                 None => "",
             };
             let (from, to) = scan.flat;
-            let flat = format!("{at}within {} from {} to {}", percent(FLAT), significant(from, 3), significant(to, 3));
-            let value = format!("{} {}", significant(scan.value, 4), parameter.unit);
+            let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(found.flatness()));
+            let value = parameter.with_unit(significant(scan.value, 4));
             row(ui, label(parameter), parameter.about, value, flat);
         }
     });

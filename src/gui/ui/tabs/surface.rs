@@ -37,7 +37,8 @@ fn contact(ui: &mut Ui, curves: &SurfaceCurves, height: f32, cx: &DrawContext<'_
     Chart { name, height, panel: &panel.layer(dot), words: (None, "Asperities") }.show(ui);
     if let Some([h, p]) = curves.even.map(at) {
         let [h, p] = [h, p].map(|value| significant(value, 3));
-        cx.note(ui, format!("Pressed evenly by the load ({p} MPa) the faces stay {h} nm apart in the mean, the point"));
+        let apart = format!("the faces stay {h} nm apart in the mean: the point in the chart");
+        cx.note(ui, format!("Pressed evenly by the load ({p} MPa), {apart}"));
     }
 }
 
