@@ -246,7 +246,9 @@ fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     window.get_by_label_contains("Assumed: Minimum spacing H_m 200 nm: as in the motor of Maeno and Bogy");
     // The one behind it, of the scene, has another gas.
     let mut gases = window.query_all_by_role_and_label(Role::ComboBox, "Gas").map(|list| list.accesskit_node().value());
-    assert!(gases.any(|gas| gas.as_deref() == Some("Air")));
+    let air = gases.any(|gas| gas.as_deref() == Some("Air"));
+    drop(gases);
+    assert!(air);
     assert!(!make(&window));
     window.get_by_label("Make this motor").click();
     until(&mut window, "the new motor", |app| {
