@@ -413,6 +413,17 @@ fn a_first_support_holds_the_inner_edge_of_the_ring_and_a_second_is_like_it() {
 }
 
 #[test]
+fn a_ring_that_is_chosen_suits_the_motor() {
+    let mut harness = panel(Edited::of(presets::find("motor-60mm-helium").unwrap()));
+    open_all(&mut harness);
+    click_a(&mut harness, Role::ComboBox, "Compliance model");
+    click(&mut harness, "Ring, by its cross-section");
+    let inner = harness.state().scene().get("rotor.part.lining.r_inner_mm");
+    assert_eq!(inner, Some(Value::Number(26.0)));
+    assert!(harness.query_by_label("Reset parts").is_none(), "there is nothing else to go back to");
+}
+
+#[test]
 fn what_an_array_was_refused_for_goes_with_the_next_edit() {
     let mut edited = Edited::of(presets::find("ring-rotor").unwrap());
     let nowhere = [1.0, 1.0, 1.0, 1.0].map(Value::Number);

@@ -400,7 +400,7 @@ impl Panel<'_> {
     /// The default of a parameter that has one in this scene.
     fn default(&self, parameter: &Parameter) -> Option<Value> {
         let own = matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows { .. });
-        if own { None } else { parameter.default() }
+        if own { None } else { self.scene.default_of(parameter) }
     }
 
     /// Its value in the scene as it was opened or last saved; its default where it had none.
