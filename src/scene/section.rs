@@ -78,9 +78,11 @@ pub(super) static SUPPORT: [Parameter; 5] = [
     .named("Fixed"),
 ];
 
-/// From the contact radius to either side of the rim of the default section, and radial widths of its flange and its body \[mm\].
+/// From the contact radius to either side of the default rim \[mm\].
 const RIM: f64 = 0.7;
+/// Radial width of the default flange \[mm\].
 const FLANGE: f64 = 1.4;
+/// Radial width of the default body \[mm\].
 const BODY: f64 = 2.0;
 /// The rim is wider than the lining by this much at least, on either side \[mm\].
 const EDGE: f64 = 0.2;
