@@ -431,6 +431,53 @@ fn a_first_support_holds_the_inner_edge_of_the_ring_and_a_second_is_like_it() {
 }
 
 #[test]
+fn a_ring_that_is_chosen_suits_the_motor() {
+    let mut harness = panel(Edited::of(presets::find("motor-60mm-helium").unwrap()));
+    open_all(&mut harness);
+    click_a(&mut harness, Role::ComboBox, "Compliance model");
+    click(&mut harness, "Ring, by its cross-section");
+    let inner = harness.state().scene().get("rotor.part.lining.r_inner_mm");
+    assert_eq!(inner, Some(Value::Number(26.0)));
+    assert!(harness.query_by_label("Reset parts").is_none(), "there is nothing else to go back to");
+}
+
+#[test]
+fn a_refused_length_stays_in_its_field_with_the_reason_below_its_part() {
+    let ring = presets::find("ring-rotor").unwrap();
+    let mut harness = panel(Edited::of(ring.clone()));
+    open_all(&mut harness);
+    let field = "Outer radius in mm, rim";
+    let shown = |harness: &Harness<'_, Edited>| {
+        harness.get_by_role_and_label(Role::SpinButton, field).value().unwrap_or_default()
+    };
+    let enter = |harness: &mut Harness<'_, Edited>, text: &str| {
+        click_a(harness, Role::SpinButton, field);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        harness.get_by_role_and_label(Role::SpinButton, field).type_text(text);
+        harness.run();
+        press(harness, Key::Enter);
+    };
+    for (text, reason) in [("27", "outer radius = 27 mm: allowed above its inner radius"), ("wide", "wide: expected")] {
+        enter(&mut harness, text);
+        assert_eq!(shown(&harness), text);
+        let below = harness.get_by_label_contains(reason).rect().top();
+        let top = |name: &str| harness.get_by_role_and_label(Role::SpinButton, name).rect().top();
+        assert!(top(field) < below && below < top("Inner radius in mm, flange"), "{text}: it is told at the part");
+    }
+    click_a(&mut harness, Role::SpinButton, field);
+    press(&mut harness, Key::Escape);
+    assert!(shown(&harness).starts_with("29.7") && harness.query_by_label_contains("expected a number").is_none());
+    assert_eq!(harness.state().scene(), &ring);
+    // A correction is taken, and what it was before is too.
+    for (text, radius) in [("27", 29.7), ("30", 30.0), ("27", 30.0), ("30", 30.0)] {
+        enter(&mut harness, text);
+        let length = harness.state().scene().get("rotor.part.rim.r_outer_mm");
+        assert_eq!(length, Some(Value::Number(radius)), "{text}");
+        assert_eq!(harness.query_by_label_contains("outer radius = 27 mm").is_some(), text == "27");
+    }
+}
+
+#[test]
 fn what_an_array_was_refused_for_goes_with_the_next_edit() {
     let mut edited = Edited::of(presets::find("ring-rotor").unwrap());
     let nowhere = [1.0, 1.0, 1.0, 1.0].map(Value::Number);

@@ -1170,6 +1170,22 @@ fn an_edge_of_the_section_is_dragged_and_the_share_answers() {
 }
 
 #[test]
+fn the_length_of_an_edge_is_told_while_it_is_dragged() {
+    let mut window = ring();
+    let edge = window.get_by_label("Top of lining, to drag").rect().center();
+    let told = |window: &Window| format!("Top of lining: {} mm", significant(length(window, 0, 4), 5));
+    window.drag_at(edge);
+    window.run_steps(2);
+    for up in [6.0, 12.0] {
+        window.hover_at(edge - Vec2::new(0.0, up));
+        window.run_steps(3);
+        assert!(length(&window, 0, 4) > 0.15 && window.shows(&told(&window)), "{}", told(&window));
+    }
+    window.drop_at(edge - Vec2::new(0.0, 12.0));
+    window.run_steps(2);
+}
+
+#[test]
 fn a_part_is_edited_in_its_table() {
     let mut window = ring();
     let before = share(&window);

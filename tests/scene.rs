@@ -8,7 +8,7 @@ use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::input::ReadError;
 use squeezefilm::problem::{Gas, Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::{
-    FaultKind, PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, heights, presets, table1,
+    FaultKind, PARAMETERS, Parameter, ParameterKind, Range, Scene, SceneError, Value, heights, presets, table1,
 };
 use squeezefilm::surface::texture::{Pair, measured};
 use std::path::Path;
@@ -582,6 +582,40 @@ fn a_section_is_read_in_either_notation_and_saved() {
     default.set_all([("rotor.model", "ring")]).unwrap();
     assert!(presets::find("ring-rotor").unwrap().same_model(&default));
     assert_eq!(read(&default.to_toml()).unwrap(), default);
+}
+
+#[test]
+fn a_ring_that_is_chosen_suits_the_contact() {
+    // Also where there is little room towards the axis.
+    for (radius, width) in [("29", "0.3"), ("27", "1.8"), ("500", "10"), ("5.5", "10"), ("1", "0.01")] {
+        let mut scene = Scene::motor();
+        let contact = [("motor.contact_radius_mm", radius), ("rotor.contact_width_mm", width)];
+        scene.set_all([[("rotor.model", "ring"), ("stator.tooth_share", "0.5")], contact].concat()).unwrap();
+        let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
+        let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
+        let [(inner, outer)] = section.contact_faces()[..] else { panic!("one lining") };
+        let (middle, wide) = (0.5 * (inner + outer), outer - inner);
+        let beside = [middle - motor.contact_radius, wide - motor.contact_width];
+        assert!(beside.iter().all(|by| by.abs() < 1e-9), "{radius}, {width}: {inner} to {outer}");
+        assert_eq!(read(&scene.to_toml()).unwrap(), scene);
+        // It is no change by itself, and stays as it is when the contact or the same model is set.
+        let before = scene.get("rotor.part");
+        let mut beam = scene.clone();
+        beam.set("rotor.model", "beam").unwrap();
+        assert_eq!(scene.changed(&beam).map(|parameter| parameter.key).collect::<Vec<_>>(), ["rotor.model"]);
+        for (key, value) in [("rotor.model", "ring"), ("rotor.contact_width_mm", "0.02")] {
+            scene.set(key, value).unwrap();
+            assert_eq!(scene.get("rotor.part"), before);
+        }
+    }
+    // Parts that are given are the section, and so is what a file leaves out.
+    let mut scene = Scene::motor();
+    let part =
+        "[{name = \"web\", r_inner_mm = 26, r_outer_mm = 28, z_bottom_mm = 0, z_top_mm = 1, material = \"brass\"}]";
+    scene.set_all([("rotor.part", part), ("rotor.model", "ring"), ("motor.contact_radius_mm", "27")]).unwrap();
+    assert_eq!(scene.get("rotor.part.web.r_outer_mm"), Some(Value::Number(28.0)));
+    let file = read("schema = 1\n[motor]\ncontact_radius_mm = 27\n[rotor]\nmodel = \"ring\"\n").unwrap();
+    assert_eq!(file.get("rotor.part"), Parameter::find("rotor.part").unwrap().default());
 }
 
 #[test]

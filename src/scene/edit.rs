@@ -18,7 +18,7 @@ const MOST_NAMED: usize = 3;
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
     /// `none` or an empty text removes an optional key. The path of a CSV file is relative to the current folder. A table, or the parts of
-    /// a ring, also set `rotor.model` to the model that has them.
+    /// a ring, also set `rotor.model` to the model that has them. A ring that is chosen without its parts gets some that suit the contact.
     ///
     /// # Errors
     /// An unknown key, a key of another scene or rotor model, a value of the wrong type or outside the key's own range;
@@ -36,7 +36,7 @@ impl Scene {
             ParameterKind::CsvPath { fills } => return self.take_csv(parameter, fills, text, Path::new(text)),
             _ => parameter.read(text)?,
         };
-        Ok(self.assign(parameter, value)?)
+        Ok(self.change(parameter, value)?)
     }
 
     /// Reads the CSV file at `path`, and sets those keys in `fills` that this scene has. `parameter` names the file, with the value `given`,
@@ -67,7 +67,7 @@ impl Scene {
     /// Sets a dotted key from a value in the key's unit. A number without a fraction is accepted for a whole number.
     pub fn set_value(&mut self, key: &str, value: Value) -> Result<(), SceneError> {
         let parameter = self.settable(key)?;
-        Ok(self.assign(parameter, value)?)
+        Ok(self.change(parameter, value)?)
     }
 
     /// Removes an optional key, or gives another key its default.
@@ -93,7 +93,9 @@ impl Scene {
         let set: Vec<_> = pairs.iter().filter(|(_, text)| *text != "none").map(|(key, _)| *key).collect();
         let replaced = |parameter: &'static Parameter| parameter.alternatives().any(|other| set.contains(&other.key));
         pairs.retain(|(key, text)| *text != "none" || !Parameter::find(key).is_some_and(replaced));
-        pairs.sort_by_key(|(key, _)| Parameter::find(key).map_or(0, Parameter::rank));
+        // The contact comes before the ring that suits it.
+        let contact = |key: &str| matches!(key, "motor.contact_radius_mm" | "rotor.contact_width_mm");
+        pairs.sort_by_key(|(key, _)| (!contact(key), Parameter::find(key).map_or(0, Parameter::rank)));
         let mut changed = self.clone();
         let mut faults = SceneError::none();
         let mut given: Vec<&'static Parameter> = Vec::new();
@@ -144,7 +146,7 @@ impl Scene {
         let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
         told.filter(move |parameter| {
             let value = self.get(parameter.key);
-            value != original.get(parameter.key) && (original.has(parameter) || value != parameter.default())
+            value != original.get(parameter.key) && (original.has(parameter) || value != self.default_of(parameter))
         })
     }
 

@@ -25,6 +25,7 @@
 
 use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 use super::value::Value;
+use crate::digits::as_given;
 use crate::rotor::ring::MATERIALS;
 
 const NAMES: [&str; MATERIALS.len()] = {
@@ -77,19 +78,42 @@ pub(super) static SUPPORT: [Parameter; 5] = [
     .named("Fixed"),
 ];
 
+/// From the contact radius to either side of the default rim \[mm\].
+const RIM: f64 = 0.7;
+/// Radial width of the default flange \[mm\].
+const FLANGE: f64 = 1.4;
+/// Radial width of the default body \[mm\].
+const BODY: f64 = 2.0;
+/// The rim is wider than the lining by this much at least, on either side \[mm\].
+const EDGE: f64 = 0.2;
+/// Smallest inner radius of a lining \[mm\].
+const INNERMOST: f64 = 0.2;
+
 /// The default parts: a section plausible for the rotor of a camera lens. It is an aluminium ring with a rim on a thin flange, and a plastic
 /// lining on the rim. Flange and lining are chosen so that the compliance is close to that of the beam fitted to Table I (docs/theory.md,
 /// section 4).
 pub(super) fn parts() -> Vec<Vec<Value>> {
-    let part = |name: &str, lengths: [f64; 4], material: &str| {
+    parts_at(29.0, 0.3)
+}
+
+/// The default parts moved to a contact of this radius and width \[mm\]. The lining is as wide as the contact, and the rim wider. Where they would take
+/// more than half of the room towards the axis, rim, flange and body are narrower.
+pub(super) fn parts_at(radius: f64, width: f64) -> Vec<Vec<Value>> {
+    let half = 0.5 * width;
+    let (inner, outer) = ((radius - half).max(INNERMOST), radius + half);
+    let scale = (0.5 * inner / (RIM + FLANGE + BODY)).min(1.0);
+    let beside = (scale * RIM - half).max(scale * EDGE);
+    let [rim, flange, body] = [0.0, FLANGE, FLANGE + BODY].map(|within| inner - beside - scale * within);
+    let part = |name: &str, radii: [f64; 2], heights: [f64; 2], material: &str| {
         let [name, material] = [name, material].map(|text| Value::Text(text.to_owned()));
-        [&[name], &lengths.map(Value::Number)[..], &[material]].concat()
+        let [radii, heights] = [radii.map(as_given), heights].map(|ends| ends.map(Value::Number));
+        [&[name][..], &radii, &heights, &[material]].concat()
     };
     vec![
-        part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
-        part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
-        part("flange", [26.9, 28.3, 0.75, 1.2], "aluminium"),
-        part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
+        part("lining", [inner, outer], [0.0, 0.145], "peek"),
+        part("rim", [rim, outer + beside], [0.145, 1.2], "aluminium"),
+        part("flange", [flange, rim], [0.75, 1.2], "aluminium"),
+        part("body", [body, flange], [0.75, 5.75], "aluminium"),
     ]
 }
 

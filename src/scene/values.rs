@@ -4,6 +4,7 @@ use super::error::{FaultKind, SCHEMA, SceneError};
 use super::keys::{PARAMETERS, tables};
 use super::nearest::{nearest, nearest_key};
 use super::parameter::{Belongs, Model, Parameter, ParameterKind};
+use super::section::parts_at;
 use super::value::{Value, show_text};
 use crate::problem::Numerics;
 use std::collections::BTreeMap;
@@ -83,6 +84,15 @@ impl Scene {
                 let parameter = Parameter::find(key).filter(|parameter| self.applies(parameter).is_ok())?;
                 self.cell_value(key).or_else(|| parameter.default())
             }),
+        }
+    }
+
+    /// The value that a key begins with in this scene: its default, or for the parts of a ring those that suit the contact. `None` if its absence
+    /// has a meaning of its own.
+    pub fn default_of(&self, parameter: &Parameter) -> Option<Value> {
+        match [self.number("motor.contact_radius_mm"), self.number("rotor.contact_width_mm")] {
+            [Ok(radius), Ok(width)] if parameter.key == "rotor.part" => Some(Value::Records(parts_at(radius, width))),
+            _ => parameter.default(),
         }
     }
 
@@ -238,11 +248,23 @@ impl Scene {
         Ok(())
     }
 
+    /// As [`Self::assign`], of a change of this scene: a ring that it chooses begins with a section that suits the contact, or with the one that it
+    /// is.
+    pub(super) fn change(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), FaultKind> {
+        let section = self.parameter("rotor.part")?;
+        let before = self.has(section);
+        self.assign(parameter, value)?;
+        if !before && parameter != section && self.has(section) {
+            self.reset(section);
+        }
+        Ok(())
+    }
+
     /// Gives a key its default, or removes it if it is optional.
     pub(super) fn reset(&mut self, parameter: &'static Parameter) {
         // A single value of an array has no default.
         if self.cell_value(parameter.key).is_none() {
-            self.put(parameter, parameter.default());
+            self.put(parameter, self.default_of(parameter));
         }
     }
 

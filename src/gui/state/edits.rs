@@ -45,6 +45,12 @@ impl RejectedEdits {
         self.0.get(key).map(|(_, message)| message.as_str())
     }
 
+    /// Why `value` of `key` was rejected; `None` if another edit of it was, or none.
+    pub fn of_value(&self, key: &str, value: &Value) -> Option<&str> {
+        let (change, message) = self.0.get(key)?;
+        matches!(change, Change::Value(rejected) if rejected == value).then_some(message.as_str())
+    }
+
     /// Remembers a rejected change.
     pub fn reject(&mut self, key: &'static str, change: Change, message: String) {
         self.0.insert(key, (change, message));

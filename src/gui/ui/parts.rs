@@ -28,29 +28,40 @@ pub(super) fn first_button(ui: &mut Ui, text: &str, (empty, good): (bool, bool),
     }
 }
 
-/// A number that is dragged, or typed with any unit of its kind. Why text was refused is told beside it until something else is done.
-pub(super) fn number_box(
+/// A text that was entered, and why it is refused; `None` if it is a number in the range.
+pub(super) type Entered = (String, Option<String>);
+
+/// A number that is dragged, or typed with any unit of its kind, and the text if one was entered in this frame.
+pub(super) fn entered_box(
     ui: &mut Ui,
     drag: DragValue<'_>,
     (range, unit): (RangeInclusive<f64>, &str),
-    cx: &DrawContext<'_>,
-) -> Response {
-    let refused = Cell::new(None);
+) -> (Response, Option<Entered>) {
+    let entered = Cell::new(None);
     let read = |text: &str| {
         let found = quantity_text::number(unit, text).filter(|number| range.contains(number));
-        if found.is_none() {
-            refused.set(Some(refusal(text, &range, unit)));
-        }
+        entered.set(Some((text.to_owned(), found.is_none().then(|| refusal(text, &range, unit)))));
         found
     };
     let response = ui.add(drag.range(range.clone()).update_while_editing(false).custom_parser(read));
+    (response, entered.take())
+}
+
+/// As [`entered_box`]. Why text was refused is told beside it until something else is done.
+pub(super) fn number_box(
+    ui: &mut Ui,
+    drag: DragValue<'_>,
+    allowed: (RangeInclusive<f64>, &str),
+    cx: &DrawContext<'_>,
+) -> Response {
+    let (response, entered) = entered_box(ui, drag, allowed);
     let key = response.id.with("refused");
     let acts =
         |event: &Event| matches!(event, Event::Key { pressed: true, .. } | Event::PointerButton { pressed: true, .. });
     if ui.input(|input| input.events.iter().any(acts)) {
         ui.data_mut(|data| data.remove::<String>(key));
     }
-    if let Some(reason) = refused.take() {
+    if let Some((_, Some(reason))) = entered {
         ui.data_mut(|data| data.insert_temp::<String>(key, reason));
     }
     if let Some(reason) = ui.data(|data| data.get_temp::<String>(key)) {

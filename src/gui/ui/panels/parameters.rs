@@ -381,7 +381,8 @@ impl Panel<'_> {
 
     /// Notes below a parameter: why an edit is refused, and that it has no effect.
     fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
-        if let Some(message) = self.cx.state.rejected.of(parameter.key) {
+        let rejected = self.cx.state.rejected.of(parameter.key);
+        if let Some(message) = rejected.filter(|_| !records::tells(ui, parameter.key)) {
             let prefix = format!("{} = ", parameter.key);
             let text = message.strip_prefix(&prefix).unwrap_or(message);
             ui.add(egui::Label::new(RichText::new(text).color(self.cx.colours.alarm)).wrap());
@@ -400,7 +401,7 @@ impl Panel<'_> {
     /// The default of a parameter that has one in this scene.
     fn default(&self, parameter: &Parameter) -> Option<Value> {
         let own = matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows { .. });
-        if own { None } else { parameter.default() }
+        if own { None } else { self.scene.default_of(parameter) }
     }
 
     /// Its value in the scene as it was opened or last saved; its default where it had none.

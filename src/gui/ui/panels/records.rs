@@ -1,20 +1,64 @@
-//! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text a row.
+//! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text a row. A number that is
+//! refused stays in its field, with the reason below its table, until it is corrected, Escape brings the value back, or anything else is edited.
 
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::show_list;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::number_box;
+use crate::gui::ui::parts::entered_box;
 use crate::scene::edges::{inner_edge, with_edge};
 use crate::scene::{Parameter, ParameterKind, Value};
-use eframe::egui::{self, RichText};
+use eframe::egui::{self, Id, RichText};
 
 /// Change of a length per point of dragging \[mm\].
 const SPEED: f64 = 0.02;
 
 /// Decimals of a number that are shown.
 const DECIMALS: usize = 4;
+
+/// The last edit in one of the tables of an array.
+#[derive(Clone, Debug)]
+struct Tried {
+    /// Which table, and which of its values.
+    at: [usize; 2],
+    /// The text, if a number was typed.
+    text: Option<String>,
+    /// Why that is no number in the range.
+    fault: Option<String>,
+    /// The array that the edit made, or the present one if the text is at fault.
+    array: Value,
+}
+
+impl Tried {
+    fn id_of(key: &'static str) -> Id {
+        Id::unique(("tried", key))
+    }
+
+    /// The last edit in the array of `key`, and why it is refused. One that is not refused is forgotten.
+    fn refused(ui: &egui::Ui, cx: &DrawContext<'_>, key: &'static str) -> Option<(Self, String)> {
+        let tried: Self = ui.data(|data| data.get_temp(Self::id_of(key)))?;
+        let fault = tried.fault.clone().filter(|_| cx.state.document.scene().get(key).as_ref() == Some(&tried.array));
+        let why = fault.or_else(|| cx.state.rejected.of_value(key, &tried.array).map(str::to_owned));
+        if why.is_none() {
+            Self::forget(ui, key);
+        }
+        Some((tried, why?))
+    }
+
+    fn forget(ui: &egui::Ui, key: &'static str) {
+        ui.data_mut(|data| data.remove::<Self>(Self::id_of(key)));
+    }
+
+    fn keep(self, ui: &egui::Ui, key: &'static str) {
+        ui.data_mut(|data| data.insert_temp(Self::id_of(key), self));
+    }
+}
+
+/// Whether why the last edit of `key` was refused is told at one of its tables.
+pub fn tells(ui: &egui::Ui, key: &'static str) -> bool {
+    ui.data(|data| data.get_temp::<Tried>(Tried::id_of(key))).is_some()
+}
 
 /// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that an edit makes of them.
 pub fn show(
@@ -29,11 +73,13 @@ pub fn show(
         cx.push(Command::Set { key: parameter.key, value: Value::Records(records), dragging });
     };
     let one = label(parameter).trim_end_matches('s').to_lowercase();
+    let refused = Tried::refused(ui, cx, parameter.key);
     for (number, record) in records.iter().enumerate() {
         let name = match record.first() {
             Some(Value::Text(name)) if !name.is_empty() => name.clone(),
             _ => format!("{one} {}", number + 1),
         };
+        let refused = refused.as_ref().filter(|(tried, _)| tried.at[0] == number);
         let frame = egui::Frame::new().stroke(ui.visuals().widgets.noninteractive.bg_stroke).corner_radius(4);
         frame.inner_margin(4).show(ui, |ui| {
             ui.set_width(ui.available_width());
@@ -53,21 +99,39 @@ pub fn show(
                 for (place, (of, value)) in columns.iter().zip(record).enumerate() {
                     let named = ui.add(egui::Label::new(label(of)).selectable(false)).hint_beside(ui, of.about);
                     let spoken = format!("{}, {name}", field_name(of));
-                    if let Some((value, dragging)) = cell(ui, of, value, (named.id, &spoken), cx) {
-                        let mut edited = records.to_vec();
-                        match value {
-                            // What two parts share moves in both.
-                            Value::Number(to) if fewest > 0 => {
-                                let side = columns[..place].iter().filter(|column| column.range().is_some()).count();
-                                edited = with_edge(records, (number, side), to);
+                    let kept = refused.filter(|(tried, _)| tried.at[1] == place);
+                    let kept = kept.and_then(|(tried, _)| tried.text.as_deref());
+                    match cell(ui, (of, value, kept), (named.id, &spoken), cx) {
+                        Some(Edit::Set { value, dragging, text }) => {
+                            let mut edited = records.to_vec();
+                            match value {
+                                // What two parts share moves in both.
+                                Value::Number(to) if fewest > 0 => {
+                                    let lengths = columns[..place].iter().filter(|column| column.range().is_some());
+                                    edited = with_edge(records, (number, lengths.count()), to);
+                                }
+                                value => edited[number][place] = value,
                             }
-                            value => edited[number][place] = value,
+                            let array = Value::Records(edited.clone());
+                            Tried { at: [number, place], text, fault: None, array }.keep(ui, parameter.key);
+                            set(edited, dragging);
                         }
-                        set(edited, dragging);
+                        Some(Edit::Faulty { text, fault }) => {
+                            let array = Value::Records(records.to_vec());
+                            let (text, fault) = (Some(text), Some(fault));
+                            Tried { at: [number, place], text, fault, array }.keep(ui, parameter.key);
+                        }
+                        Some(Edit::Dropped) => {
+                            Tried::forget(ui, parameter.key);
+                            // Setting what is already set takes the refusal back.
+                            set(records.to_vec(), false);
+                        }
+                        None => {}
                     }
                     ui.end_row();
                 }
             });
+            cx.alarm(ui, refused.map(|(_, why)| why.as_str()));
         });
     }
     if ui.button(format!("Add {one}")).hint(format!("Another {one}, as the last one")).clicked() {
@@ -98,22 +162,56 @@ pub fn show(
     }
 }
 
-/// One value; what an edit makes of it, and whether a pointer still drags it.
+/// An edit of one value.
+enum Edit {
+    /// It becomes another one.
+    Set {
+        value: Value,
+        /// Whether a pointer still drags it.
+        dragging: bool,
+        /// The text, if a number was typed.
+        text: Option<String>,
+    },
+    /// A text was entered that is no number in the range.
+    Faulty { text: String, fault: String },
+    /// Escape drops the text that was refused.
+    Dropped,
+}
+
+/// One value, or the text in place of it that was refused; the edit of it.
 fn cell(
     ui: &mut egui::Ui,
-    of: &'static Parameter,
-    value: &Value,
-    (name, spoken): (egui::Id, &str),
+    (of, value, refused): (&'static Parameter, &Value, Option<&str>),
+    (name, spoken): (Id, &str),
     cx: &DrawContext<'_>,
-) -> Option<(Value, bool)> {
+) -> Option<Edit> {
+    let taken = |value: Value| Edit::Set { value, dragging: false, text: None };
     match (of.kind, value) {
         (ParameterKind::Number { range, .. }, value) => {
             let present = value.as_number()?;
             let mut number = present;
-            let drag =
-                egui::DragValue::new(&mut number).speed(SPEED).max_decimals(DECIMALS).suffix(format!(" {}", of.unit));
-            let response = number_box(ui, drag, (range.min..=range.max, of.unit), cx);
+            let drag = egui::DragValue::new(&mut number).speed(SPEED).max_decimals(DECIMALS);
+            let drag = match refused {
+                Some(text) => drag.custom_formatter(move |_, _| text.to_owned()),
+                None => drag.suffix(format!(" {}", of.unit)),
+            };
+            let usual = ui.visuals().override_text_color;
+            // Without a scope, since with one the fields below would be other ones to the keyboard.
+            if refused.is_some() {
+                ui.visuals_mut().override_text_color = Some(cx.colours.alarm);
+            }
+            let (response, entered) = entered_box(ui, drag, (range.min..=range.max, of.unit));
+            if refused.is_some() {
+                ui.visuals_mut().override_text_color = usual;
+            }
             let response = response.labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
+            let text = match entered {
+                Some((text, Some(fault))) => return Some(Edit::Faulty { text, fault }),
+                entered => entered.map(|(text, _)| text),
+            };
+            if refused.is_some() && response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Escape)) {
+                return Some(Edit::Dropped);
+            }
             // What a drag makes of it is round; a field that is only left keeps the decimals that it does not show.
             let shown = |number: f64| format!("{number:.DECIMALS$}");
             let number = match number {
@@ -121,8 +219,13 @@ fn cell(
                 number if shown(number) == shown(present) => present,
                 number => number,
             };
-            let done = response.drag_stopped();
-            ((response.changed() && number != present) || done).then(|| (Value::Number(number), response.dragged()))
+            let done = response.drag_stopped() || (refused.is_some() && text.is_some());
+            let dragging = response.dragged();
+            ((response.changed() && number != present) || done).then(|| Edit::Set {
+                value: Value::Number(number),
+                dragging,
+                text,
+            })
         }
         (ParameterKind::Choice { options, .. }, Value::Text(chosen)) => {
             let mut picked = None;
@@ -136,7 +239,7 @@ fn cell(
                 }
             });
             combo.labelled_by(name).hint_beside(ui, of.about);
-            picked.map(|value| (value, false))
+            picked.map(taken)
         }
         (_, Value::Text(text)) => {
             let id = name.with("text");
@@ -146,7 +249,7 @@ fn cell(
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
                 let kept = edited != *text && !ui.input(|input| input.key_pressed(egui::Key::Escape));
-                return kept.then_some((Value::Text(edited), false));
+                return kept.then(|| taken(Value::Text(edited)));
             }
             if response.has_focus() {
                 ui.data_mut(|data| data.insert_temp(id, edited));

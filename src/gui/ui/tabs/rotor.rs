@@ -10,13 +10,13 @@ use crate::gui::command::Command;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::hint::Hint;
+use crate::gui::ui::hint::{Hint, describe};
 use crate::gui::ui::paint::Axes;
 use crate::gui::ui::parts::scrolled;
 use crate::problem::{Problem, Scenario};
 use crate::scene::edges::{lengths, reach, with_edge};
 use crate::scene::{Parameter, Value};
-use eframe::egui::{self, CursorIcon, Rect, Sense, Stroke, TextStyle, Ui, vec2};
+use eframe::egui::{self, CursorIcon, Rect, Sense, Stroke, TextStyle, Tooltip, Ui, vec2};
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.3, 0.3, 0.5];
@@ -189,7 +189,15 @@ fn section(
             if held.hovered() || held.dragged() {
                 painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
             }
-            let held = held.hint(format!("{} of {name}: {} mm", label(which), significant(lengths[which], 5)));
+            let told = format!("{} of {name}: {} mm", label(which), significant(lengths[which], 5));
+            let held = if held.dragged() {
+                // A hint goes when a pointer drags.
+                describe(&held, || told.clone());
+                Tooltip::for_widget(&held).show(|ui| drop(ui.label(told.as_str())));
+                held
+            } else {
+                held.hint(told)
+            };
             dragging |= held.dragged();
             let (Some(at), true) = (held.interact_pointer_pos(), held.dragged() || held.drag_stopped()) else {
                 continue;
