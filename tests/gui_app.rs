@@ -822,7 +822,7 @@ fn panels_are_as_wide_again_as_before_the_window_was_small() {
 fn panels_are_as_wide_after_lecture_size_as_before() {
     let mut window = window("fundamental");
     solved(&mut window);
-    let edge = |window: &Window| window.get_by_label_contains("share of the load carried by air").rect().left();
+    let edge = |window: &Window| window.get_by_label("share of the load carried by air").rect().left();
     let zoom = |window: &mut Window, zoom: f32| {
         window.ctx.set_zoom_factor(zoom);
         window.set_size(vec2(1024.0, 700.0) / zoom);
