@@ -824,6 +824,27 @@ fn panels_are_as_wide_again_as_before_the_window_was_small() {
 }
 
 #[test]
+fn panels_are_as_wide_after_lecture_size_as_before() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let edge = |window: &Window| window.get_by_label("share of the load carried by air").rect().left();
+    let zoom = |window: &mut Window, zoom: f32| {
+        window.ctx.set_zoom_factor(zoom);
+        window.set_size(vec2(1024.0, 700.0) / zoom);
+        window.run_steps(4);
+    };
+    zoom(&mut window, 1.0);
+    let before = edge(&window);
+    // A real window is still drawn once as large as before, when the size has already been asked for.
+    for (lecture, size) in [(true, 1.35), (false, 1.0)] {
+        window.state_mut().updater.state.lecture = lecture;
+        window.step();
+        zoom(&mut window, size);
+    }
+    assert!((edge(&window) - before).abs() < 1.0, "{before} {}", edge(&window));
+}
+
+#[test]
 fn what_pins_is_beside_the_labels_or_below_them() {
     let mut window = window("fundamental");
     solved(&mut window);

@@ -840,12 +840,21 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let uncertainties = Uncertainties::new(&scene, &given).unwrap();
     let spread = found.propagated(1, &uncertainties).deviation.value;
     window.get_by_label(&format!("standard deviation {} from the parameters", significant(spread, 2)));
-    window.type_into("Uncertainty of Frequency", "much");
+    let frequency = "Uncertainty of Frequency";
+    let place = |window: &Window| window.get_by_role_and_label(Role::TextInput, frequency).rect();
+    let before = place(&window);
+    window.type_into(frequency, "much");
+    assert_eq!(place(&window), before, "the rows stay where they are");
     let refused = window.known().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
     assert!(refused.contains("expected a standard deviation"), "{refused}");
     window.get_by_label(&format!("standard deviation {} from the parameters", significant(spread, 2)));
 
-    // Random scenes are those of the command, and go when the uncertainties are others.
+    // Nothing is drawn while one is refused. Random scenes are those of the command, and go when the uncertainties are others.
+    let draws = |window: &Window| !window.get_by_label("Draw and solve").accesskit_node().is_disabled();
+    assert!(window.shows(&refused) && !draws(&window));
+    window.type_over(Role::TextInput, frequency, "");
+    window.press(Key::Delete);
+    assert!(window.known().sensitivity.typed("stator.frequency_khz").is_empty() && draws(&window));
     window.click_on("Draw and solve");
     until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
     let carlo = window.known().sensitivity.carlo.as_ref().unwrap().clone();

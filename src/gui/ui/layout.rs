@@ -53,15 +53,15 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let width = ui.available_width();
     let telephone = ui.ctx().content_rect().height() < tabs::labels::LOW;
     // Each size of text remembers its own widths, and so does a window too narrow or too low for the usual ones: made large again, it
-    // has those that it had.
+    // has those that it had. It is the size of this frame: one that was just asked for comes with the next.
+    let zoom = ui.ctx().zoom_factor();
     let id = |name: &str, side: &Side| {
-        let size = if state.lecture { ", lecture" } else { "" };
         let window = match side.most(width) < side.default {
             _ if telephone => ", telephone",
             true => ", narrow",
             false => "",
         };
-        format!("{name}{size}{window}")
+        format!("{name}, {zoom:.2}{window}")
     };
     // A lesson comes first for the keyboard.
     if state.view.results && state.lessons.running.as_ref().is_some_and(|running| !running.all_results) {

@@ -41,6 +41,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         tornado(ui, found, output, cx);
         monte_carlo(ui, found, output, uncertainties, cx);
         table(ui, found, output, uncertainties, cx);
+        // Below the rows, so that none of them moves while it is typed in.
+        cx.alarm(ui, state.all_refused(found.scene()));
         let whole = found.whole();
         if !whole.is_empty() {
             let names: Vec<&str> = whole.iter().filter_map(|key| Some(label(Parameter::find(key)?))).collect();
@@ -142,7 +144,6 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>
 
 fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let state = &cx.state.sensitivity;
-    cx.alarm(ui, state.all_refused(found.scene()));
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
@@ -150,9 +151,12 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
         let field = egui::DragValue::new(&mut draws).speed(10.0).max_decimals(0);
         let field = number_box(ui, field, (DRAWS, ""), cx).labelled_by(words.id).hint("How many are solved");
         cx.on_change(&field, SensitivityCommand::Draws(draws as usize));
-        let can = !uncertainties.is_empty() && state.running().is_none();
+        let refused = state.all_refused(found.scene()).next();
+        let can = !uncertainties.is_empty() && refused.is_none() && state.running().is_none();
         let button = ui.add_enabled(can, egui::Button::new("Draw and solve"));
-        let button = button.on_disabled_hover_text("Give a parameter an uncertainty in the table below first");
+        let needed = "Give a parameter an uncertainty in the table below first".to_owned();
+        let why = refused.map_or(needed, |why| format!("Correct what is refused in the table below first. {why}"));
+        let button = button.on_disabled_hover_text(why);
         let about = "Draws every uncertain parameter at random and solves the scene, again and again (Monte Carlo)";
         cx.on_click(&button.hint(about), SensitivityCommand::Draw);
     });
