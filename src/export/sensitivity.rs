@@ -147,7 +147,7 @@ impl SensitivityStudy<'_> {
     }
 
     fn figure_of(&self, caption: String) -> Figure {
-        let mut provenance = Provenance::named(&self.sensitivity.scene().name);
+        let mut provenance = Provenance::named(&self.sensitivity.scene().headline());
         provenance.fidelity = self.sensitivity.settings.fidelity.to_string();
         Figure { caption, provenance, ..Figure::default() }
     }
