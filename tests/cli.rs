@@ -317,6 +317,8 @@ fn a_plate_that_is_dropped_says_where_it_will_float() {
     assert_eq!((result["converged"].as_bool(), rows[3]["rests"].as_bool()), (Some(false), Some(false)));
     let text = out(&output);
     assert!(text.contains("STILL MOVING after 3 cycles"), "{text}");
+    let one = run(&["startup", "plate-crossover", "--cycles", "1", "--fidelity", "draft"]);
+    assert!(err(&one).contains("1 cycle, "), "{}", err(&one));
     assert!(text.contains(&format!("gives a mean gap of {}", &gap.to_string()[..4])), "{text}");
     let table = fs::read_to_string(to.join("startup.csv")).unwrap();
     assert_eq!(table.lines().count(), 5, "{table}");

@@ -335,6 +335,8 @@ fn text_object_and_files_agree() {
         assert_eq!((&by[0]["uncertainty"], &by[1]["variance_share"]), (&Value::Null, &1.0.into()));
         assert!(output["monte_carlo"]["count"] == 20 && output["error"].as_f64().unwrap() < uncertainty);
     }
+    let figure = std::fs::read_to_string(folder.path().join("monte-carlo.svg")).unwrap();
+    assert!(figure.contains(" drawn, ± ") && figure.contains(" linear, ± "), "which deviation is which");
     let draws = std::fs::read_to_string(folder.path().join("monte-carlo.csv")).unwrap();
     let heads = "film.min_spacing_nm,alpha,alpha_error,stall_torque_nm,stall_torque_error_nm,no_load_speed_rpm,no_load_speed_error_rpm";
     assert_eq!(draws.lines().next(), Some(heads));

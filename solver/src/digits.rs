@@ -195,6 +195,11 @@ pub fn capitalised(text: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
+/// `1 cycle`, `2 cycles`.
+pub fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
+
 /// With a small first letter.
 pub fn uncapitalised(text: &str) -> String {
     let mut chars = text.chars();
@@ -239,6 +244,8 @@ mod tests {
             assert_eq!(significant(value, digits), shown);
         }
         assert_eq!([short(0.1, 3), short(200.0, 4), short(1.05e-10, 4)], ["0.1", "200", "1.05e-10"]);
+        assert_eq!([0, 1, 2].map(|cycles| counted(cycles, "cycle", "cycles")), ["0 cycles", "1 cycle", "2 cycles"]);
+        assert_eq!([uncapitalised("Rms roughness σ"), capitalised("rms")], ["rms roughness σ", "Rms"]);
         assert_eq!(
             [0.05, 3e-4, 1.0, -1e-6, 1e-14].map(percent),
             ["5.0 %", "0.030 %", "100 %", "−0.00010 %", "1.0e-12 %"]

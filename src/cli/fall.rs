@@ -7,7 +7,7 @@ use super::summary::limits;
 use super::terminal;
 use crate::analysis::validity::{Excess, beside_headline};
 use crate::control::Cancel;
-use crate::digits::{duration, percent, significant, with_error};
+use crate::digits::{counted, duration, percent, significant, with_error};
 use crate::estimate::Estimate;
 use crate::export::fall::{floats, object, validity};
 use crate::export::files::{self, Folder};
@@ -45,7 +45,7 @@ pub(super) fn run(
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &seen, &ended, (cycles, tolerance), floats, &validity);
     terminal::result(json, || json::document(&object, command), || human);
-    terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
+    terminal::note(&format!("{} in {}", counted(ended.cycles, "cycle", "cycles"), duration(wall_s)));
     if let Some(folder) = folder {
         let paths = files::fall(folder, (scene, problem), fidelity, (&ended, &seen), wall_s)?;
         terminal::wrote(folder.path, &paths);
@@ -62,23 +62,23 @@ fn text(
     validity: &[Excess],
 ) -> String {
     let rests = cycles.last().is_some_and(|cycle| cycle.rests);
+    let told = counted(ended.cycles, "cycle", "cycles");
     let how = match ended.status {
-        Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
+        Status::Converged if rests => format!("it rests after {told}"),
         Status::Converged => {
             let near = percent(tolerance);
-            format!("it floats, within {near} of the height at which it settles, after {} cycles", ended.cycles)
+            format!("it floats, within {near} of the height at which it settles, after {told}")
         }
         Status::NotResolved { .. } => {
             format!(
-                "NOT RESOLVED after {} cycles: where it bounces, errors of steps and grids have grown to half of its height",
-                ended.cycles
+                "NOT RESOLVED after {told}: where it bounces, errors of steps and grids have grown to half of its height"
             )
         }
         Status::NotConverged { .. } if ended.cycles < most => {
-            format!("STILL MOVING after {} cycles, when the time allowed was up", ended.cycles)
+            format!("STILL MOVING after {told}, when the time allowed was up")
         }
-        Status::NotConverged { .. } => format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles),
-        Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
+        Status::NotConverged { .. } => format!("STILL MOVING after {told}; --cycles allows more"),
+        Status::Cancelled => format!("CANCELLED after {told}"),
     };
     let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();
     let mut text = heading(&format!("{}, dropped on its vibration: {how}{beside}", show_text(&scene.name)));

@@ -8,7 +8,7 @@ use super::terminal;
 use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
-use crate::digits::{duration, percent, short, signed, significant, with_error};
+use crate::digits::{counted, duration, percent, short, signed, significant};
 use crate::export::files;
 use crate::export::fit as export;
 use crate::export::json;
@@ -181,13 +181,9 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     columns.row(["key", "value ± standard error", "start", "bounds", ""]);
     for found in &fitted.unknowns {
         let parameter = found.unknown.parameter;
-        let value = match found.error {
-            Some(error) => with_error(found.value, error),
-            None => significant(found.value, 5),
-        };
         columns.row([
             parameter.key.to_owned(),
-            parameter.with_unit(value),
+            found.told(),
             short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
@@ -232,7 +228,6 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
 /// How well a fit agrees, in sentences.
 fn summary(fitted: &Fitted, measured: &Measured) -> String {
     let used = fitted.rows.iter().filter(|row| row.residual.is_some()).count();
-    let counted = |number: usize, one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
     let freedom = counted(fitted.degrees_of_freedom, "degree of freedom", "degrees of freedom");
     let counts = format!("{}, {freedom}", counted(used, "measurement", "measurements"));
     let agreement = match fitted.error_scale {

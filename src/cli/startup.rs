@@ -9,7 +9,7 @@ use super::summary::limits;
 use super::terminal;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::validity::{Excess, beside_headline};
-use crate::digits::{duration, percent, significant};
+use crate::digits::{counted, duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files;
 use crate::export::json;
@@ -104,7 +104,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
     let human = text((&scene, &problem), &rows, (&ended, &validity), steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
-    terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
+    let cycles = counted(ended.cycles, "cycle", "cycles");
+    terminal::note(&format!("{cycles}, {} film steps in {}", ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = &folder {
         let paths = files::startup(folder, (&scene, &problem), &settings, (&ended, &seen), wall_s)?;
         terminal::wrote(folder.path, &paths);
@@ -124,7 +125,7 @@ fn text(
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
         Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
-            format!("NOT CONVERGED in some steps, {} cycles", ended.cycles)
+            format!("NOT CONVERGED in some steps, {}", counted(ended.cycles, "cycle", "cycles"))
         }
         Status::NotConverged { .. } | Status::NotResolved { .. } => {
             format!("NOT REPEATING after {}; --cycles allows more", ended.cycles)

@@ -147,7 +147,7 @@ impl SensitivityStudy<'_> {
     }
 
     fn figure_of(&self, caption: String) -> Figure {
-        let mut provenance = Provenance::named(&self.sensitivity.scene().name);
+        let mut provenance = Provenance::named(&self.sensitivity.scene().headline());
         provenance.fidelity = self.sensitivity.settings.fidelity.to_string();
         Figure { caption, provenance, ..Figure::default() }
     }
@@ -171,7 +171,8 @@ impl SensitivityStudy<'_> {
     pub fn histogram(&self) -> Option<Figure> {
         let carlo = self.carlo?;
         let caption = format!(
-            "Results of {} random draws, and the normal distribution of the linear estimate.",
+            "Results of {} random draws, and the normal distribution of the linear estimate. Above each: the standard deviation of the \
+             draws, that of the linear estimate, and the numerical error of the result.",
             carlo.draws.len()
         );
         let mut figure = self.figure_of(caption);
@@ -238,8 +239,8 @@ pub fn distribution(
     };
     let style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
     let normal = (linear > 0.0 && *width > 0.0).then(|| Line::new("linear", (0..=140).map(density), style));
-    let [spread, error] = [spread.deviation, numerical.error].map(|size| significant(size, 2));
-    let title = format!("± {spread} by the parameters, ± {error} numerical");
+    let [drawn, normal_size, error] = [spread.deviation, linear, numerical.error].map(|size| significant(size, 2));
+    let title = format!("± {drawn} drawn, ± {normal_size} linear, ± {error} numerical");
     let panel = Panel::new(title, Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
         .height(32.0)
         .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) })

@@ -9,7 +9,7 @@ use super::{Stopped, Tell, search_failed};
 use crate::analysis::attempt::caught;
 use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
-use crate::digits::{short, significant};
+use crate::digits::{short, significant, with_error};
 use crate::scene::Scene;
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
@@ -78,6 +78,21 @@ pub struct FittedUnknown {
     pub error: Option<f64>,
     /// The bound it is at.
     pub at: Option<Bound>,
+}
+
+impl FittedUnknown {
+    /// Its value with the standard error, for people: `2.263 ± 0.012 µm`. An error wider than the bounds tells nothing of the value:
+    /// `2.26 µm, not determined`.
+    pub fn told(&self) -> String {
+        let Unknown { parameter, from, to, .. } = self.unknown;
+        match self.error {
+            Some(error) if error > to - from => {
+                format!("{}, not determined", parameter.with_unit(significant(self.value, 3)))
+            }
+            Some(error) => parameter.with_unit(with_error(self.value, error)),
+            None => parameter.with_unit(significant(self.value, 5)),
+        }
+    }
 }
 
 /// A measurement beside what is computed.
@@ -522,4 +537,20 @@ fn warnings(
         ));
     }
     warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::fit::Bounds;
+
+    #[test]
+    fn what_is_less_sure_than_its_bounds_is_not_determined() {
+        let bounds: Bounds = "stator.normal_amplitude_um=0.5:3".parse().unwrap();
+        let unknown = Unknown::new(&Scene::motor(), &bounds).unwrap();
+        let told = |error| FittedUnknown { unknown: unknown.clone(), value: 2.263, error, at: None }.told();
+        assert_eq!(told(Some(500.0)), "2.26 µm, not determined");
+        assert_eq!(told(Some(0.012)), "2.263 ± 0.012 µm");
+        assert_eq!(told(None), "2.2630 µm");
+    }
 }

@@ -90,13 +90,17 @@ impl<'a> Model<'a> {
                 )));
             }
         }
-        let condition = |changes: &Vec<(String, String)>| -> Result<Condition, AnalysisError> {
+        let condition = |(i, changes): (usize, &Vec<(String, String)>)| -> Result<Condition, AnalysisError> {
             let mut scene = self.scene.clone();
-            scene.set_all(changes).map_err(|error| AnalysisError::Input(format!("{}: {error}", measured.name)))?;
+            let first = measured.measurements.iter().find(|one| one.condition == i);
+            let place = first.map_or_else(String::new, |one| format!(", {}", one.label));
+            scene
+                .set_all(changes)
+                .map_err(|error| AnalysisError::Input(format!("{}{place}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
             Ok(Condition { scene, chosen })
         };
-        self.conditions = measured.conditions.iter().map(condition).collect::<Result<_, _>>()?;
+        self.conditions = measured.conditions.iter().enumerate().map(condition).collect::<Result<_, _>>()?;
         self.asked = vec![Vec::new(); self.conditions.len()];
         for one in &measured.measurements {
             self.asked[one.condition].push(one.what);

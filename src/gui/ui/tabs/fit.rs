@@ -1,7 +1,7 @@
 //! The fit tab: parameters fitted to measurements, or optimised for a result: the table, the form, and the result.
 
 use crate::analysis::fit::{Bound, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
-use crate::digits::{capitalised, percent, signed, significant, with_error};
+use crate::digits::{capitalised, counted, percent, signed, significant};
 use crate::export::figure::Panel;
 use crate::export::fit::{figures, optimum_figure};
 use crate::gui::command::{Command, FitCommand};
@@ -130,11 +130,10 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         if let Some(measured) = state.measured.as_ref() {
             cx.button(ui, "Forget them", "The table is no longer drawn, nor fitted", FitCommand::Forget);
             let name = measured.name.rsplit(['/', '\\']).next().unwrap_or_default();
-            let conditions = if measured.conditions.len() == 1 { "condition" } else { "conditions" };
             ui.label(format!(
-                "{name}: {} measurements under {} {conditions}",
-                measured.measurements.len(),
-                measured.conditions.len()
+                "{name}: {} under {}",
+                counted(measured.measurements.len(), "measurement", "measurements"),
+                counted(measured.conditions.len(), "condition", "conditions")
             ));
         }
     });
@@ -251,9 +250,9 @@ fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, heigh
     take(ui, cx);
     let how = match (found.errors_known, found.error_scale) {
         (true, _) => format!(
-            "χ² = {} with {} degrees of freedom, from the errors in the table.",
+            "χ² = {} with {}, from the errors in the table.",
             significant(found.chi_squared, 3),
-            found.degrees_of_freedom
+            counted(found.degrees_of_freedom, "degree of freedom", "degrees of freedom")
         ),
         (false, Some(_)) => "The table has no errors: they are taken from the residuals.".to_owned(),
         (false, None) => "The table has no errors, and no measurement is left to tell them from.".to_owned(),
@@ -320,15 +319,8 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
     let parameter = one.unknown.parameter;
     let name = ui.label(RichText::new(label(parameter)).color(cx.colours.quiet));
     name.hint(parameter.about);
-    let text = match one.error {
-        Some(error) => with_error(one.value, error),
-        None => significant(one.value, 5),
-    };
-    glossary::term(
-        ui,
-        RichText::new(format!("{text} {}", parameter.unit)).color(ui.visuals().strong_text_color()),
-        "Standard error",
-    );
+    let told = RichText::new(one.told()).color(ui.visuals().strong_text_color());
+    glossary::term(ui, told, "Standard error");
     ui.label(match one.at {
         Some(Bound::Lower) => "at its lower bound",
         Some(Bound::Upper) => "at its upper bound",
