@@ -244,12 +244,12 @@ fn a_changed_preset_says_so_wherever_its_name_leads() {
     let folder = tempfile::tempdir().unwrap();
     let results = folder.path().to_str().unwrap();
     let arguments =
-        ["solve", "fundamental", "--fidelity=draft", "--set=film.min_spacing_nm=100", "--set=film.slip=none"];
+        ["solve", "fundamental", "--fidelity=draft", "--set=stator.tooth_radius_m=3", "--set=film.slip=none"];
     let output = run(&[&arguments[..], &["--out", results, "--figures", "svg"]].concat());
     let name = "Fundamental case, changed: 2 keys";
-    let named = "Fundamental case, minimum spacing H_m 100 nm, slip at the walls none";
+    let named = "Fundamental case, tooth radius 3 m, slip at the walls none";
     assert!(out(&output).starts_with(&format!("{name}: ")) && !out(&output).contains("first row"), "{}", out(&output));
-    assert!(out(&output).contains("film.min_spacing_nm = 100 nm, was 200 nm"), "{}", out(&output));
+    assert!(out(&output).contains("stator.tooth_radius_m = 3 m, was none"), "{}", out(&output));
     for (file, words) in [
         ("summary.json", format!("\"preset\": \"{name}\"")),
         ("scene.toml", format!("name = \"{name}\"")),

@@ -388,11 +388,9 @@ mod tests {
         assert_eq!(published.headline(), published.name);
         let three = [("film.min_spacing_nm", "100"), ("stator.tooth_radius_m", "3"), ("film.slip", "none")];
         assert_eq!(scene(&three).name, "Fundamental case, changed: 3 keys");
-        let named = scene(&three).headline();
-        assert!(named.contains(", minimum spacing H_m 100 nm") && named.contains(", tooth radius 3 m"), "{named}");
-        assert!(named.contains(", slip at the walls none"), "{named}");
-        let four = scene(&[&three[..], &[("motor.waves", "8")]].concat());
-        assert_eq!(four.headline(), "Fundamental case, changed: 4 keys");
+        assert_eq!(scene(&three[1..]).headline(), "Fundamental case, tooth radius 3 m, slip at the walls none");
+        // Too long to be read above a figure.
+        assert_eq!(scene(&three).headline(), scene(&three).name);
         assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
         let long = scene(&[("film.min_spacing_nm", "123.456789012")]);
         assert!(long.about.contains("film.min_spacing_nm = 123.457 nm, was 200 nm."), "{}", long.about);

@@ -262,9 +262,9 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
                 format!("{} ({})", with_error(spread.mean, spread.mean_error()), significant(spread.deviation, 2))
             }));
-            row.push(spread.map_or_else(String::new, |spread| {
-                format!("{} … {}", spread.quantiles[0], spread.quantiles[2])
-            }));
+            row.push(
+                spread.map_or_else(String::new, |spread| format!("{} … {}", spread.quantiles[0], spread.quantiles[2])),
+            );
         }
         columns.row(row);
     }

@@ -98,13 +98,13 @@ fn text(faces: &[Face], pair: &Pair) -> String {
         &|face| format!("{}, {}", signed(format!("{:.2}", face.skewness)), signed(format!("{:.2}", face.kurtosis))),
         "skewness and kurtosis; 0 and 3 if normally distributed",
     );
-    row("correlation length", &|face| lengths(face, face.correlation), "along x and y, where the autocorrelation falls to ½");
-    row("", &|face| lengths(face, face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
     row(
-        "lay  γ",
-        &|face| lay(face).unwrap_or_else(|| "unknown, taken to be 1".to_owned()),
-        "along x over across",
+        "correlation length",
+        &|face| lengths(face, face.correlation),
+        "along x and y, where the autocorrelation falls to ½",
     );
+    row("", &|face| lengths(face, face.correlation_fifth), "where it falls to 0.2 (ISO 25178-2)");
+    row("lay  γ", &|face| lay(face).unwrap_or_else(|| "unknown, taken to be 1".to_owned()), "along x over across");
     let mut text = columns.text(&[]);
     let (number, same) = (faces.len(), "Both faces are taken to be like it. ");
     text.push_str(&paragraph(

@@ -301,8 +301,7 @@ mod tests {
         let each = &mut |cycle: startup::Cycle| cycles.push(cycle.slim());
         let ended = startup::startup(&problem, &settings, each, &cancel).unwrap();
         let from_rest = Box::new(Posed::try_from(scene.clone()).unwrap());
-        let content =
-            || Content::Startup(from_rest.clone(), settings, Box::new(ended.clone()), cycles.clone());
+        let content = || Content::Startup(from_rest.clone(), settings, Box::new(ended.clone()), cycles.clone());
         assert!(made_twice("startup", &content) > 3);
 
         let heavy = Box::new(crate::job::work::tests::posed("floating-disc"));

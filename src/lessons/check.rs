@@ -157,7 +157,8 @@ mod tests {
             ),
             None
         );
-        assert_eq!(unmet("film.slip = \"none\"", &[], 0.5), Some("Slip is first-order, and should be none".to_owned()));
+        let told = "Slip at the walls is first-order, and should be none";
+        assert_eq!(unmet("film.slip = \"none\"", &[], 0.5), Some(told.to_owned()));
         assert_eq!(unmet("stator.tooth_radius_m = \"none\"", &[], 0.5), None);
         assert_ne!(unmet("stator.tooth_radius_m = \"none\"", &[("stator.tooth_radius_m", "3")], 0.5), None);
     }

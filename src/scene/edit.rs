@@ -4,7 +4,7 @@ use super::error::{FaultKind, SceneError};
 use super::heights;
 use super::parameter::{Parameter, ParameterKind};
 use super::parse;
-use super::value::Value;
+use super::value::{Value, show_text};
 use super::values::Scene;
 use crate::digits::rounded;
 use std::borrow::Borrow;
@@ -12,8 +12,6 @@ use std::path::Path;
 
 /// Digits of the numbers in a description; the scene has all of them.
 const DIGITS: usize = 6;
-/// Most changes that a headline names.
-const MOST_NAMED: usize = 3;
 
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
@@ -202,8 +200,8 @@ impl Scene {
         self.name = title;
     }
 
-    /// Its name above a figure. Of a scene with the title and the description that [`Scene::retitle`] gives, and at most three changes, these in
-    /// place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
+    /// Its name above a figure. Of a scene with the title and the description that [`Scene::retitle`] gives, and so few changes that they
+    /// can be read, these in place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
     pub fn headline(&self) -> String {
         let changes = || {
             let (head, _) = self.name.rsplit_once(": ")?;
@@ -215,7 +213,9 @@ impl Scene {
                 Some(format!("{} {value}", Parameter::find(key)?.words()))
             };
             let named = changes.iter().map(named).collect::<Option<Vec<_>>>()?;
-            (named.len() <= MOST_NAMED).then(|| format!("{original}, {}", named.join(", ")))
+            let title = format!("{original}, {}", named.join(", "));
+            // Longer names are cut.
+            (show_text(&title) == title).then_some(title)
         };
         changes().unwrap_or_else(|| self.name.clone())
     }

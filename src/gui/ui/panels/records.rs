@@ -221,11 +221,8 @@ fn cell(
             };
             let done = response.drag_stopped() || (refused.is_some() && text.is_some());
             let dragging = response.dragged();
-            ((response.changed() && number != present) || done).then(|| Edit::Set {
-                value: Value::Number(number),
-                dragging,
-                text,
-            })
+            let value = Value::Number(number);
+            ((response.changed() && number != present) || done).then_some(Edit::Set { value, dragging, text })
         }
         (ParameterKind::Choice { options, .. }, Value::Text(chosen)) => {
             let mut picked = None;
