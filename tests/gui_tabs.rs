@@ -587,8 +587,16 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     until(&mut window, "measured", |app| {
         app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
     });
-    let tradeoff =
-        ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
+    let tradeoff = [
+        "fidelities",
+        "other grids",
+        "the paper's method",
+        "present setting",
+        "best",
+        "asked for",
+        "Solve time",
+        "Error of α",
+    ];
     explains(faults, &window, "Trade-off", &tradeoff);
     explains(faults, &window, "Trade-off, table", &["Setting", "Stated error", "Accuracy", "Budget"]);
     hovers(faults, &mut window, "other grids", "spend their points well");

@@ -104,7 +104,7 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
 
 /// Error against time as a figure, with rings round the settings in `chosen`.
 pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
-    let panel = panel(tradeoff, ("chosen", Colour::BLACK, chosen));
+    let panel = panel(tradeoff, ("serves what was asked for", Colour::BLACK, chosen));
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
     let provenance = Provenance {
         note: format!("medians of {runs} runs of {} settings", tradeoff.points.len()),

@@ -71,6 +71,8 @@ pub use svg::escaped;
 pub(crate) use geometry::{contour, is_contour};
 #[cfg(feature = "gui")]
 pub(crate) use layout::ends;
+#[cfg(feature = "gui")]
+pub(crate) use panel::names;
 
 pub(super) use axis::extent;
 pub(super) use error::Pixels;

@@ -1,11 +1,13 @@
 //! One panel drawn at its place: layers, axes, legend, colour bar.
 
+#[cfg(feature = "gui")]
+use super::axis::Axis;
 use super::axis::{Range, Scale};
 use super::colour::Colour;
 use super::description::Panel;
 use super::geometry::{clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
-use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
+use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
 use super::legend::{covered, drawn};
 use super::placed::{
     Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range, mark_ends,
@@ -67,6 +69,32 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
         svg.text(at, &panel.title, &Type::new(HEAD, "start"));
     }
     svg.close();
+}
+
+/// The names of places, and the upper left corner of each, where a figure has them, for another drawing of the panel: an area of this width
+/// and height \[pt\] with the axes between these ends, and words of the width and height that `words` tells.
+#[cfg(feature = "gui")]
+pub(crate) fn names(
+    panel: &Panel,
+    ends: [[f64; 2]; 2],
+    [width, height]: [f64; 2],
+    words: impl Fn(&str) -> [f64; 2],
+) -> Vec<(String, [f64; 2])> {
+    let ruler =
+        |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
+    let placed = Placed {
+        rect: Rect { x: 0.0, y: 0.0, width, height },
+        x: ruler(&panel.x, ends[0]),
+        y: ruler(&panel.y, ends[1]),
+        right: None,
+        x_labels: false,
+        bar: None,
+        legend: Vec::new(),
+        legend_box: None,
+        title: None,
+    };
+    let on = On { placed: &placed, panel };
+    on.named_places(words).into_iter().map(|(name, place)| (name.text.clone(), [place.x, place.y])).collect()
 }
 
 /// A panel at its place.
@@ -223,20 +251,24 @@ impl On<'_> {
         taken
     }
 
-    /// The names of places, each beside its own: right and left first, then above and below, then at the corners, then likewise farther away.
     fn names(&self, svg: &mut Svg) {
+        for (words, place) in self.named_places(|words| [text::width(words, NOTE), 0.8 * NOTE]) {
+            svg.text([place.x, place.bottom()], &words.text, &Type::new(NOTE, "start"));
+        }
+    }
+
+    /// The names of places, each beside its own: right and left first, then above and below, then at the corners, then likewise farther away.
+    /// `size`: width and height of words.
+    fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
             Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
             _ => None,
         });
-        let names: Vec<_> = names.collect();
-        if names.is_empty() {
-            return;
-        }
-        let mut taken = self.taken(true);
-        for (words, [x, y]) in names {
-            let (width, height) = (text::width(&words.text, NOTE), 0.8 * NOTE);
+        let names: Vec<(&Text, [f64; 2])> = names.collect();
+        let mut taken = if names.is_empty() { Vec::new() } else { self.taken(true) };
+        let mut place = |words: &str, [x, y]: [f64; 2]| {
+            let [width, height] = size(words);
             let places = [5.0, 10.0, 16.0].map(|apart| {
                 let [right, left, centre] = [x + apart, x - apart - width, x - 0.5 * width];
                 let [above, below, middle] = [y - apart - height, y + apart, y - 0.5 * height];
@@ -246,9 +278,10 @@ impl On<'_> {
             });
             let places: Vec<Rect> = places.concat().into_iter().map(|[x, y]| Rect { x, y, width, height }).collect();
             let place = self.freest(&places, &taken);
-            svg.text([place.x, place.bottom()], &words.text, &Type::new(NOTE, "start"));
             taken.extend(place.points());
-        }
+            place
+        };
+        names.into_iter().map(|(words, at)| (words, place(&words.text, at))).collect()
     }
 
     fn contours(&self, svg: &mut Svg, map: &Map) {

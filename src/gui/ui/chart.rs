@@ -9,8 +9,7 @@ use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Pa
 use crate::ticks::{Steps, decades};
 use eframe::egui::{self, Color32, Rect, RichText, Stroke, TextStyle, Visuals, vec2};
 use egui_plot::{
-    AxisHints, GridInput, GridMark, HoverPosition, LineStyle, MarkerShape, Plot, PlotPoint, PlotResponse,
-    PlotTransform, PlotUi,
+    AxisHints, GridInput, GridMark, HoverPosition, LineStyle, MarkerShape, Plot, PlotResponse, PlotTransform, PlotUi,
 };
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
@@ -27,6 +26,8 @@ const WIDTH: f32 = 2.0;
 const DIGITS: usize = 4;
 /// Values of a logarithmic axis up to this many decades from 1 are written out.
 const PLAIN_DECADES: f64 = 3.5;
+/// Pixels of a point of a figure.
+const POINT: f32 = 1.8;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
@@ -169,7 +170,7 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
                 plot.line(line(&bar, colour(*of), 1.0, LineStyle::Solid));
             }
             let points = pieces(points.iter().map(|point| at(*point))).concat();
-            let dots = dots(name, points, colour(*of), 0.9 * marker.size as f32);
+            let dots = dots(name, points, colour(*of), 0.5 * POINT * marker.size as f32);
             plot.points(dots.shape(shape(marker.shape)).filled(!marker.hollow));
         }
         Layer::Mark(Mark { direction, at: value, style, .. }) => {
@@ -190,22 +191,25 @@ fn pieces<const N: usize>(points: impl Iterator<Item = [f64; N]>) -> Vec<Vec<[f6
     pieces.filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
 
-/// Names of places, right of them and below; those that would lie on each other, one below the other.
+/// Names of places, where figures have them.
 fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
-    let painter = ui.painter_at(*at.frame());
-    let mut taken: Vec<Rect> = Vec::new();
-    for layer in &panel.layers {
-        let Layer::Text(figure::Text { at: [x, y], text }) = layer else { continue };
-        let place = at.position_from_point(&PlotPoint::new(panel.x.scale.place(*x), panel.y.scale.place(*y)));
-        let font = TextStyle::Body.resolve(ui.style());
-        let galley = painter.layout_no_wrap(text.clone(), font, ui.visuals().text_color());
-        let mut rect = Rect::from_min_size(place + vec2(5.0, 3.0), galley.size());
-        while let Some(other) = taken.iter().find(|other| other.intersects(rect)) {
-            rect = rect.translate(vec2(0.0, other.bottom() - rect.top() + 1.0));
-        }
-        painter.galley(rect.min, galley, ui.visuals().text_color());
-        taken.push(rect);
+    let (frame, bounds, colour) = (*at.frame(), at.bounds(), ui.visuals().text_color());
+    let painter = ui.painter_at(frame);
+    let galley = |text: &str| painter.layout_no_wrap(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour);
+    let points = |size: egui::Vec2| [size.x / POINT, size.y / POINT].map(f64::from);
+    let (low, high) = (bounds.min(), bounds.max());
+    let value = |scale: Scale, place: f64| if scale == Scale::Log { 10f64.powf(place) } else { place };
+    let ends = [
+        [low[0], high[0]].map(|end| value(panel.x.scale, end)),
+        [low[1], high[1]].map(|end| value(panel.y.scale, end)),
+    ];
+    for (name, [x, y]) in figure::names(panel, ends, points(frame.size()), |text| points(galley(text).size())) {
+        painter.galley(frame.min + POINT * vec2(x as f32, y as f32), galley(&name), colour);
     }
+}
+
+fn dashed(ends: &[egui::Pos2], colour: Color32, length: f32) -> Vec<egui::Shape> {
+    egui::Shape::dashed_line(ends, Stroke::new(2.0, colour), length, 0.6 * length)
 }
 
 fn dashes(dash: Dash) -> LineStyle {
@@ -270,8 +274,11 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
                 Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
                     let ends = [left, left + vec2(SAMPLE * em, 0.0)];
                     // A solid one is one dash.
-                    let length = if let LineStyle::Dashed { length } = dashes(style.dash) { length } else { 1e6 };
-                    painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(2.0, colour), length, 0.6 * length));
+                    painter.extend(match dashes(style.dash) {
+                        LineStyle::Dotted { spacing } => egui::Shape::dotted_line(&ends, colour, spacing, 1.2),
+                        LineStyle::Dashed { length } => dashed(&ends, colour, length),
+                        LineStyle::Solid => dashed(&ends, colour, 1e6),
+                    });
                 }
                 Layer::Points(figure::Points { marker, .. }) => {
                     let (at, radius) = (left + vec2(0.5 * SAMPLE * em, 0.0), 0.25 * em);
@@ -359,6 +366,29 @@ mod tests {
             _ => None,
         });
         assert_eq!(drawn.collect::<Vec<_>>(), [[vec![[1.0, -2.0]]], [vec![[1.0, -4.0]]], [vec![[1.0, -5.0]]]]);
+    }
+
+    #[test]
+    fn names_of_close_points_are_beside_them_and_clear_of_each_other_and_of_lines() {
+        let named = [([1.0, 1.0], "draft"), ([1.05, 1.02], "accuracy 1%"), ([1.1, 0.98], "standard")];
+        let panel = Panel::new("", Axis::default(), Axis::default())
+            .layer(figure::Line::new("", [[0.0, 1.0], [2.0, 1.0]], figure::Style::quiet()))
+            .layer(figure::Points::new("", named.map(|(at, _)| at), Colour::FILM, figure::Marker::default()))
+            .layers(named.map(|(at, name)| figure::Text::new(at, name)));
+        let size = |text: &str| [4.0 * text.len() as f64, 7.5];
+        let names = figure::names(&panel, [[0.0, 2.0]; 2], [300.0, 150.0], size);
+        let rect = |(name, [x, y]): &(String, [f64; 2])| {
+            let [width, height] = size(name).map(|length| length as f32);
+            Rect::from_min_size(egui::pos2(*x as f32, *y as f32), vec2(width, height))
+        };
+        let rects: Vec<Rect> = names.iter().map(rect).collect();
+        assert_eq!(rects.len(), 3);
+        for (i, (rect, ([x, y], _))) in rects.iter().zip(named).enumerate() {
+            assert!(rect.top() > 75.0 || rect.bottom() < 75.0, "{names:?}");
+            assert!(rects[..i].iter().all(|other| !other.intersects(*rect)), "{names:?}");
+            let point = egui::pos2(150.0 * x as f32, 150.0 - 75.0 * y as f32);
+            assert!(rect.distance_to_pos(point) < 25.0, "{names:?}");
+        }
     }
 
     #[test]

@@ -112,8 +112,10 @@ fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
 fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
     let used = (0..tradeoff.points.len()).filter(|i| in_use(&tradeoff.points[*i].run.candidate, cx));
     let mut panel = panel(tradeoff, ("present setting", ACCENT, &used.collect::<Vec<_>>()));
-    for mark in [Mark::horizontal(100.0 * cx.state.view.accuracy, ""), Mark::vertical(cx.state.view.budget, "")] {
-        panel.layers.push(Mark { style: Style::quiet().dash(Dash::Dashed), ..mark }.into());
+    let (accuracy, budget) = (100.0 * cx.state.view.accuracy, cx.state.view.budget);
+    for mark in [Mark::horizontal(accuracy, "asked for"), Mark::vertical(budget, "asked for")] {
+        // Dashes are the front's.
+        panel.layers.push(Mark { style: Style { width: 0.9, ..Style::quiet() }.dash(Dash::Dotted), ..mark }.into());
     }
     for TradeoffPoint { quartiles: (low, high), error, run, .. } in &tradeoff.points {
         let bar = [*low, *high].map(|time| [time, 100.0 * error.unwrap_or(f64::NAN)]);
