@@ -20,6 +20,7 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::format::uncertain;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::Next;
 use squeezefilm::gui::state::fit::FitResult;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
@@ -817,8 +818,14 @@ fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
     std::fs::write(&table, rows).unwrap();
     drop_file(&mut window, &table);
     assert_eq!(window.known().view.tab, Tab::Torque);
-    assert_eq!(window.known().fit.torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
+    assert_eq!(window.known().torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
     assert!(window.shows("measured") && window.shows("1 measured torques are not drawn"));
+    // An edit is of the same scene; another one that is opened is not.
+    window.state_mut().carry_out(Command::SetText("film.min_spacing_nm", "190".to_owned()));
+    assert_eq!(window.known().torques().0.len(), 2);
+    window.state_mut().carry_out(Command::DiscardThen(Next::Preset("doubled-mesh")));
+    assert_eq!(window.known().document.scene(), &presets::find("doubled-mesh").unwrap());
+    assert_eq!(window.known().torques(), (Vec::new(), 3));
 }
 
 #[test]

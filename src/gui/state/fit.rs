@@ -28,6 +28,9 @@ pub enum Sought {
     Least,
 }
 
+/// Which scene is open, whatever was edited in it: how many were opened so far, and whether a lesson has set up its own.
+pub type Opened = (u64, bool);
+
 /// The form, as typed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitForm {
@@ -46,6 +49,8 @@ pub struct FitForm {
 pub struct FitState {
     /// The table.
     pub measured: Option<Arc<Measured>>,
+    /// What was open when it was read.
+    over: Opened,
     /// The form, as typed.
     pub form: FitForm,
     /// Fault of each key of the form, in order; `None` if it is valid.
@@ -97,20 +102,22 @@ pub fn chooses(scene: &Scene, parameter: &Parameter) -> bool {
 }
 
 impl FitState {
-    /// Takes a table of measurements in place of the one there was.
-    pub fn load(&mut self, measured: Measured) {
-        self.measured = Some(Arc::new(measured));
+    /// Takes a table of measurements, read while the scene `over` was open, in place of the one there was.
+    pub fn load(&mut self, measured: Measured, over: Opened) {
+        (self.measured, self.over) = (Some(Arc::new(measured)), over);
         (self.work.failure, self.told) = (None, None);
     }
 
-    /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
-    /// measured with other values of some keys.
-    pub fn torques(&self) -> (Vec<[f64; 2]>, usize) {
+    /// The torques of the table that were measured on the scene as it is, which is `opened`: speed \[rpm\] and torque \[N m\]; and how many
+    /// others there are, measured with other values of some keys, or read while another scene was open.
+    pub fn torques(&self, opened: Opened) -> (Vec<[f64; 2]>, usize) {
         let (mut torques, mut others) = (Vec::new(), 0);
         let Some(measured) = &self.measured else { return (torques, others) };
         for one in &measured.measurements {
             match one.what {
-                Observable::Torque { .. } if !measured.conditions[one.condition].is_empty() => others += 1,
+                Observable::Torque { .. } if self.over != opened || !measured.conditions[one.condition].is_empty() => {
+                    others += 1;
+                }
                 Observable::Torque { speed_rpm } => torques.push([speed_rpm, one.value]),
                 Observable::Number(_) => {}
             }

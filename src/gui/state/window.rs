@@ -8,7 +8,7 @@ use super::dropped::Dropped;
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::face::FaceState;
-use super::fit::FitState;
+use super::fit::{FitState, Opened};
 use super::followed::{RotorState, TorqueState};
 use super::hold::HoldState;
 use super::lesson_tabs::OnScreen;
@@ -123,6 +123,16 @@ impl State {
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(RECENT);
+    }
+
+    /// Which scene is open.
+    pub fn opened(&self) -> Opened {
+        (self.view.opened, self.document.practice)
+    }
+
+    /// The measured torques that are drawn over the curve, and how many are not.
+    pub fn torques(&self) -> (Vec<[f64; 2]>, usize) {
+        self.fit.torques(self.opened())
     }
 
     /// A motor that was made of answers since the last time, or why it was not.

@@ -39,8 +39,9 @@ impl Updater {
         let state = &mut self.state;
         match Measured::find(&path.to_string_lossy(), state.document.scene(), Method::Auto) {
             Ok(measured) => {
-                state.fit.load(measured);
-                let (torques, others) = state.fit.torques();
+                let opened = state.opened();
+                state.fit.load(measured, opened);
+                let (torques, others) = state.torques();
                 if state.view.tab != Tab::Torque || torques.is_empty() && others == 0 {
                     state.view.tab = Tab::Fit;
                 }

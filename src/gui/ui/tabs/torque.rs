@@ -51,7 +51,7 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
         return;
     }
-    let (measured, elsewhere) = cx.state.fit.torques();
+    let (measured, elsewhere) = cx.state.torques();
     let panels = panels(merit, measured);
     legend(ui, &[&panels[1], &panels[0]]);
     let em = ui.text_style_height(&TextStyle::Body);
