@@ -65,7 +65,7 @@ impl Scene {
     /// Sets a dotted key from a value in the key's unit. A number without a fraction is accepted for a whole number.
     pub fn set_value(&mut self, key: &str, value: Value) -> Result<(), SceneError> {
         let parameter = self.settable(key)?;
-        Ok(self.change(parameter, value)?)
+        Ok(self.change(parameter, value).map_err(|fault| self.narrowed(fault))?)
     }
 
     /// Removes an optional key, or gives another key its default.
@@ -107,7 +107,7 @@ impl Scene {
             }
             given.push(parameter);
         }
-        faults.or(())?;
+        faults.map(|fault| changed.narrowed(fault)).or(())?;
         changed.check()?;
         *self = changed;
         Ok(())

@@ -47,6 +47,12 @@ impl SceneError {
         other.faults.into_iter().for_each(|fault| self.push(fault));
     }
 
+    /// With other faults in place of these.
+    pub(super) fn map(mut self, other: impl Fn(FaultKind) -> FaultKind) -> Self {
+        self.faults = self.faults.into_iter().map(|fault| Fault { what: other(fault.what), ..fault }).collect();
+        self
+    }
+
     /// `value`, or the error if there are faults.
     pub(super) fn or<T>(mut self, value: T) -> Result<T, Self> {
         // Stable, so that faults on one line keep the order in which they were found.

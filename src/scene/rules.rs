@@ -3,7 +3,7 @@
 
 use super::error::{FaultKind, SceneError};
 use super::parameter::{Parameter, Range};
-use super::value::show_number;
+use super::value::{Value, show_number};
 use super::values::{Kind, Scene};
 
 /// Narrowest tooth, as a share of the pitch; the widest is the pitch itself.
@@ -50,6 +50,17 @@ impl Scene {
         let matters = move |rule: &&Rule| Parameter::find(rule.keys[0]).is_some_and(has);
         let broken = RULES.iter().filter(matters).filter_map(|rule| Some((rule.keys, (rule.check)(self).err()?)));
         broken.chain(self.following_out_of_range())
+    }
+
+    /// A value out of its key's own range breaks a rule between keys too, if that allows less: then it is that fault, with the narrower range.
+    pub(super) fn narrowed(&self, fault: FaultKind) -> FaultKind {
+        let FaultKind::OutOfRange { parameter, value, .. } = &fault else { return fault };
+        let parameter = *parameter;
+        let (Some(number), true) = (value.as_number(), self.heeds(parameter.key)) else { return fault };
+        let mut tried = self.clone();
+        tried.put(parameter, Some(Value::Number(number)));
+        let mut of_key = RULES.iter().filter(|rule| rule.keys[0] == parameter.key);
+        of_key.find_map(|rule| (rule.check)(&tried).err()).unwrap_or(fault)
     }
 
     /// The range of a key in this scene: its own, narrowed to what the other keys allow. `None` for a key that is not a
@@ -185,6 +196,23 @@ mod tests {
         assert_eq!(scene.range("plate.amplitude_um"), None);
         assert_eq!(Scene::plate().range("plate.amplitude_um"), Some(Range::new(0.0, 1.0)));
         assert_eq!(scene.range("film.min_spacing_nm"), Some(Range::new(5.0, 10000.0)));
+    }
+
+    #[test]
+    fn one_range_is_told_however_far_out_a_value_is() {
+        let scene = Scene::motor();
+        for value in [-3.0, 4.0, 1e99] {
+            let mut tried = scene.clone();
+            let set = tried.set_value("stator.tooth_width_mm", Value::Number(value));
+            let one = set.and_then(|()| tried.check()).unwrap_err().to_string();
+            let pair = ("stator.tooth_width_mm", value.to_string());
+            let all = scene.clone().set_all([pair]).unwrap_err().to_string();
+            assert!(one.contains("allowed 0.0289226 to 2.89225 mm, 1 % to 100 %") && one == all, "{one}\n{all}");
+        }
+        // The other keys that are set along with it count.
+        let pairs = [("stator.tooth_width_mm", "1e99"), ("stator.teeth_per_wave", "18")];
+        let all = scene.clone().set_all(pairs).unwrap_err().to_string();
+        assert!(all.contains("7 waves / 18 teeth"), "{all}");
     }
 
     #[test]

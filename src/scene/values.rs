@@ -270,7 +270,7 @@ impl Scene {
 
     /// Stores a value that has been accepted, or removes it. If it chooses a model, the keys of other models are removed; if it is given in
     /// place of another key, that key is removed.
-    fn put(&mut self, parameter: &'static Parameter, value: Option<Value>) {
+    pub(super) fn put(&mut self, parameter: &'static Parameter, value: Option<Value>) {
         if value.is_some() {
             for other in parameter.alternatives() {
                 self.values.remove(other.key);
