@@ -164,6 +164,30 @@ fn without_a_file_dialog_the_path_is_typed() {
 }
 
 #[test]
+fn a_table_of_the_rotor_is_opened_by_the_dialog_and_told_at_its_field_if_it_is_refused() {
+    fn ask(purpose: Purpose, _: &DialogStart) -> Answer {
+        match purpose {
+            Purpose::Csv("rotor.compliance_csv") => Answer::Path("absent.csv".into()),
+            _ => Answer::NoDialog,
+        }
+    }
+    let mut window = window_asking("fundamental", ask);
+    let key = "rotor.compliance_csv";
+    window.state_mut().carry_out(Command::Ask(Purpose::Csv(key)));
+    until(&mut window, "it is refused", |app| app.state().rejected.of(key).is_some());
+    assert!(window.known().rejected.of(key).is_some_and(|why| why.matches("absent.csv").count() == 1));
+    // The refusal has opened its group.
+    window.get_by_label("Open: Compliance from a CSV file");
+    // Without a dialog the path is typed.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("green.csv");
+    std::fs::write(&path, "x_mm,deflection_um_per_n\n0,0.6\n1,0.5\n").unwrap();
+    window.state_mut().carry_out(Command::Ask(Purpose::Csv("rotor.green_csv")));
+    answer(&mut window, &path);
+    assert_eq!(window.known().document.scene().get("rotor.model"), Some(Value::Text("green".into())));
+}
+
+#[test]
 fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
     let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");

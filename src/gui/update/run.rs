@@ -198,6 +198,7 @@ impl Updater {
             Purpose::Open if !table => self.open_file(path),
             Purpose::Open | Purpose::Measurements => self.load_measurements(path),
             Purpose::Heights => self.load_face(path),
+            Purpose::Csv(key) => self.edit(key, false, Change::Text(path.display().to_string())),
             Purpose::Lessons => self.load_lessons(&path),
             Purpose::Save(then) => self.save_as(path, then),
             Purpose::Picture(picture) => self.write_picture(picture, &path),
