@@ -359,7 +359,7 @@ impl Panel<'_> {
         let about = format!("{}\n{}", parameter.about, parameter.key);
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
         let field = self.field(parameter, None, label(parameter), f32::INFINITY);
-        let field = Field { hint: "path of the file, then Enter", ..field };
+        let field = Field { hint: "path, then Enter", ..field };
         let columns = match parameter.key {
             "surface.heights_csv" => {
                 "A grid of heights after lines # dx_um = …, # dy_um = … and # height = nm, or a profile with columns x_um and z_nm"
