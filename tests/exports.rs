@@ -293,8 +293,8 @@ fn curves_of_torque_and_power_begin_and_end_where_the_numbers_say() {
     let [first, second, power, other_power] = &curves[..] else { panic!("{} curves", curves.len()) };
     let number = |run: usize, quantity| compared[run].numbers().get(quantity).unwrap();
     for (run, torque) in [first, second].into_iter().enumerate() {
-        // In mN·m.
-        assert!((torque[0][1] - 1e3 * number(run, Quantity::StallTorque)).abs() < 1e-9, "{:?}", torque[0]);
+        // In the unit of the window.
+        assert!((torque[0][1] - number(run, Quantity::StallTorque)).abs() < 1e-9, "{:?}", torque[0]);
         assert!((torque.last().unwrap()[0] - number(run, Quantity::NoLoadSpeed)).abs() < 0.02, "{:?}", torque.last());
         assert!(torque.iter().all(|[_, torque]| *torque >= 0.0));
     }

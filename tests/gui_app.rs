@@ -131,6 +131,27 @@ fn without_a_file_dialog_the_path_is_typed() {
     assert_eq!(window.known().document.path(), Some(path.as_path()));
     assert!(window.shows(&format!("Wrote {}", path.display())) && Scene::load(&path).is_ok());
 
+    // Where nothing can be saved the prompt stays, with the path and the reason, and what was to come after still comes.
+    window.state_mut().carry_out(Command::DiscardThen(Next::Preset("fundamental")));
+    edit_spacing(&mut window, "80");
+    window.state_mut().carry_out(Command::Proceed(Next::Preset("asperities")));
+    window.run_steps(3);
+    window.click_on("Save");
+    await_path(&mut window);
+    let nowhere = folder.path().join("absent").join("kept.toml");
+    type_path(&mut window, nowhere.to_str().unwrap());
+    window.press(Key::Enter);
+    window.get_by_label_contains("there is no folder");
+    let Some(Modal::Path(prompt)) = &window.known().modal else { panic!("the prompt is gone") };
+    assert_eq!(prompt.path, nowhere.to_str().unwrap());
+    type_path(&mut window, folder.path().join("kept.toml").to_str().unwrap());
+    assert!(window.query_by_label_contains("there is no folder").is_none(), "of another path");
+    window.press(Key::Enter);
+    assert!(window.known().modal.is_none() && folder.path().join("kept.toml").is_file());
+    assert_eq!(window.known().document.scene().name, presets::find("asperities").unwrap().name);
+    window.state_mut().carry_out(Command::Chosen(Purpose::Open, path.clone()));
+    window.run_steps(3);
+
     // What is there already is not replaced by Enter, only by the button that says so.
     let other = folder.path().join("other.toml");
     std::fs::write(&other, "not a preset").unwrap();
@@ -161,6 +182,30 @@ fn without_a_file_dialog_the_path_is_typed() {
     }
     assert_eq!(window.known().document.path(), Some(path.as_path()));
     assert_eq!(spacing(window.state()), Value::Number(200.0));
+}
+
+#[test]
+fn a_table_of_the_rotor_is_opened_by_the_dialog_and_told_at_its_field_if_it_is_refused() {
+    fn ask(purpose: Purpose, _: &DialogStart) -> Answer {
+        match purpose {
+            Purpose::Csv("rotor.compliance_csv") => Answer::Path("absent.csv".into()),
+            _ => Answer::NoDialog,
+        }
+    }
+    let mut window = window_asking("fundamental", ask);
+    let key = "rotor.compliance_csv";
+    window.state_mut().carry_out(Command::Ask(Purpose::Csv(key)));
+    until(&mut window, "it is refused", |app| app.state().rejected.of(key).is_some());
+    assert!(window.known().rejected.of(key).is_some_and(|why| why.matches("absent.csv").count() == 1));
+    // The refusal has opened its group.
+    window.get_by_label("Open: Compliance from a CSV file");
+    // Without a dialog the path is typed.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("green.csv");
+    std::fs::write(&path, "x_mm,deflection_um_per_n\n0,0.6\n1,0.5\n").unwrap();
+    window.state_mut().carry_out(Command::Ask(Purpose::Csv("rotor.green_csv")));
+    answer(&mut window, &path);
+    assert_eq!(window.known().document.scene().get("rotor.model"), Some(Value::Text("green".into())));
 }
 
 #[test]

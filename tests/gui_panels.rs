@@ -12,6 +12,7 @@ use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
+use squeezefilm::gui::state::dialogs::Purpose;
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::edits::Change;
 use squeezefilm::gui::state::view::View;
@@ -48,6 +49,7 @@ impl Edited {
             Command::Set { key, value, .. } => (key, Change::Value(value)),
             Command::SetText(key, text) => (key, Change::Text(text)),
             Command::Reset(key) => (key, Change::Unset),
+            Command::Ask(_) => return,
             other => panic!("{other:?} does not come from this panel"),
         };
         let rejected = &mut self.state.rejected;
@@ -410,6 +412,19 @@ fn a_table_comes_from_its_file() {
         harness.state().state.rejected
     );
     harness.get_by_label("2 rows");
+}
+
+#[test]
+fn a_table_can_be_asked_for() {
+    for (name, key) in [
+        ("Open: Compliance from a CSV file", "rotor.compliance_csv"),
+        ("Open: Deflection from a CSV file", "rotor.green_csv"),
+    ] {
+        let mut harness = panel(Edited::of(Scene::motor()));
+        open_all(&mut harness);
+        click(&mut harness, name);
+        assert_eq!(harness.state().pushed, [Command::Ask(Purpose::Csv(key))]);
+    }
 }
 
 #[test]

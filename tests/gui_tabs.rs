@@ -925,6 +925,10 @@ fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let follows = heights::keys_of(&window.known().face.found.as_ref().unwrap().pair);
     let rms = |window: &Window| window.known().document.scene().get("surface.rms_nm");
     let before = rms(&window);
+    let about = told(&window).into_iter().find(|(_, name, _)| name == "Take roughness from it").unwrap().2.unwrap();
+    let rounded = Value::Number(follows[0].1);
+    assert!(about.contains(&format!("to {rounded} nm")) && about.contains("1/mm²"), "{about}");
+    assert!(!about.contains("Minimum spacing") && about.contains("pressed again"), "{about}");
     window.click_on("Take roughness from it");
     for (key, value) in follows {
         let taken = window.known().document.scene().get(key);

@@ -705,7 +705,7 @@ fn set_refuses_and_changes_nothing() {
             "plank",
             "rotor.model = \"plank\" is not available: expected one of \"beam\", \"section\", \"ring\", \"table\", \"green\"",
         ),
-        ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\": no.csv cannot be read: "),
+        ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\" cannot be read: "),
         ("rotor.compliance", "[[1, 2, 3]]", "rotor.compliance, row 1: [1, 2, 3] is not a pair"),
     ] {
         let message = scene.set(key, text).unwrap_err().to_string();

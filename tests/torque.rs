@@ -352,6 +352,8 @@ fn the_shapes_are_those_of_the_recorded_contact() {
 fn the_figure_has_the_torque_in_the_middle_of_its_error() {
     let curves = solved("fundamental", &[], Fidelity::Draft).merit;
     let figure = figures::torque::torque(&curves);
+    let units: Vec<_> = figure.panels.iter().map(|panel| panel.y.unit.as_str()).collect();
+    assert_eq!(units, ["N·m", "W", "%"], "as in the window");
     let layers = &figure.panels[0].layers;
     let bands: Vec<_> =
         layers.iter().filter_map(|l| if let Layer::Band(band) = l { Some(band) } else { None }).collect();

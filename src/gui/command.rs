@@ -59,6 +59,8 @@ pub enum Command {
     Ask(Purpose),
     /// Does this with the file or the folder that was chosen.
     Chosen(Purpose, PathBuf),
+    /// Does this with the path that was typed. If nothing can be saved there the prompt stays, with the reason.
+    Typed(Purpose, PathBuf),
     /// Saves to the scene's file, or asks for one; then does this.
     Save(Option<Next>),
     /// Closes the window although work goes on; asks about unsaved changes.

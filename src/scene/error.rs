@@ -240,9 +240,12 @@ impl FaultKind {
         Self::Refused { parameter, found, why: "of the wrong type", nearest: None }
     }
 
-    /// A CSV file at `path` that cannot be used. `key` names it, with the value `given`, and `fault` follows the path in the message.
+    /// A CSV file at `path` that cannot be used. `key` names it, with the value `given`, and `fault` follows in the message, after the path
+    /// if that is another.
     pub(super) fn csv(key: &'static str, given: &str, path: &Path, fault: String) -> Self {
-        Self::Rule { key, message: format!("{key} = \"{}\": {}{fault}", show_text(given), path.display()) }
+        let (given, path) = (show_text(given), path.display().to_string());
+        let path = if path == given { String::new() } else { format!(": {path}") };
+        Self::Rule { key, message: format!("{key} = \"{given}\"{path}{fault}") }
     }
 
     /// The dotted key the fault is about, if it is about one.

@@ -1,12 +1,12 @@
 //! Figures of several runs: curves laid over each other, maps side by side with one scale of colours. All are at the same
 //! phase of the cycle, and axes cover the whole cycle of every run.
 
-use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, pressure_unit};
+use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span};
 use super::plate;
 use super::series::{
     along, along_where_not_zero, over_cycle, phase as phase_of, pressure_map, rest, span, tooth_map, with_margin,
 };
-use super::unit::prefixed;
+use super::unit::{prefixed, pressure_unit};
 use crate::export::figure::{Axis, Figure, Legend, Line, Marker, Panel, Points, Range, Style, Width, extent};
 use crate::problem::{Motor, Plate, rpm};
 use crate::recording::Recording;
@@ -174,14 +174,12 @@ pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
     let speed = |run: &MotorRun<'_>, speed: f64| rpm(speed, run.scene.contact_radius);
     let fastest = runs.iter().map(|run| speed(run, run.scene.stator_speed())).fold(f64::MIN_POSITIVE, f64::max);
     let panel = |title: &str, name: &str, unit: &str, value: fn(&OperatingPoint) -> f64| {
-        let values = performances.iter().flat_map(|found| &found.curve).map(value);
-        let (unit, scale) = prefixed(span(values, 0.0)[1], unit);
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
         let lines = runs.iter().zip(performances).map(|(run, found)| {
             // What brakes the rotor is left out; at the end of what drives it the torque is zero but for rounding.
             let end = found.no_load_speed.map_or(f64::INFINITY, |speed| speed.value);
             let driven = found.curve.iter().filter(|point| point.speed <= end);
-            let points = driven.map(|point| [speed(run, point.speed), value(point).max(0.0) * scale]);
+            let points = driven.map(|point| [speed(run, point.speed), value(point).max(0.0)]);
             Line::new(run.name, points, run.style)
         });
         Panel::new(title, x, Axis::new(name, unit).including([0.0])).height(36.0).layer(rest(0.0, "")).layers(lines)

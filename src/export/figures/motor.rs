@@ -4,7 +4,7 @@ use super::series::{
     along, along_where_not_zero, mirrored, over_cycle, phase, pressure_map, rest, span, tooth_map, whole_plane,
     with_margin,
 };
-use super::unit::prefixed;
+use super::unit::{prefixed, pressure_unit};
 use crate::digits::significant;
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
@@ -23,10 +23,8 @@ pub fn crest_in_the_middle(recording: &Recording) -> usize {
 /// Surfaces, contact pressure and film pressure along one wavelength at a frame, as the paper's Fig. 4.
 pub fn wave(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     let mut figure = Figure::new(format!("t/T = {:.3}", phase(recording, frame)));
-    let unit = |values: &[f64]| {
-        let greatest = span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1];
-        if (1e3..1e6).contains(&greatest) { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
-    };
+    let unit =
+        |values: &[f64]| pressure_unit(span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1]);
     let ((contact_unit, scale), (film_unit, film_scale)) = (unit(&recording.contact), unit(&recording.film));
     let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &contact_unit, scale };
     let film = Loads { values: &recording.film, unit: &film_unit, scale: film_scale, ..contact };
@@ -116,7 +114,7 @@ impl Loads<'_> {
 /// Contact pressure and film pressure in one panel.
 pub fn pressures(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let all = recording.contact.iter().chain(&recording.film).map(|load| (load / motor.contact_width).abs());
-    let (unit, scale) = prefixed(span(all, 0.0)[1], "Pa");
+    let (unit, scale) = pressure_unit(span(all, 0.0)[1]);
     let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &unit, scale };
     let film = Loads { values: &recording.film, ..contact };
     let (contact_area, contact_line) = contact.layers("contact", Colour::CONTACT, Dash::Dashed);
@@ -196,12 +194,6 @@ pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scal
 
 pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
     span(recording.pressure.iter().copied(), recording.pressure.first().copied().unwrap_or(0.0))
-}
-
-/// The unit of pressures up to `greatest` \[Pa\], and what a pascal is in it.
-pub(super) fn pressure_unit(greatest: f64) -> (String, f64) {
-    // Kilopascal as long as that has at most four digits: the unit that pressures of air are told in.
-    if (1e3..1e7).contains(&greatest) { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
 }
 
 /// Surfaces, pressures and the film's map at a frame, for moving pictures.

@@ -1,7 +1,7 @@
 //! Figures of a plate.
 
 use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
-use super::unit::prefixed;
+use super::unit::{prefixed, pressure_unit};
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
 };
@@ -11,7 +11,7 @@ use crate::recording::Recording;
 /// Absolute pressure along the plate, at y = 0, at four instants a quarter of a cycle apart.
 pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let ambient = plate.gas.ambient_pressure;
-    let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), ambient)[1], "Pa");
+    let (unit, scale) = pressure_unit(span(recording.pressure.iter().copied(), ambient)[1]);
     let quarters = ["t = 0", "T/4", "T/2", "3T/4"].into_iter().enumerate().map(|(quarter, name)| {
         let points = along_the_middle(recording, quarter * recording.frames / 4, scale, |x| x * 1e3);
         Line::new(name, points, Style { marker: None, ..Style::nth(quarter) })
@@ -101,7 +101,7 @@ pub fn pressure_gap_loop(plate: &Plate, recording: &Recording) -> Figure {
 fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) -> Panel {
     let area = plate.area();
     let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max((load / area).abs()));
-    let (unit, scale) = prefixed(greatest, "Pa");
+    let (unit, scale) = pressure_unit(greatest);
     let (length, gaps) = prefixed(plate.mean_gap + plate.amplitude, "m");
     let at = |m: usize| Some([recording.min_film_thickness.get(m)? * gaps, recording.film_load.get(m)? / area * scale]);
     let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
@@ -132,7 +132,7 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     .layer(Band::new("", body(0.0, gap), Colour::FILM));
     let ambient = plate.gas.ambient_pressure;
     let [low, high] = span(recording.pressure.iter().copied(), ambient);
-    let (unit, scale) = prefixed(high, "Pa");
+    let (unit, scale) = pressure_unit(high);
     let margin = 0.06 * (high - low);
     let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
     let area = points.iter().map(|[x, p]| [*x, ambient * scale, *p]);
@@ -155,7 +155,7 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
 
 /// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
 pub fn map(plate: &Plate, recording: &Recording) -> Figure {
-    let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), 0.0)[1], "Pa");
+    let (unit, scale) = pressure_unit(span(recording.pressure.iter().copied(), 0.0)[1]);
     let ny = recording.map_y.len();
     let strip = plate.width.is_none() || ny < 2;
     let along = if recording.radial { "diameter" } else { "strip" };

@@ -1,7 +1,6 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor.
 
 use super::series::rest;
-use super::unit::prefixed;
 use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
 use crate::solution::{OperatingPoint, Performance};
@@ -13,8 +12,6 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
         wet.curve.iter().chain(&dry.curve).map(value).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
-    let (torque_unit, torques) = prefixed(greatest, "N·m");
-    let (power_unit, powers) = prefixed(most(|point| point.output.value.max(point.friction.value)), "W");
     let fastest = curves.rpm(curves.stator_speed).max(f64::MIN_POSITIVE);
     let x = || Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
     // What brakes the rotor is below the axes.
@@ -25,21 +22,20 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     let dry_style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
     let errors = wet.curve.iter().filter(|point| point.torque.error.is_finite()).map(|point| {
         let OperatingPoint { torque, speed, .. } = point;
-        [curves.rpm(*speed), (torque.value - torque.error) * torques, (torque.value + torque.error) * torques]
+        [curves.rpm(*speed), torque.value - torque.error, torque.value + torque.error]
     });
     let top = |value: f64| if value > 0.0 { 1.08 * value } else { 1.0 };
-    let mut first =
-        Panel::new("(a) torque", x(), Axis::new("torque", &torque_unit).fixed(0.0, top(greatest * torques)))
-            .layer(Band::new("", errors, Colour::FILM))
-            .layer(Line::new("without film", curve(dry, &|point| point.torque.value * torques), dry_style))
-            .layer(Line::new("with film", curve(wet, &|point| point.torque.value * torques), wet_style));
-    let highest = most(|point| point.output.value.max(point.friction.value)) * powers;
-    let mut second = Panel::new("(b) power", x(), Axis::new("power", &power_unit).fixed(0.0, top(highest)))
-        .layer(Line::new("output, without film", curve(dry, &|point| point.output.value * powers), dry_style))
-        .layer(Line::new("output", curve(wet, &|point| point.output.value * powers), wet_style))
+    let mut first = Panel::new("(a) torque", x(), Axis::new("torque", "N·m").fixed(0.0, top(greatest)))
+        .layer(Band::new("", errors, Colour::FILM))
+        .layer(Line::new("without film", curve(dry, &|point| point.torque.value), dry_style))
+        .layer(Line::new("with film", curve(wet, &|point| point.torque.value), wet_style));
+    let highest = most(|point| point.output.value.max(point.friction.value));
+    let mut second = Panel::new("(b) power", x(), Axis::new("power", "W").fixed(0.0, top(highest)))
+        .layer(Line::new("output, without film", curve(dry, &|point| point.output.value), dry_style))
+        .layer(Line::new("output", curve(wet, &|point| point.output.value), wet_style))
         .layer(Line::new(
             "friction heat",
-            curve(wet, &|point| point.friction.value * powers),
+            curve(wet, &|point| point.friction.value),
             Style::solid(Colour::STATOR).dash(Dash::DashDot),
         ));
     let percent = |point: &OperatingPoint| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);

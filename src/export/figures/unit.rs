@@ -12,6 +12,11 @@ pub(super) fn prefixed(greatest: f64, unit: &str) -> (String, f64) {
     (format!("{prefix}{unit}"), 1.0 / factor)
 }
 
+/// The unit of pressures up to `greatest` \[Pa\], and what a pascal is in it: kilopascal, as in the window, unless they are far smaller.
+pub(super) fn pressure_unit(greatest: f64) -> (String, f64) {
+    if greatest >= 1e3 { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -24,5 +29,12 @@ mod tests {
             assert_eq!(prefixed(value, "m").0, expected);
         }
         assert!((prefixed(250e3, "Pa").1 * 250e3 - 250.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn pressures_are_in_kilopascal_however_great_they_are() {
+        for (pressure, unit) in [(12.0, "Pa"), (1e3, "kPa"), (101_325.0, "kPa"), (3e6, "kPa"), (5e7, "kPa")] {
+            assert_eq!(pressure_unit(pressure).0, unit);
+        }
     }
 }

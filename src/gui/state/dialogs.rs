@@ -152,6 +152,8 @@ pub enum Purpose {
     Measurements,
     /// Open a file of heights.
     Heights,
+    /// Open the CSV file that this key of the scene names.
+    Csv(&'static str),
 }
 
 impl Purpose {
@@ -165,6 +167,7 @@ impl Purpose {
             Self::Lessons => "Open a folder of lessons",
             Self::Measurements => "Open a table of measurements",
             Self::Heights => "Open measured heights",
+            Self::Csv(_) => "Open a CSV file",
         }
     }
 
@@ -175,7 +178,7 @@ impl Purpose {
             Self::Picture(_) => Some(("Picture", &["png"])),
             Self::Export(export) => export.described().filter,
             Self::Lessons => None,
-            Self::Measurements => TABLE,
+            Self::Measurements | Self::Csv(_) => TABLE,
             Self::Heights => Some(("Heights", &["csv", "txt"])),
         }
     }

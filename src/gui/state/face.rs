@@ -1,7 +1,10 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
 use super::background::Background;
+use crate::digits::rounded;
 use crate::job::task::BackgroundTask;
+use crate::scene::Scene;
+use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
 use std::sync::Arc;
@@ -17,6 +20,17 @@ pub struct Face {
     pub pair: Pair,
     /// Its statistics.
     pub texture: Texture,
+}
+
+/// Key of the least gap that roughness leaves at a hard stop.
+const SPACING: &str = "film.min_spacing_nm";
+
+impl Face {
+    /// The roughness of two faces like this one: those keys that `scene` has, with their values.
+    pub fn roughness(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
+        let spacing = (SPACING, rounded(self.pair.min_spacing * 1e9, 4));
+        keys_of(&self.pair).into_iter().chain([spacing]).filter(|(key, _)| scene.get(key).is_some()).collect()
+    }
 }
 
 /// Reads a face: its heights and what they come to.

@@ -37,4 +37,6 @@ pub struct PathPrompt {
     pub no_dialog: bool,
     /// Whether it has not been drawn yet.
     pub fresh: bool,
+    /// Why this path was refused.
+    pub refused: Option<String>,
 }

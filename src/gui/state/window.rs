@@ -221,7 +221,9 @@ impl State {
             }
             (Purpose::Picture(_), _) => PICTURE.to_owned(),
             (Purpose::Export(export), _) => export.described().file_name.to_owned(),
-            (Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights, _) => String::new(),
+            (Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights | Purpose::Csv(_), _) => {
+                String::new()
+            }
         }
     }
 

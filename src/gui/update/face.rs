@@ -1,16 +1,11 @@
 //! Carries out the commands of measured faces.
 
 use super::updater::Updater;
-use crate::digits::rounded;
 use crate::gui::state::view::Tab;
 use crate::job::face::FaceWork;
 use crate::scene::Kind;
-use crate::scene::heights::keys_of;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// Key of the least gap that roughness leaves at a hard stop.
-const SPACING: &str = "film.min_spacing_nm";
 
 impl Updater {
     pub(super) fn load_face(&mut self, path: PathBuf) {
@@ -29,10 +24,7 @@ impl Updater {
     /// Gives the scene the roughness of two faces like this one: those of its keys that follow from it.
     pub(super) fn take_roughness(&mut self) {
         let Some(face) = self.state.face.found.as_ref() else { return };
-        let scene = self.state.document.scene();
-        let spacing = (SPACING, rounded(face.pair.min_spacing * 1e9, 4));
-        let values = keys_of(&face.pair).into_iter().chain([spacing]).filter(|(key, _)| scene.get(key).is_some());
-        let values: Vec<_> = values.collect();
+        let values = face.roughness(self.state.document.scene());
         self.take_values(values);
     }
 }

@@ -43,12 +43,14 @@ impl Updater {
             }
             Command::Ask(purpose) => self.ask(purpose),
             Command::Chosen(purpose, path) => self.chosen(purpose, path),
+            Command::Typed(purpose, path) => self.typed(purpose, path),
             Command::OpenPathPrompt => {
                 let purposes = vec![Purpose::Open, Purpose::Save(None)];
                 let like = |failed: &Purpose| purposes.iter().any(|purpose| failed.is_like(purpose));
                 let failed = state.failed_path.take_if(|(failed, _)| like(failed));
                 let path = failed.map_or_else(|| state.suggested_path(&purposes[1]), |(_, path)| path);
-                state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: false, fresh: true }));
+                let prompt = PathPrompt { purposes, path, no_dialog: false, fresh: true, refused: None };
+                state.modal = Some(Modal::Path(prompt));
             }
             Command::Save(then) => self.save(then),
             Command::QuitAnyway => self.proceed_with_document(Next::Quit),
@@ -56,7 +58,8 @@ impl Updater {
             Command::CloseModal => state.modal = state.covered.take(),
             Command::TypePath(path) => {
                 if let Some(Modal::Path(prompt)) = &mut state.modal {
-                    (prompt.path, prompt.fresh) = (path, false);
+                    let refused = prompt.refused.take().filter(|_| path == prompt.path);
+                    (prompt.path, prompt.fresh, prompt.refused) = (path, false, refused);
                 }
             }
             Command::Refine(fidelity) => self.solve(vec![fidelity], None),
@@ -198,10 +201,30 @@ impl Updater {
             Purpose::Open if !table => self.open_file(path),
             Purpose::Open | Purpose::Measurements => self.load_measurements(path),
             Purpose::Heights => self.load_face(path),
+            Purpose::Csv(key) => self.edit(key, false, Change::Text(path.display().to_string())),
             Purpose::Lessons => self.load_lessons(&path),
-            Purpose::Save(then) => self.save_as(path, then),
+            Purpose::Save(then) => {
+                if let Err(reason) = self.save_as(path.clone(), then) {
+                    self.fail_at(Purpose::Save(None), &path, reason);
+                }
+            }
             Purpose::Picture(picture) => self.write_picture(picture, &path),
             Purpose::Export(export) => self.export(export, &path),
+        }
+    }
+
+    /// As [`Self::chosen`] for a path that was typed: the prompt closes. If nothing can be saved there it stays, with the reason and what was
+    /// to come after.
+    fn typed(&mut self, purpose: Purpose, path: PathBuf) {
+        let prompt = std::mem::replace(&mut self.state.modal, self.state.covered.take());
+        match (purpose, prompt) {
+            (Purpose::Save(then), Some(Modal::Path(prompt))) => {
+                if let Err(reason) = self.save_as(path, then) {
+                    let prompt = PathPrompt { fresh: true, refused: Some(reason), ..prompt };
+                    self.state.covered = self.state.modal.replace(Modal::Path(prompt));
+                }
+            }
+            (purpose, _) => self.chosen(purpose, path),
         }
     }
 
@@ -213,7 +236,8 @@ impl Updater {
                 let failed = self.state.failed_path.take_if(|(failed, _)| failed.is_like(&purpose));
                 let path = failed.map_or_else(|| self.state.suggested_path(&purpose), |(_, path)| path);
                 let purposes = vec![purpose];
-                self.state.modal = Some(Modal::Path(PathPrompt { purposes, path, no_dialog: true, fresh: true }));
+                let prompt = PathPrompt { purposes, path, no_dialog: true, fresh: true, refused: None };
+                self.state.modal = Some(Modal::Path(prompt));
             }
         }
     }

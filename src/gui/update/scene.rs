@@ -138,30 +138,31 @@ impl Updater {
             self.leave_lesson();
         }
         match self.state.document.path().map(Path::to_path_buf) {
-            Some(path) => self.save_to(&path, then),
+            Some(path) => {
+                if let Err(reason) = self.save_to(&path, then) {
+                    self.fail_at(Purpose::Save(None), &path, reason);
+                }
+            }
             None => self.ask(Purpose::Save(then)),
         }
     }
 
     /// Saves to a file that was chosen; what has no extension becomes a `.toml`, and another one is refused.
-    pub(super) fn save_as(&mut self, path: PathBuf, then: Option<Next>) {
-        match complete(path.clone(), "preset", &["toml"]) {
-            Ok(path) => self.save_to(&path, then),
-            Err(reason) => self.fail_at(Purpose::Save(None), &path, reason),
-        }
+    ///
+    /// # Errors
+    /// If nothing can be saved there; nothing changes then.
+    pub(super) fn save_as(&mut self, path: PathBuf, then: Option<Next>) -> Result<(), String> {
+        self.save_to(&complete(path, "preset", &["toml"])?, then)
     }
 
     /// Saves to this file, then goes on to `then`.
-    fn save_to(&mut self, path: &Path, then: Option<Next>) {
-        match self.state.document.save(path) {
-            Ok(()) => {
-                self.state.remember(path);
-                let now = self.now();
-                self.state.exports.wrote(vec![path.to_owned()], now);
-                then.into_iter().for_each(|next| self.proceed_now(next));
-            }
-            Err(error) => self.fail_at(Purpose::Save(None), path, error),
-        }
+    fn save_to(&mut self, path: &Path, then: Option<Next>) -> Result<(), String> {
+        self.state.document.save(path).map_err(|error| error.to_string())?;
+        self.state.remember(path);
+        let now = self.now();
+        self.state.exports.wrote(vec![path.to_owned()], now);
+        then.into_iter().for_each(|next| self.proceed_now(next));
+        Ok(())
     }
 
     /// Discards unsaved changes, then goes on to `next`.

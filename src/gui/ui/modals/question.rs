@@ -145,9 +145,9 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
     let alone = replaces && !prompt.purposes.contains(&Purpose::Open);
     cx.alarm(ui, alone.then_some("There is such a file already"));
+    cx.alarm(ui, prompt.refused.as_deref());
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
-        let mut answer = None;
         for (i, purpose) in prompt.purposes.iter().enumerate() {
             let text = match purpose.writes() {
                 false => "Open",
@@ -158,11 +158,10 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
             // Enter takes the first, but replaces nothing.
             let replacing = replaces && *purpose != Purpose::Open;
             if clicked || (entered && named && i == 0 && !replacing) {
-                answer = Some(vec![Command::Chosen(purpose.clone(), path.clone())]);
+                cx.push(Command::Typed(purpose.clone(), path.clone()));
             }
         }
-        let cancelled = ui.button("Cancel").clicked();
-        answer.or(cancelled.then(Vec::new))
+        ui.button("Cancel").clicked().then(Vec::new)
     })
     .inner
 }

@@ -6,6 +6,7 @@ use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label};
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
 use crate::gui::ui::highlight;
@@ -358,8 +359,7 @@ impl Panel<'_> {
         let about = format!("{}\n{}", parameter.about, parameter.key);
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
         let field = self.field(parameter, None, label(parameter), f32::INFINITY);
-        let field = Field { hint: "path of the file, then Enter", ..field };
-        let field = field.show(ui, self.cx).labelled_by(name.id);
+        let field = Field { hint: "path, then Enter", ..field };
         let columns = match parameter.key {
             "surface.heights_csv" => {
                 "A grid of heights after lines # dx_um = …, # dy_um = … and # height = nm, or a profile with columns x_um and z_nm"
@@ -367,7 +367,16 @@ impl Panel<'_> {
             "rotor.green_csv" => "Columns x_mm and deflection_um_per_n",
             _ => "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n",
         };
-        field.hint_beside(ui, columns);
+        ui.horizontal(|ui| {
+            let (text, spacing) = ("Open…", ui.spacing());
+            let button = text_width(ui, text) + 2.0 * spacing.button_padding.x + spacing.item_spacing.x;
+            ui.scope(|ui| {
+                ui.set_max_width((ui.available_width() - button).max(SHORTEST_SLIDER));
+                field.show(ui, self.cx).labelled_by(name.id).hint_beside(ui, columns);
+            });
+            let open = ui.button(text).hint_beside(ui, columns).accessible_name(format!("Open: {}", label(parameter)));
+            self.cx.on_click(&open, Command::Ask(Purpose::Csv(parameter.key)));
+        });
     }
 
     fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {

@@ -5,6 +5,7 @@ use crate::export::figure::{Axis, Colour, Line, Panel, Style};
 use crate::export::surface::{lay, lengths};
 use crate::gui::command::Command;
 use crate::gui::derived::scales::span;
+use crate::gui::derived::words::label;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::face::Face;
 use crate::gui::ui::cache::once;
@@ -13,6 +14,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
 use crate::gui::ui::parts::table;
+use crate::scene::{Parameter, Value};
 use crate::surface::height_map::HeightMap;
 use eframe::egui::{self, Color32, ColorImage, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -34,7 +36,15 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
             ui.spinner();
         }
         let Some(face) = state.found.as_ref() else { return };
-        let about = "Gives the scene what follows from two faces like this one, as much of it as its laws ask for: one edit, which can be undone";
+        let set = face.roughness(cx.state.document.scene()).into_iter().filter_map(|(key, value)| {
+            let parameter = Parameter::find(key)?;
+            Some(format!("{} to {}", label(parameter), parameter.with_unit(Value::Number(value))))
+        });
+        let about = format!(
+            "Sets what follows from two faces like this one in the present surface model, as one edit:\n{}\nAfter another model is chosen \
+             nothing is taken until this is pressed again",
+            set.collect::<Vec<_>>().join("\n")
+        );
         cx.button(ui, "Take roughness from it", about, Command::TakeRoughness);
         cx.button(ui, "Forget it", "The face is no longer shown", Command::ForgetFace);
         ui.label(&face.name);
