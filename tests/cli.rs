@@ -892,7 +892,8 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     assert!(rows.iter().all(|row| out(&table).contains(row["row"].as_str().unwrap())));
 
     // A row that cannot be solved says so, and the others are solved.
-    let one_less = run(&[&arguments[..], &["--json", "--set", "rotor.model=ring"]].concat());
+    let lining = ["--set", "rotor.part.lining.r_inner_mm=28.85", "--set", "rotor.part.lining.r_outer_mm=29.15"];
+    let one_less = run(&[&arguments[..], &["--json", "--set", "rotor.model=ring"], &lining].concat());
     assert_eq!(one_less.status.code(), Some(2), "{}", err(&one_less));
     assert!(err(&one_less).contains("rotor_width_0.6mm: rotor.model = \"ring\""), "{}", err(&one_less));
     let rows: Vec<Value> = serde_json::from_slice(&one_less.stdout).unwrap();

@@ -481,7 +481,8 @@ fn a_refused_length_stays_in_its_field_with_the_reason_below_its_part() {
     }
     click_a(&mut harness, Role::SpinButton, field);
     press(&mut harness, Key::Escape);
-    assert!(shown(&harness).starts_with("29.7") && harness.query_by_label_contains("expected a number").is_none());
+    assert!(shown(&harness).starts_with("29.7"), "{}", shown(&harness));
+    assert!(harness.query_by_label_contains("expected a number").is_none());
     assert_eq!(harness.state().scene(), &ring);
     // A correction is taken, and what it was before is too.
     for (text, radius) in [("27", 29.7), ("30", 30.0), ("27", 30.0), ("30", 30.0)] {

@@ -5,7 +5,9 @@ use super::glossary;
 use crate::digits::{as_given, signed};
 use crate::scene::quantity_text;
 use crate::scene::show_text;
-use eframe::egui::{Button, Color32, DragValue, Event, Grid, Id, Response, RichText, ScrollArea, Stroke, Tooltip, Ui};
+use eframe::egui::{
+    Button, Color32, DragValue, Event, Grid, Id, Key, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
+};
 use std::cell::Cell;
 use std::fmt::Debug;
 use std::hash::Hash;
@@ -37,13 +39,21 @@ pub(super) fn entered_box(
     drag: DragValue<'_>,
     (range, unit): (RangeInclusive<f64>, &str),
 ) -> (Response, Option<Entered>) {
+    // What Escape has dropped must not be read after all when the frame is laid out once more.
+    let (key, frame) = (ui.next_auto_id().with("escaped"), ui.ctx().cumulative_frame_nr());
+    let dropped = ui.data(|data| data.get_temp::<u64>(key)).is_some_and(|at| frame <= at + 1);
     let entered = Cell::new(None);
     let read = |text: &str| {
         let found = quantity_text::number(unit, text).filter(|number| range.contains(number));
-        entered.set(Some((text.to_owned(), found.is_none().then(|| refusal(text, &range, unit)))));
-        found
+        if !dropped {
+            entered.set(Some((text.to_owned(), found.is_none().then(|| refusal(text, &range, unit)))));
+        }
+        found.filter(|_| !dropped)
     };
     let response = ui.add(drag.range(range.clone()).update_while_editing(false).custom_parser(read));
+    if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Escape)) {
+        ui.data_mut(|data| data.insert_temp(key, frame));
+    }
     (response, entered.take())
 }
 
