@@ -145,6 +145,7 @@ fn without_a_file_dialog_the_path_is_typed() {
     let Some(Modal::Path(prompt)) = &window.known().modal else { panic!("the prompt is gone") };
     assert_eq!(prompt.path, nowhere.to_str().unwrap());
     type_path(&mut window, folder.path().join("kept.toml").to_str().unwrap());
+    window.step();
     assert!(window.query_by_label_contains("there is no folder").is_none(), "of another path");
     window.press(Key::Enter);
     assert!(window.known().modal.is_none() && folder.path().join("kept.toml").is_file());

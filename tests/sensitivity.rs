@@ -220,9 +220,9 @@ fn small_uncertainties_are_linear() {
         let [low, median, high] = drawn.quantiles;
         assert!(low.value < median.value && median.value < high.value);
         assert!(drawn.bins.2.iter().sum::<usize>() == DRAWS);
-        // Normally distributed: √(π/2) times that of the mean, and twice as much at the ends.
+        // Of a normal distribution √(π/2) times that of the mean, and about twice that of the mean at the ends.
         let errors = [low, median, high].map(|quantile| quantile.error / drawn.mean_error());
-        assert!((0.7..2.0).contains(&errors[1]) && errors[0] > 1.2 && errors[2] > 1.2, "{output}: {errors:?}");
+        assert!((0.7..2.0).contains(&errors[1]) && errors[0] > 0.9 && errors[2] > 0.9, "{output}: {errors:?}");
     }
     // It is not the linear estimate in disguise: far away the film is not linear.
     let far = uncertainties(&scene, &[("film.min_spacing_nm", "40%")]);
@@ -235,13 +235,13 @@ fn draws_out_of_range_are_drawn_again_and_counted() {
     let scene = presets::find("fundamental").unwrap();
     let found = sensitivity(&scene, &["motor.dry_friction"], Fidelity::Draft);
     let carlo =
-        found.monte_carlo(&uncertainties(&scene, &[("motor.dry_friction", "0.7")]), 100, 1, &Cancel::new(), &|| ());
+        found.monte_carlo(&uncertainties(&scene, &[("motor.dry_friction", "0.7")]), 500, 1, &Cancel::new(), &|| ());
     let carlo = carlo.unwrap();
     // α does not depend on friction; the mean of the torque moved with the draws that were not allowed.
     let off = |output: usize| carlo.spread(output).unwrap().is_off(found.values[output]);
     assert_eq!([off(0), off(1)], [false, true]);
     let MonteCarlo { draws, failures, redrawn, .. } = carlo;
-    assert!(redrawn > 5 && failures.is_empty() && draws.len() == 100);
+    assert!(redrawn > 5 && failures.is_empty() && draws.len() == 500);
     assert!(draws.iter().all(|draw| (0.0..=2.0).contains(&draw.values[0])));
     let cancel = Cancel::new();
     cancel.cancel();
