@@ -165,7 +165,7 @@ fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
     runs.iter().filter_map(performance).collect()
 }
 
-/// The name of a run above figures: its label, or what its scene's name only counts.
+/// The name of a run above figures: its label or, if that is the name of its scene, the scene's headline, which names what was changed.
 fn headline(run: &ComparedRun) -> String {
     if run.label == run.scene.name { run.scene.headline() } else { run.label.clone() }
 }
@@ -319,7 +319,7 @@ pub fn report(
     } else {
         format!(
             "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are against the first. The \
-             ± is the solver's estimate of its numerical error; that of a difference is the sum of both.",
+             ± is the solver's estimate of its numerical error; that of a difference is the most that both make of it.",
             runs.len()
         )
     };

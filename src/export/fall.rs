@@ -47,7 +47,7 @@ pub fn object(
     })
 }
 
-/// The limits of the model that are exceeded where the plate floats, or rests.
+/// The limits of the model that are exceeded where the plate floats or, if it does not, where it would rest.
 pub fn validity(problem: &Problem, ended: &Fall) -> Vec<Excess> {
     let mut problem = problem.clone();
     if let (Scenario::Plate(plate), None) = (&mut problem.scenario, &ended.outcome) {

@@ -14,7 +14,6 @@ use crate::analysis::sweep::{Sweep, SweepRow};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
-use crate::export::startup::CycleRow;
 use crate::fall::Fall;
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
@@ -387,7 +386,7 @@ pub fn startup(
     (ended, cycles): (&Startup, &[crate::startup::Cycle]),
     wall_s: f64,
 ) -> Result<Vec<PathBuf>, WriteError> {
-    let rows: Vec<CycleRow> = cycles.iter().map(|cycle| CycleRow::of(problem, cycle)).collect();
+    let rows: Vec<_> = cycles.iter().map(|cycle| startup::CycleRow::of(problem, cycle)).collect();
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| startup::write_csv(problem, &rows, out))?;
     files.json("startup.json", &startup::object((scene, problem), settings, ended, &rows, wall_s))?;
@@ -402,7 +401,7 @@ pub fn startup(
     files.commit()
 }
 
-/// Writes the files of `squeezefilm startup --out` for a plate that is dropped into a folder. `wall_s`: by the caller's clock, or not a number.
+/// Writes into a folder the files of `squeezefilm startup --out` for a plate that is dropped. `wall_s`: by the caller's clock, or not a number.
 pub fn fall(
     folder: &Folder<'_>,
     (scene, problem): (&Scene, &Problem),

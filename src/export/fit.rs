@@ -208,6 +208,7 @@ pub fn optimum(preset: &str, found: &Optimum) -> Value {
         "before": before.map(|before| before.value),
         "converged": converged,
         "unknowns": lines.iter().map(scan).collect::<Vec<_>>(),
+        "flat_share": found.flatness(),
         "limits": goal.limits.iter().enumerate().map(|(i, (one, _))| limit(one, limited.get(i))).collect::<Vec<_>>(),
         "solves": solves,
         "warnings": warnings,

@@ -315,9 +315,11 @@ impl<'a> MotorTransient<'a> {
         };
         // What film and contact still disagree by, as a force of the gas.
         let finest = self.levels.last().filter(|_| !floats);
-        let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load).max(1.0);
-        let elsewhere = left_out + astray.min(1.0) * gas;
-        recording.judge_series(elsewhere / gas, (elsewhere / gas).max(plan.left_out), UNEVEN * plan.irregular);
+        let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load);
+        let elsewhere = left_out + astray.min(1.0) * gas.max(1.0);
+        // What is a share of the load, as one of the gas.
+        let of_gas = astray.min(1.0) + left_out / (gas + f64::MIN_POSITIVE);
+        recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
         recording.across = self.width_error / (mean.value.abs() + f64::MIN_POSITIVE);
         let mut result = summarise(motor, &recording);
         // Its frames begin with the start of the cycle, and have not its end.

@@ -28,7 +28,7 @@ use super::error::AnalysisError;
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
 pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
 pub use model::{Computed, Model};
-pub use optimum::{FLAT, Goal, Limit, Optimum, Scan, optimise};
+pub use optimum::{Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;
 pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
 

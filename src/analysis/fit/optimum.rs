@@ -31,7 +31,7 @@ const AT_BOUND: f64 = 2e-3;
 /// Points of a line through the optimum.
 const LINE: usize = 21;
 /// A share of the optimum that a designer does not mind.
-pub const FLAT: f64 = 0.01;
+const FLAT: f64 = 0.01;
 /// Share of the bounds over which a number that changes less makes a plateau.
 const PLATEAU: f64 = 0.1;
 /// Penalty in place of a number that could not be computed, in units of the number that is sought.
@@ -57,9 +57,14 @@ impl FromStr for Limit {
         let (name, value) = spelled.split_once(if below { '<' } else { '>' }).unwrap_or_default();
         let (name, value) = (name.trim(), value.trim_start_matches('=').trim());
         let name = if name == "α" { Quantity::Alpha.name() } else { name };
-        let unit = Quantity::all().find(|quantity| quantity.name() == name).map_or("", Quantity::usual_unit);
+        let known = Quantity::all().find(|quantity| quantity.name() == name);
+        let unit = known.map_or("", Quantity::usual_unit);
         match quantity_text::number(unit, value) {
             Some(value) => Ok(Self { name: name.to_owned(), below, value }),
+            None if known.is_none() && !name.is_empty() && !value.is_empty() => {
+                let all: Vec<&str> = Quantity::all().filter(|one| !one.is_error()).map(Quantity::name).collect();
+                Err(no_such_number("limit", name, &all.join(", ")))
+            }
             None => {
                 let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
                 Err(AnalysisError::Input(format!(
@@ -158,7 +163,7 @@ pub struct Optimum {
 }
 
 impl Optimum {
-    /// The share of the optimum within which the number stays over [`Scan::flat`]: [`FLAT`], or its own numerical error where that is greater.
+    /// The share of the optimum within which the number stays over [`Scan::flat`]: a hundredth, or its own numerical error where that is greater.
     pub fn flatness(&self) -> f64 {
         flatness(&self.value)
     }
@@ -456,7 +461,7 @@ fn describe(
     }))
 }
 
-/// The share by which the number may differ within [`Scan::flat`]: [`FLAT`], or its own numerical error where that is greater.
+/// The share by which the number may differ within [`Scan::flat`]: a hundredth, or its own numerical error where that is greater.
 fn flatness(best: &Estimate) -> f64 {
     let own = best.error / best.value.abs();
     if own.is_finite() { own.max(FLAT) } else { FLAT }
@@ -491,7 +496,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_edge_is_where_a_hundredth_is_lost() {
+    fn the_edge_is_where_a_share_is_lost_or_a_limit() {
         let parabola: Vec<(f64, Option<f64>)> =
             (0..=100).map(|i| f64::from(i) / 100.0).map(|x| (x, Some(2.0 * (1.0 - (x - 0.4) * (x - 0.4))))).collect();
         let mut kept = [true; 101];
@@ -528,5 +533,7 @@ mod tests {
         for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf", "min_gap_nm<3 %", "min_gap_nm<3 kHz"] {
             assert!(wrong.parse::<Limit>().unwrap_err().to_string().contains("expected name<value"), "{wrong}");
         }
+        let unknown = "stall_torque>0.2 N·m".parse::<Limit>().unwrap_err().to_string();
+        assert!(unknown.contains("limit stall_torque: no such number; allowed: alpha, "), "{unknown}");
     }
 }

@@ -28,8 +28,8 @@ pub enum Sought {
     Least,
 }
 
-/// Which scene is open, whatever was edited in it: how many were opened so far, and whether a lesson has set up its own.
-pub type Opened = (u64, bool);
+/// Which scene is open, whatever was edited in it: how many were opened so far, and the lesson and its step that has set up another one.
+pub type Opened = (u64, Option<(usize, usize)>);
 
 /// The form, as typed.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -127,7 +127,7 @@ impl State {
 
     /// Which scene is open.
     pub fn opened(&self) -> Opened {
-        (self.view.opened, self.document.practice)
+        (self.view.opened, self.lessons.running.as_ref().map(|running| (running.lesson, running.step)))
     }
 
     /// The measured torques that are drawn over the curve, and how many are not.

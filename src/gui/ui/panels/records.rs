@@ -28,6 +28,8 @@ struct Tried {
     fault: Option<String>,
     /// The array that the edit made, or the present one if the text is at fault.
     array: Value,
+    /// The frame in which it was made: it is carried out when that has been drawn.
+    frame: u64,
 }
 
 impl Tried {
@@ -40,7 +42,7 @@ impl Tried {
         let tried: Self = ui.data(|data| data.get_temp(Self::id_of(key)))?;
         let fault = tried.fault.clone().filter(|_| cx.state.document.scene().get(key).as_ref() == Some(&tried.array));
         let why = fault.or_else(|| cx.state.rejected.of_value(key, &tried.array).map(str::to_owned));
-        if why.is_none() {
+        if why.is_none() && ui.ctx().cumulative_frame_nr() > tried.frame {
             Self::forget(ui, key);
         }
         Some((tried, why?))
@@ -73,6 +75,7 @@ pub fn show(
         cx.push(Command::Set { key: parameter.key, value: Value::Records(records), dragging });
     };
     let one = label(parameter).trim_end_matches('s').to_lowercase();
+    let drawn = ui.ctx().cumulative_frame_nr();
     let refused = Tried::refused(ui, cx, parameter.key);
     for (number, record) in records.iter().enumerate() {
         let name = match record.first() {
@@ -113,13 +116,14 @@ pub fn show(
                                 value => edited[number][place] = value,
                             }
                             let array = Value::Records(edited.clone());
-                            Tried { at: [number, place], text, fault: None, array }.keep(ui, parameter.key);
+                            Tried { at: [number, place], text, fault: None, array, frame: drawn }
+                                .keep(ui, parameter.key);
                             set(edited, dragging);
                         }
                         Some(Edit::Faulty { text, fault }) => {
                             let array = Value::Records(records.to_vec());
                             let (text, fault) = (Some(text), Some(fault));
-                            Tried { at: [number, place], text, fault, array }.keep(ui, parameter.key);
+                            Tried { at: [number, place], text, fault, array, frame: drawn }.keep(ui, parameter.key);
                         }
                         Some(Edit::Dropped) => {
                             Tried::forget(ui, parameter.key);
