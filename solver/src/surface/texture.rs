@@ -1,9 +1,9 @@
 //! Statistics of a measured face: heights, lengths, spectral moments, and the keys of a preset that follow.
 //!
 //! Sa, Sq, Sz, Ssk and Sku are those of ISO 25178-2 of the levelled heights. The correlation length along an axis is where the
-//! autocorrelation first falls to ½; the lay γ is the ratio of both, or a bound of it where one is longer than half the face (Peklenik 1968,
-//! as in Patir and Cheng 1978). Summits follow from the mean squares of height, slope and curvature along a line, m₀, m₂, m₄ (J. I. McCool, ASME J. Tribol. 109, 1987), those of two faces
-//! together being the sums:
+//! autocorrelation first falls to ½; the lay γ is the ratio of both, or a bound of it where one is longer than half the face
+//! (Peklenik 1968, as in Patir and Cheng 1978). Summits follow from the mean squares of height, slope and curvature along a line, m₀, m₂,
+//! m₄ (J. I. McCool, ASME J. Tribol. 109, 1987), those of two faces together being the sums:
 //!
 //! ```text
 //! η = (m₄/m₂)/(6π√3)      R = 3√π/(8√m₄)      bandwidth m₀m₄/m₂²
