@@ -190,25 +190,19 @@ impl Document {
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.undo.pop() else { return false };
-        let now = self.take_back(scene, target);
-        self.redo.push(now);
+        // If it was saved in between as another one than the preset that it was made from, an edited one of before no longer claims to be that
+        // preset either.
+        let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
+        self.redo.push((std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target)));
         true
     }
 
     /// Makes the last undone edit again; whether there was one.
     pub fn redo(&mut self) -> bool {
-        self.dragging = None;
-        let Some((scene, target)) = self.redo.pop() else { return false };
-        let now = self.take_back(scene, target);
-        self.undo.push(now);
-        true
-    }
-
-    /// Replaces the scene by one from the history, and returns the present one. If it was saved in between as another one than the preset
-    /// that it was made from, an edited one of before no longer claims to be that preset either.
-    fn take_back(&mut self, scene: Scene, target: Fidelity) -> (Scene, Fidelity) {
-        let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
-        (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target))
+        std::mem::swap(&mut self.undo, &mut self.redo);
+        let made = self.undo();
+        std::mem::swap(&mut self.undo, &mut self.redo);
+        made
     }
 
     /// Whether there is anything to undo.
