@@ -110,7 +110,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
                 ui.spinner();
                 ui.label(&waiting.name);
                 let name = format!("Do not pin {}", waiting.name);
-                cx.small_button(ui, ("✕", "Do not pin it"), name, PinCommand::Forget(waiting.id));
+                cx.small_button(ui, ("✕", "Do not pin it"), name, PinCommand::Remove(waiting.id));
             });
         }
     });
