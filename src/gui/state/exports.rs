@@ -40,11 +40,6 @@ impl ExportState {
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
     }
 
-    /// Asks the one under way to end; nothing is written.
-    pub fn cancel(&mut self) {
-        self.running.iter_mut().for_each(|running| running.work.cancel());
-    }
-
     /// Files written last, while the note about them is shown.
     pub fn written(&self) -> Option<&[PathBuf]> {
         self.written.as_ref().map(|(paths, _)| paths.as_slice())

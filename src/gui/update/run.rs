@@ -78,7 +78,7 @@ impl Updater {
             Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
-            Command::CancelExport => state.exports.cancel(),
+            Command::CancelExport => state.exports.running.iter_mut().for_each(|running| running.work.cancel()),
             Command::CloseExportNote => state.exports.close_note(),
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
