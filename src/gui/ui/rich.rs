@@ -187,15 +187,12 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     if word.is_empty() {
                         break;
                     }
+                    let set = |colour| Typeset::text(painter, word, style(colour), *kind == Style::Slanted);
                     let set = match kind {
-                        Style::Plain => Typeset::text(painter, word, style(look.colour), false),
-                        Style::Slanted => Typeset::text(painter, word, style(look.colour), true),
+                        Style::Plain | Style::Slanted => set(look.colour),
                         // The fonts have one weight: what is strong has a colour.
-                        Style::Strong => {
-                            Typeset::text(painter, word, style(palette(ui.visuals().dark_mode).film), false)
-                        }
-                        Style::Code => Typeset::text(painter, word, style(look.colour), false)
-                            .with_ground(ui.visuals().extreme_bg_color),
+                        Style::Strong => set(palette(ui.visuals().dark_mode).film),
+                        Style::Code => set(look.colour).with_ground(ui.visuals().extreme_bg_color),
                     };
                     let glued = number && (word.starts_with(|c: char| c.is_ascii_digit()) || is_unit(word));
                     atoms.push(Atom { set, space: apart.then_some(space), glued });
