@@ -1,7 +1,7 @@
 //! Charts of the tabs: a panel as figures describe it, with its axes, names and legend.
 
 use super::glossary::{self, Explained};
-use super::hint::text_width;
+use super::hint::{Hint, text_width};
 use super::plot::{between, dots, framed, level, line, marks, numbered, tick, upright};
 use super::theme::on_screen;
 use crate::digits::{power_of_ten, raised, short};
@@ -319,8 +319,7 @@ fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce
     let em = galley.size().y;
     let size = vec2(indent * em + galley.size().x + after * em, em);
     let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
-    response.explained_here(ui, text);
+    response.called(egui::Role::Label, text).explained_here(ui, text);
     draw(ui.painter(), area.left_center(), em);
     ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }

@@ -2,7 +2,7 @@
 
 use super::highlight::ring_round;
 use super::rich::{self, Look};
-use crate::gui::ui::hint::{beside_with, describe};
+use crate::gui::ui::hint::{Hint, beside_with, describe};
 use crate::lessons::glossary::{Term, find};
 use crate::lessons::text::plain_blocks;
 use eframe::egui::{self, Id, RichText, Ui};
@@ -47,8 +47,7 @@ pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui:
 /// A hover area over a term at `place`; `number` tells apart the terms of one drawing.
 pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
     let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("About: {word}")));
-    response
+    response.called(egui::Role::Label, &format!("About: {word}"))
 }
 
 fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Rect>) -> egui::Response {

@@ -2,6 +2,7 @@
 
 use super::formula::{Style as MathStyle, Typeset};
 use crate::gui::ui::cache::once;
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::theme::{mathematics, palette};
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
@@ -59,8 +60,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
                 let left = area.left() + (0.5 * (room - formula_set.width)).max(0.0);
                 let at = pos2(left, area.top() + 0.25 * look.size + formula_set.ascent);
                 ui.painter().extend(formula_set.moved(at.to_vec2()));
-                let text = formula.plain();
-                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+                response.called(egui::Role::Label, &formula.plain());
             }
         }
     }
@@ -122,8 +122,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
         .collect();
     let height: f32 = heights.iter().map(|(ascent, descent)| ascent + descent + lead).sum();
     let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
-    let text = plain(parts);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+    let response = response.called(egui::Role::Label, &plain(parts));
     if ui.is_rect_visible(area) {
         let mut top = area.top();
         for (line, (ascent, descent)) in lines.iter().zip(&heights) {

@@ -169,10 +169,7 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .desired_width(width);
     let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
-    let response = ui.add(field).hint(about);
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, format!("Label of {}", run.label))
-    });
+    let response = ui.add(field).hint(about).called(egui::Role::TextInput, &format!("Label of {}", run.label));
     if response.lost_focus() {
         let escaped = ui.input(|input| input.key_pressed(Key::Escape));
         if !escaped && text != run.label {

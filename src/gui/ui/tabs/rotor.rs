@@ -130,7 +130,7 @@ fn section(
 ) {
     let boxes: Vec<[f64; 4]> = parts.iter().filter_map(|part| lengths(part)).collect();
     let (rect, canvas) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    canvas.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Cross-section of the rotor"));
+    let canvas = canvas.called(egui::Role::Image, "Cross-section of the rotor");
     let bound = |i: usize, pick: fn(f64, f64) -> f64| boxes.iter().map(|part| part[i]).reduce(pick).unwrap_or(0.0);
     let now = [bound(0, f64::min), bound(1, f64::max), bound(2, f64::min), bound(3, f64::max)];
     // While an edge is dragged the scale stays.
@@ -184,8 +184,7 @@ fn section(
             let id = canvas.id.with((number, which));
             let cursor = if which < 2 { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
             let held = ui.interact(edge.expand(REACH).intersect(rect), id, Sense::drag()).on_hover_cursor(cursor);
-            let named = format!("{} of {name}, to drag", label(which));
-            held.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &named));
+            let held = held.called(egui::Role::Slider, &format!("{} of {name}, to drag", label(which)));
             if held.hovered() || held.dragged() {
                 painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
             }

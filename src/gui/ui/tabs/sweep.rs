@@ -15,8 +15,7 @@ use crate::gui::ui::panels::parameters::GROUPS;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
-use eframe::egui::accesskit::Role;
-use eframe::egui::{Ui, WidgetInfo};
+use eframe::egui::{Role, Ui};
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -112,8 +111,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                     next.fidelity = fidelity;
                     cx.push(SweepCommand::Form(next));
                 }
-                combo.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
-                combo.explained_here(ui, "Fidelity");
+                combo.called(Role::ComboBox, "Fidelity of the sweep").explained_here(ui, "Fidelity");
             }
         }
         quantity(ui, cx);

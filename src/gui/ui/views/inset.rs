@@ -1,5 +1,6 @@
 //! A chart among the painted drawings of a view.
 
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{framed, id, marks, numbered, tick};
 use crate::ticks::Steps;
@@ -87,9 +88,8 @@ fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64>
     if !strip.is_positive() {
         return None;
     }
-    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag());
     let text = format!("Line of {}: drag it", name.split(':').next().unwrap_or(name));
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag()).called(egui::Role::Image, &text);
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     if response.double_clicked()
         && let Some(mut memory) = PlotMemory::load(ui.ctx(), id(name))
