@@ -9,7 +9,7 @@ use super::pointer::named;
 use super::series::{Series, Trace};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::scales::{Curve, RunCurves, span};
+use crate::gui::derived::scales::{Curve, RunCurves, span, with_margin};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
@@ -374,12 +374,11 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
     let range = span(runs.iter().flat_map(|run| run.pin.curves.scales.ranges.pressure));
     let ambient = span(runs.iter().flat_map(|run| [run.of.gas.ambient_pressure; 2]));
-    let [low, high] = span([range, ambient].into_iter().flatten()).map(|pressure| pressure * 1e-3);
-    let margin = 0.06 * (high - low);
+    let pressures = span([range, ambient].into_iter().flatten()).map(|pressure| pressure * 1e-3);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
     inside.title(chart, "Film pressure", &titles, &[]);
     let written = along.written();
-    let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
+    let bounds = [x.map(|x| x * written), with_margin(pressures, 0.06)];
     let name = "Plates along their length: point to read values";
     // Of round ones the length is the diameter.
     let round = runs.iter().all(|run| run.recording.radial);
