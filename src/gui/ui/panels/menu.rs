@@ -85,17 +85,13 @@ const EXPORTS: &[&[Export]] = &[
     SWEEP,
     &[Export::TradeoffTable, Export::TradeoffFigure],
     &[Export::Sensitivity],
-    FIT,
-    STARTUP,
+    &[Export::Fit],
+    &[Export::Startup],
 ];
 /// Exports of the pinned runs.
 pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport];
 /// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
-/// Exports of a start-up.
-pub const STARTUP: &[Export] = &[Export::Startup];
-/// Exports of a fit.
-pub const FIT: &[Export] = &[Export::Fit];
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) {

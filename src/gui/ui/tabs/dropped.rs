@@ -10,7 +10,7 @@ use crate::gui::state::dropped::Dropped;
 use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::panels::menu::{STARTUP, export_button};
+use crate::gui::ui::panels::menu::export_button;
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, Color32, RichText};
 
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         }
         if cx.state.can_export(Export::Startup) {
-            export_button(ui, STARTUP, cx);
+            export_button(ui, &[Export::Startup], cx);
         }
     });
     let Some(dropped) = dropped else {

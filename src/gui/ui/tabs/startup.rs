@@ -8,7 +8,7 @@ use crate::gui::state::dialogs::Export;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::panels::menu::{STARTUP, export_button};
+use crate::gui::ui::panels::menu::export_button;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::views;
 use crate::scene;
@@ -69,7 +69,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let hover = "Plays the cycles that are kept one after the other, from the first";
         cx.button(ui, "Play from rest", hover, StartupCommand::Replay);
         if cx.state.can_export(Export::Startup) {
-            export_button(ui, STARTUP, cx);
+            export_button(ui, &[Export::Startup], cx);
         }
     });
 }
