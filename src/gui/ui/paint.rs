@@ -156,8 +156,7 @@ impl PlotStyle {
         if ends[0] == ends[1] {
             let everywhere: Vec<_> =
                 titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
-            self.title(plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
-            return;
+            return self.title(plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
         }
         self.title_with_ends(plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
     }

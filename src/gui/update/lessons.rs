@@ -112,11 +112,10 @@ impl Updater {
     /// Does what comes next in the tour, whose last stop leads to the first lesson, or in a lesson.
     fn go_on(&mut self) {
         if let Some(stop) = self.state.lessons.tour {
-            match stop + 1 < STOPS.len() {
+            return match stop + 1 < STOPS.len() {
                 true => self.carry_out(Command::Tour(Some(stop + 1))),
                 false => self.teach(LessonCommand::Open(0, Some(0))),
-            }
-            return;
+            };
         }
         match self.state.lessons.stage() {
             Some(Stage::Question) if !self.state.lessons.lacks_number() => self.teach(LessonCommand::Commit),

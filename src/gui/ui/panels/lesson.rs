@@ -43,10 +43,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| {
         scrolled(ui, ("lesson", running.lesson, running.step), 10.0, |ui| {
             let look = Look::reading(ui);
-            let Some((step, work)) = step else {
-                recap(ui, lesson, &running.work, cx);
-                return;
-            };
+            let Some((step, work)) = step else { return recap(ui, lesson, &running.work, cx) };
             ui.add(egui::Label::new(RichText::new(&step.title).heading().strong()).wrap());
             ui.add_space(0.4 * look.size);
             lesson_parts::blocks(ui, &step.body, look, false, cx);

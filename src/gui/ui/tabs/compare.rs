@@ -36,8 +36,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if pins.can_restore() {
             cx.button(ui, "Bring the pins back", "Those that were removed together", PinCommand::Restore);
         }
-        introduction(ui, cx);
-        return;
+        return introduction(ui, cx);
     }
     chips(ui, cx);
     note(ui, cx);

@@ -37,13 +37,12 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         }
     });
     let Some(dropped) = dropped else {
-        cx.introduce(ui, &[
+        return cx.introduce(ui, &[
             "What does a plate under a load do when it is dropped on the vibration?",
             "It falls from rest, at twice the gap at which it floats, through gas at ambient pressure, while the vibration comes up. Its \
              way is marched with time steps of two lengths, whose difference is the error of the height. In the tab Hold it \
              can be pushed by hand and let go, in slow motion.",
         ]);
-        return;
     };
     let (text, colour) = ending(dropped, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {

@@ -38,8 +38,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();
     let Some(Problem { scenario: Scenario::Motor(motor), .. }) = &cx.state.problem else {
-        cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
-        return;
+        return cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
     };
     scrolled(ui, "rotor", 14.0, |ui| {
         let known = cx.state.rotor.found();

@@ -23,15 +23,11 @@ const LINES: (f32, f32) = (6.5, 13.0);
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if cx.state.document.scene().floats() {
-        dropped::show(ui, cx);
-        return;
+        return dropped::show(ui, cx);
     }
     let height = ui.available_height();
     buttons(ui, cx);
-    let Some(startup) = &cx.state.startup else {
-        introduction(ui, cx);
-        return;
-    };
+    let Some(startup) = &cx.state.startup else { return introduction(ui, cx) };
     state(ui, startup, cx);
     if startup.points.is_empty() {
         return;

@@ -27,10 +27,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.push(SweepCommand::Form(asked.clone()));
     }
     buttons(ui, &asked, cx);
-    let Some(swept) = cx.state.sweep.swept.as_ref() else {
-        cx.introduce(ui, INTRODUCTION);
-        return;
-    };
+    let Some(swept) = cx.state.sweep.swept.as_ref() else { return cx.introduce(ui, INTRODUCTION) };
     state(ui, swept, cx);
     let quantity = cx.state.sweep.quantity(&swept.sweep.quantities());
     let present = if swept.stale(cx.state.document.scene()) { None } else { swept.present(cx.state.document.scene()) };

@@ -31,10 +31,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     scrolled(ui, "trade-off", 20.0, |ui| {
         buttons(ui, cx);
-        let Some(measured) = &cx.state.tradeoff else {
-            cx.introduce(ui, INTRODUCTION);
-            return;
-        };
+        let Some(measured) = &cx.state.tradeoff else { return cx.introduce(ui, INTRODUCTION) };
         state(ui, measured, cx);
         let tradeoff = &measured.tradeoff;
         if !tradeoff.points.iter().any(|point| point.error.is_some()) {
