@@ -102,7 +102,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                     &first_button(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about),
                     SweepCommand::Start,
                 );
-                let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);
+                let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, cx);
                 if let Some(fidelity) = chosen {
                     let mut next = form.clone();
                     next.fidelity = fidelity;
