@@ -40,7 +40,7 @@ const CHOICES: &[(&str, &str, &str)] = &[
 /// Label of the choice that leaves a parameter to the plan.
 const AUTO: &str = "Automatic";
 /// Name of that choice in a scene.
-const AUTO_NAME: &str = "auto";
+pub const AUTO_NAME: &str = "auto";
 
 /// The name of a parameter: its own, or its key in words with a capital letter.
 pub fn label(parameter: &Parameter) -> &'static str {
