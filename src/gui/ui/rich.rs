@@ -45,15 +45,11 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
-                let mut size = mathematics::DISPLAY * look.size;
-                let set = |ui: &Ui, size: f32| {
-                    let style = MathStyle { size, colour: look.colour, display: true };
-                    Typeset::of(ui.painter(), &formula.nodes, style)
-                };
-                let mut formula_set = set(ui, size);
+                let style = MathStyle { size: mathematics::DISPLAY * look.size, colour: look.colour, display: true };
+                let mut formula_set = Typeset::of(ui.painter(), &formula.nodes, style);
                 if formula_set.width > room {
-                    size *= (room / formula_set.width) * 0.98;
-                    formula_set = set(ui, size);
+                    let size = style.size * ((room / formula_set.width) * 0.98);
+                    formula_set = Typeset::of(ui.painter(), &formula.nodes, MathStyle { size, ..style });
                 }
                 let height = formula_set.ascent + formula_set.descent + 0.5 * look.size;
                 let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
@@ -145,11 +141,8 @@ fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let (dot, _) = ui.allocate_exact_size(vec2(0.95 * look.size, look.size), Sense::hover());
-        ui.painter().circle_filled(
-            dot.left_center() + vec2(0.4 * look.size, 0.08 * look.size),
-            0.13 * look.size,
-            look.colour,
-        );
+        let middle = dot.left_center() + vec2(0.4 * look.size, 0.08 * look.size);
+        ui.painter().circle_filled(middle, 0.13 * look.size, look.colour);
         ui.vertical(|ui| paragraph(ui, parts, look)).inner
     })
     .inner
@@ -157,11 +150,8 @@ fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
 
 fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let painter = ui.painter();
-    let space = painter
-        .layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour)
-        .size()
-        .x
-        .max(0.25 * look.size);
+    let blank = painter.layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour);
+    let space = blank.size().x.max(0.25 * look.size);
     let style = |colour: Color32| MathStyle { size: look.size, colour, display: false };
     let mut atoms = Vec::new();
     // Whether white space came before, and before that a number.
