@@ -50,7 +50,6 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Scope {
-    /// A shortcut that acts then.
     const fn on(self, modifiers: Modifiers, key: Key, about: &'static str, command: fn() -> Command) -> Shortcut {
         Shortcut { keys: KeyboardShortcut::new(modifiers, key), also: None, about, command, scope: self }
     }
@@ -154,7 +153,6 @@ fn all() -> impl Iterator<Item = &'static Shortcut> {
     GROUPS.iter().flat_map(|(_, shortcuts)| *shortcuts)
 }
 
-/// The shortcut that asks for `command`.
 fn asking_for(command: &Command) -> Option<&'static Shortcut> {
     all().find(|shortcut| (shortcut.command)() == *command)
 }

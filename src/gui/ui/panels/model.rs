@@ -140,7 +140,6 @@ impl Columns {
     }
 }
 
-/// Options of a switch.
 fn options(parameter: &Parameter) -> &'static [&'static str] {
     match parameter.kind {
         ParameterKind::Choice { options, .. } => options,

@@ -70,7 +70,6 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
     cx.say(ui, text, colour);
 }
 
-/// Buttons that add a pin.
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
     let empty = cx.state.pins.pins.is_empty();

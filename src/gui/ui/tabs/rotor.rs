@@ -253,7 +253,6 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, t
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
 }
 
-/// Draws the supports of the ring.
 fn supports(painter: &egui::Painter, scale: Axes, cx: &DrawContext<'_>) {
     let Some(Value::Records(supports)) = cx.state.document.scene().get("rotor.support") else { return };
     for [inner, outer, low, high] in supports.iter().filter_map(|support| lengths(support)) {
