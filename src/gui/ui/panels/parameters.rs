@@ -153,14 +153,11 @@ impl Panel<'_> {
             let value = self.scene.get(parameter.key);
             match (parameter.kind, &value) {
                 (_, None) if self.scene.following(parameter.key).is_some() => self.following_row(ui, parameter),
-                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
-                    self.switch_row(ui, parameter, false)
-                }
-                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, Some(value)) => {
-                    if parameter.absent.is_some() {
-                        self.switch_row(ui, parameter, true);
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, number) => {
+                    if parameter.absent.is_some() || number.is_none() {
+                        self.switch_row(ui, parameter, number.is_some());
                     }
-                    self.number_row(ui, parameter, value);
+                    number.iter().for_each(|number| self.number_row(ui, parameter, number));
                 }
                 (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
                 (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
