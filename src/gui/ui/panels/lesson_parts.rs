@@ -129,13 +129,10 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                 cx.note(ui, if task { "Prediction made: now see what happens" } else { "Prediction made" });
             }
             (true, Kind::Calculate) if task => {
+                let right = question.answer.words(question.answer.right());
                 match work.prediction.is_some_and(|given| question.answer.is_right(given)) {
                     true => cx.say(ui, "✔ Right", cx.colours.good),
-                    false => cx.say(
-                        ui,
-                        format!("The answer is {}", question.answer.words(question.answer.right())),
-                        cx.colours.contact,
-                    ),
+                    false => cx.say(ui, format!("The answer is {right}"), cx.colours.contact),
                 }
             }
             _ => {}

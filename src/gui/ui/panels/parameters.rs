@@ -258,11 +258,8 @@ impl Panel<'_> {
             };
             let typed = field_name(parameter);
             self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
-            ui.add(
-                egui::Label::new(RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet))
-                    .selectable(false)
-                    .extend(),
-            );
+            let unit = RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet);
+            ui.add(egui::Label::new(unit).selectable(false).extend());
         });
     }
 

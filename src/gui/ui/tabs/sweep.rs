@@ -98,15 +98,11 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 }
                 let about = "Solves every point on all cores; the window stays usable";
                 let good = cx.state.sweep.faults.iter().all(Option::is_none);
-                cx.on_click(
-                    &first_button(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about),
-                    SweepCommand::Start,
-                );
+                let button = first_button(ui, "Start the sweep", (swept.is_none(), good), cx);
+                cx.on_click(&button.hint(about), SweepCommand::Start);
                 let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, cx);
                 if let Some(fidelity) = chosen {
-                    let mut next = form.clone();
-                    next.fidelity = fidelity;
-                    cx.push(SweepCommand::Form(next));
+                    cx.push(SweepCommand::Form(Form { fidelity, ..form.clone() }));
                 }
                 combo.called(Role::ComboBox, "Fidelity of the sweep").explained_here(ui, "Fidelity");
             }
