@@ -313,11 +313,8 @@ impl Panel<'_> {
             });
         }
         if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {
-            return quiet(
-                ui,
-                self.cx,
-                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter)).trim_end(),
-            );
+            let now = format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter));
+            return quiet(ui, self.cx, now.trim_end());
         }
         // That unset numerics are left to the fidelity need not be said four times.
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {

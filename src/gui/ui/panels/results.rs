@@ -72,14 +72,8 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &M
     }
     let top = ui.next_widget_position();
     headline(ui, "α", "α", &shown.text(Alpha), "");
-    cx.note(
-        ui,
-        if regime::sucks(result.alpha) {
-            "the air sucks: contact carries more than the load"
-        } else {
-            "share of the load carried by air"
-        },
-    );
+    let sucks = regime::sucks(result.alpha).then_some("the air sucks: contact carries more than the load");
+    cx.note(ui, sucks.unwrap_or("share of the load carried by air"));
     shares(ui, result.alpha.value, cx);
     let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
     cx.mark(ui, "headline", headline);
