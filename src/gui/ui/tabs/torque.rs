@@ -48,8 +48,8 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 
 fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx: &DrawContext<'_>) {
     if merit.stator_speed <= 0.0 {
-        return cx
-            .note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
+        let text = "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.";
+        return cx.note(ui, text);
     }
     let (measured, elsewhere) = cx.state.torques();
     let panels = panels(merit, measured);
