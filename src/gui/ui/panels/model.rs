@@ -251,7 +251,7 @@ impl SwitchRow<'_> {
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
             let name = format!("{} back to auto", capitalised(decision::term(decision)));
-            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), name, back);
+            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), &name, back);
         });
         ui.add_space(2.0);
     }

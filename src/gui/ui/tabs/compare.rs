@@ -108,7 +108,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
                 ui.spinner();
                 ui.label(&waiting.name);
                 let name = format!("Do not pin {}", waiting.name);
-                cx.small_button(ui, ("✕", "Do not pin it"), name, PinCommand::Remove(waiting.id));
+                cx.small_button(ui, ("✕", "Do not pin it"), &name, PinCommand::Remove(waiting.id));
             });
         }
     });
@@ -135,9 +135,9 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
         name_field(ui, id, run, label, cx);
         if !present {
             let open = ("Open", "Makes this the present scene; undo brings back what was");
-            cx.small_button(ui, open, format!("Open {}", run.label), PinCommand::Open(id));
+            cx.small_button(ui, open, &format!("Open {}", run.label), PinCommand::Open(id));
         }
-        cx.small_button(ui, ("✕", "Remove this pin"), format!("Remove {}", run.label), PinCommand::Remove(id));
+        cx.small_button(ui, ("✕", "Remove this pin"), &format!("Remove {}", run.label), PinCommand::Remove(id));
     };
     let row = egui::Layout::left_to_right(egui::Align::Center);
     ui.allocate_ui_with_layout(size, row, |ui| frame(ui, colour).show(ui, parts));
