@@ -50,12 +50,8 @@ impl<'n> Chart<'n> {
     }
 
     /// As [`Self::show`], with changes to the plot; the x that is pointed at.
-    pub(super) fn show_with(
-        self,
-        ui: &mut egui::Ui,
-        change: impl FnOnce(Plot<'n>) -> Plot<'n>,
-    ) -> PlotResponse<Option<f64>> {
-        self.show_over(ui, change, |_| ())
+    pub(super) fn show_with(self, ui: &mut egui::Ui, change: impl FnOnce(Plot<'n>) -> Plot<'n>) -> Option<f64> {
+        self.show_over(ui, change, |_| ()).inner
     }
 
     /// As [`Self::show_with`], over a background that `ground` draws.

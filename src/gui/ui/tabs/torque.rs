@@ -66,8 +66,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         let height = (SHARES[i] * height).max(LEAST_LINES[i] * em);
         let chart = Chart { name, height, panel: &panel, words: (Some("Rotor speed"), word) };
         let linked = egui::Id::unique("torque charts");
-        let shown = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
-        pointed = shown.inner.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
+        let at = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
+        pointed = at.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
     };
     let side_by_side = ui.available_width() > BESIDE * em;
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
