@@ -38,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
     cx.mark(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
-        views::run::show(ui, run, startup.ranges.as_ref(), None, cx);
+        views::run::show(ui, run, startup.ranges, None, cx);
     }
 }
 

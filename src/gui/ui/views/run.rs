@@ -11,13 +11,7 @@ use eframe::egui::Ui;
 
 /// Draws `run` at the view's phase, and behind it `first`, a run that it is compared with, on one scale; the axes have the ranges `within`, if it
 /// is one cycle of several.
-pub fn show(
-    ui: &mut Ui,
-    run: &SolvedScene,
-    within: Option<&Ranges>,
-    first: Option<&SolvedScene>,
-    cx: &DrawContext<'_>,
-) {
+pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<Ranges>, first: Option<&SolvedScene>, cx: &DrawContext<'_>) {
     if !has_fields(&run.solution.recording) {
         return drop(ui.label("This run has no fields to show."));
     }
@@ -34,7 +28,7 @@ pub fn show(
 fn frame<'a, T>(
     ui: &Ui,
     run: &'a SolvedScene,
-    within: Option<&Ranges>,
+    within: Option<Ranges>,
     first: Option<&'a SolvedScene>,
     pick: fn(&Scenario) -> Option<&T>,
     cx: &DrawContext<'a>,
@@ -43,7 +37,7 @@ fn frame<'a, T>(
     let first = first.and_then(|first| Frame::of(ui, "scales of the first run", first, pick, view));
     let shown = Frame::of(ui, "scales", run, pick, view)?;
     let both = first.as_ref().map_or(shown.ranges, |first| shown.ranges.and(first.ranges));
-    Some(Frame { ranges: within.copied().unwrap_or(both), first: first.map(Box::new), ..shown })
+    Some(Frame { ranges: within.unwrap_or(both), first: first.map(Box::new), ..shown })
 }
 
 fn motor_of(scenario: &Scenario) -> Option<&Motor> {
