@@ -21,16 +21,13 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
     let dropped = cx.state.dropped.as_ref();
     ui.horizontal_wrapped(|ui| {
-        match dropped.filter(|dropped| dropped.work.running()) {
-            Some(_) => {
-                cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
-            }
-            None => {
-                let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
-                cx.mark(ui, "start", button.rect);
-                cx.lead_to(ui, "start", button.id);
-                cx.on_click(&button, StartupCommand::Start);
-            }
+        if dropped.is_some_and(|dropped| dropped.work.running()) {
+            cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
+        } else {
+            let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
+            cx.mark(ui, "start", button.rect);
+            cx.lead_to(ui, "start", button.id);
+            cx.on_click(&button, StartupCommand::Start);
         }
         if cx.state.can_export(Export::Startup) {
             export_button(ui, &[Export::Startup], cx);

@@ -44,18 +44,15 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        match cx.state.startup.as_ref().filter(|startup| startup.work.running()) {
-            Some(_) => {
-                let about = "Ends it; the cycles computed so far stay";
-                cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
-            }
-            None => {
-                let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
-                cx.mark(ui, "start", button.rect);
-                cx.lead_to(ui, "start", button.id);
-                cx.on_click(&button, StartupCommand::Start);
-            }
+        if cx.state.startup.as_ref().is_some_and(|startup| startup.work.running()) {
+            let about = "Ends it; the cycles computed so far stay";
+            cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
+        } else {
+            let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
+            let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
+            cx.mark(ui, "start", button.rect);
+            cx.lead_to(ui, "start", button.id);
+            cx.on_click(&button, StartupCommand::Start);
         }
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
         let mut follow = startup.follows_newest;
