@@ -127,11 +127,8 @@ mod tests {
                 let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));
                 assert_eq!(stale, None, "{}", parameter.key);
                 for option in options {
-                    assert!(
-                        choice(parameter.key, option).starts_with(char::is_uppercase),
-                        "{}: {option}",
-                        parameter.key
-                    );
+                    let words = choice(parameter.key, option);
+                    assert!(words.starts_with(char::is_uppercase), "{}: {option}", parameter.key);
                 }
             }
         }

@@ -314,14 +314,17 @@ mod tests {
 
     #[test]
     fn a_changed_preset_is_saved_under_a_name_that_says_so() {
+        let says_so = |scene: &Scene| {
+            assert_eq!(scene.name, "Fundamental case, changed");
+            assert_eq!(scene.about, "Made from Fundamental case.");
+        };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.toml");
         let mut document = Document::fundamental().unwrap();
         for spacing in ["150", "140"] {
             document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
             document.save(&path).unwrap();
-            assert_eq!(document.scene().name, "Fundamental case, changed");
-            assert_eq!(document.scene().about, "Made from Fundamental case.");
+            says_so(document.scene());
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
         // What was edited before it was saved is not the preset either; what was not, is.
@@ -331,8 +334,7 @@ mod tests {
         }
         document.save(&path).unwrap();
         assert!(document.undo());
-        assert_eq!(document.scene().name, "Fundamental case, changed");
-        assert_eq!(document.scene().about, "Made from Fundamental case.");
+        says_so(document.scene());
         assert!(document.undo());
         assert_eq!(document.scene(), &presets::find("fundamental").unwrap());
         // A copy of a preset, changed in its file or by hand, is no longer what its description claims.
@@ -344,11 +346,7 @@ mod tests {
         let text =
             presets::find("fundamental").unwrap().to_toml().replace("min_spacing_nm = 200", "min_spacing_nm = 100");
         std::fs::write(&path, text).unwrap();
-        let found = presets::find(path.to_str().unwrap()).unwrap();
-        assert_eq!(
-            (found.name.as_str(), found.about.as_str()),
-            ("Fundamental case, changed", "Made from Fundamental case.")
-        );
+        says_so(&presets::find(path.to_str().unwrap()).unwrap());
         // A changed preset that is changed once more is not "changed: 1 key, changed: 1 key".
         let mut again = with_spacing(&document, "130");
         again.retitle(document.scene());
