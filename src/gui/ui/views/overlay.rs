@@ -13,7 +13,7 @@ use crate::gui::derived::scales::{Curve, RunCurves, span, with_margin};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
-use crate::gui::ui::plot::{level, line, upright};
+use crate::gui::ui::plot::{level, line, under_pointer};
 use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
@@ -333,9 +333,7 @@ fn draw_pressure(
             let loads = [&run.lines.contact, &run.lines.film][field];
             pressure(plot, (run.recording, run.of.contact_width), loads, metre, (run.colour, 0.16));
         }
-        if let Some(x) = cursor {
-            plot.vline(upright(x * written, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     })
 }
 
@@ -389,9 +387,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
             let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
             plot.line(line(&points, run.colour, 1.8, LineStyle::Solid));
         }
-        if let Some(x) = cursor {
-            plot.vline(upright(x * written, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     });
     column.bottom += axis;
 

@@ -10,7 +10,7 @@ use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::{Curve, with_margin};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle};
-use crate::gui::ui::plot::{dots, level, line, upright};
+use crate::gui::ui::plot::{dots, level, line, under_pointer};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
@@ -144,9 +144,7 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
             plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
         }
         plot.line(line(&profile(shown.recording, shown.place), film, 1.8, LineStyle::Solid));
-        if let Some(x) = shown.view.cursor_x {
-            plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, shown.view.cursor_x.map(|x| x * 1e3), style.palette.accent);
     })
 }
 
