@@ -150,11 +150,9 @@ pub enum PinCommand {
     Shown,
     /// Solves a built-in preset in the background and pins it.
     Preset(&'static str),
-    /// Forgets one that is being solved, or will be.
-    Forget(u64),
     /// Renames a pin.
     Rename(u64, String),
-    /// Removes a pin.
+    /// Removes a pin, or one that is being solved, or will be.
     Remove(u64),
     /// Removes all pins.
     Clear,

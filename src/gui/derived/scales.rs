@@ -175,6 +175,12 @@ pub fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
+/// The range with this share of its length more at either end.
+pub fn with_margin([low, high]: [f64; 2], share: f64) -> [f64; 2] {
+    let margin = share * (high - low);
+    [low - margin, high + margin]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -40,7 +40,7 @@ const CHOICES: &[(&str, &str, &str)] = &[
 /// Label of the choice that leaves a parameter to the plan.
 const AUTO: &str = "Automatic";
 /// Name of that choice in a scene.
-const AUTO_NAME: &str = "auto";
+pub const AUTO_NAME: &str = "auto";
 
 /// The name of a parameter: its own, or its key in words with a capital letter.
 pub fn label(parameter: &Parameter) -> &'static str {
@@ -127,11 +127,8 @@ mod tests {
                 let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));
                 assert_eq!(stale, None, "{}", parameter.key);
                 for option in options {
-                    assert!(
-                        choice(parameter.key, option).starts_with(char::is_uppercase),
-                        "{}: {option}",
-                        parameter.key
-                    );
+                    let words = choice(parameter.key, option);
+                    assert!(words.starts_with(char::is_uppercase), "{}: {option}", parameter.key);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! Background work that belongs to a tab.
 
 use crate::job::task::{BackgroundTask, News};
+use crate::job::work::Work;
 
 /// A background task and the outcome of the last one.
 #[derive(Debug)]
@@ -11,6 +12,9 @@ pub struct Background<M, R> {
     /// Why the last one failed, if it did.
     pub failure: Option<String>,
 }
+
+/// Background work of the kind `W`.
+pub type BackgroundOf<W> = Background<<W as Work>::Message, <W as Work>::Output>;
 
 impl<M, R> Default for Background<M, R> {
     fn default() -> Self {

@@ -215,10 +215,8 @@ mod tests {
     #[test]
     fn a_wrong_extension_is_told_with_the_right_article() {
         let refused = |kind| complete("cycle.txt".into(), kind, &["gif", "mp4"]).unwrap_err();
-        assert_eq!(
-            refused("Animation"),
-            "cycle.txt: “.txt” is none of the formats of an animation: allowed .gif, .mp4"
-        );
+        let told = "cycle.txt: “.txt” is none of the formats of an animation: allowed .gif, .mp4";
+        assert_eq!(refused("Animation"), told);
         assert!(refused("Table").contains("the formats of a table"));
     }
 }

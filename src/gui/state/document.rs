@@ -190,25 +190,19 @@ impl Document {
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.undo.pop() else { return false };
-        let now = self.take_back(scene, target);
-        self.redo.push(now);
+        // If it was saved in between as another one than the preset that it was made from, an edited one of before no longer claims to be that
+        // preset either.
+        let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
+        self.redo.push((std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target)));
         true
     }
 
     /// Makes the last undone edit again; whether there was one.
     pub fn redo(&mut self) -> bool {
-        self.dragging = None;
-        let Some((scene, target)) = self.redo.pop() else { return false };
-        let now = self.take_back(scene, target);
-        self.undo.push(now);
-        true
-    }
-
-    /// Replaces the scene by one from the history, and returns the present one. If it was saved in between as another one than the preset
-    /// that it was made from, an edited one of before no longer claims to be that preset either.
-    fn take_back(&mut self, scene: Scene, target: Fidelity) -> (Scene, Fidelity) {
-        let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
-        (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target))
+        std::mem::swap(&mut self.undo, &mut self.redo);
+        let made = self.undo();
+        std::mem::swap(&mut self.undo, &mut self.redo);
+        made
     }
 
     /// Whether there is anything to undo.
@@ -320,14 +314,17 @@ mod tests {
 
     #[test]
     fn a_changed_preset_is_saved_under_a_name_that_says_so() {
+        let says_so = |scene: &Scene| {
+            assert_eq!(scene.name, "Fundamental case, changed");
+            assert_eq!(scene.about, "Made from Fundamental case.");
+        };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.toml");
         let mut document = Document::fundamental().unwrap();
         for spacing in ["150", "140"] {
             document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
             document.save(&path).unwrap();
-            assert_eq!(document.scene().name, "Fundamental case, changed");
-            assert_eq!(document.scene().about, "Made from Fundamental case.");
+            says_so(document.scene());
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
         // What was edited before it was saved is not the preset either; what was not, is.
@@ -337,8 +334,7 @@ mod tests {
         }
         document.save(&path).unwrap();
         assert!(document.undo());
-        assert_eq!(document.scene().name, "Fundamental case, changed");
-        assert_eq!(document.scene().about, "Made from Fundamental case.");
+        says_so(document.scene());
         assert!(document.undo());
         assert_eq!(document.scene(), &presets::find("fundamental").unwrap());
         // A copy of a preset, changed in its file or by hand, is no longer what its description claims.
@@ -350,11 +346,7 @@ mod tests {
         let text =
             presets::find("fundamental").unwrap().to_toml().replace("min_spacing_nm = 200", "min_spacing_nm = 100");
         std::fs::write(&path, text).unwrap();
-        let found = presets::find(path.to_str().unwrap()).unwrap();
-        assert_eq!(
-            (found.name.as_str(), found.about.as_str()),
-            ("Fundamental case, changed", "Made from Fundamental case.")
-        );
+        says_so(&presets::find(path.to_str().unwrap()).unwrap());
         // A changed preset that is changed once more is not "changed: 1 key, changed: 1 key".
         let mut again = with_spacing(&document, "130");
         again.retitle(document.scene());

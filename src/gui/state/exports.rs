@@ -1,10 +1,9 @@
 //! The export in progress, and the files of the last one.
 
-use super::background::Background;
+use super::background::BackgroundOf;
 use super::dialogs::Export;
 use crate::job::export::Files;
 use crate::job::task::{News, TaskOf};
-use crate::job::work::Work;
 use crate::platform::Instant;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -15,7 +14,7 @@ pub struct RunningExport {
     /// The kind of export.
     pub export: Export,
     /// The task; its messages count the pictures of an animation that are drawn.
-    pub work: Background<<Files as Work>::Message, <Files as Work>::Output>,
+    pub work: BackgroundOf<Files>,
     /// When it began.
     pub started: Instant,
     /// Pictures drawn so far, and their total.
@@ -39,11 +38,6 @@ impl ExportState {
     pub fn begin(&mut self, export: Export, task: TaskOf<Files>, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
-    }
-
-    /// Asks the one under way to end; nothing is written.
-    pub fn cancel(&mut self) {
-        self.running.iter_mut().for_each(|running| running.work.cancel());
     }
 
     /// Files written last, while the note about them is shown.

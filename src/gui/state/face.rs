@@ -1,8 +1,9 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
-use super::background::Background;
+use super::background::BackgroundOf;
 use crate::digits::rounded;
-use crate::job::task::BackgroundTask;
+use crate::job::face::FaceWork;
+use crate::job::task::TaskOf;
 use crate::scene::Scene;
 use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
@@ -33,14 +34,11 @@ impl Face {
     }
 }
 
-/// Reads a face: its heights and what they come to.
-pub type FaceTask = BackgroundTask<(), (HeightMap, Texture)>;
-
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]
 pub struct FaceState {
     /// The task that reads a file.
-    pub work: Background<(), (HeightMap, Texture)>,
+    pub work: BackgroundOf<FaceWork>,
     /// Name of that file.
     name: String,
     /// The face.
@@ -49,7 +47,7 @@ pub struct FaceState {
 
 impl FaceState {
     /// `task` reads the file of this name.
-    pub fn begin(&mut self, name: String, task: FaceTask) {
+    pub fn begin(&mut self, name: String, task: TaskOf<FaceWork>) {
         (self.work, self.name) = (task.into(), name);
     }
 

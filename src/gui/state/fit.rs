@@ -1,6 +1,6 @@
 //! State of the fit tab: the table of measurements, the form, and the result of a fit or of the search for an optimum.
 
-use super::background::Background;
+use super::background::BackgroundOf;
 use super::document::solved_alike;
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Goal, Limit, Measured, Observable, Unknown, measurable};
@@ -8,7 +8,6 @@ use crate::gui::derived::words::unused;
 pub use crate::job::fit::FitResult;
 use crate::job::fit::FitWork;
 use crate::job::task::TaskOf;
-use crate::job::work::Work;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
 use std::sync::Arc;
@@ -62,7 +61,7 @@ pub struct FitState {
     /// Fault of the limits; `None` if they are valid.
     pub goal_fault: Option<String>,
     /// The search; its messages carry the number of points tried and the best value so far.
-    pub work: Background<<FitWork as Work>::Message, <FitWork as Work>::Output>,
+    pub work: BackgroundOf<FitWork>,
     /// The scene that it searches for.
     asked: Option<Scene>,
     /// Number of points tried, and the least χ² or the best value so far.

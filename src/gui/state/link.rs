@@ -131,8 +131,7 @@ impl Link {
             let _ = write!(text, "&{}=none", parameter.key);
         }
         if tab != Tab::default() {
-            let name = Tab::ALL.iter().find(|(other, _)| *other == tab).map_or("", |(_, name)| *name);
-            let _ = write!(text, "&tab={}", name.to_lowercase());
+            let _ = write!(text, "&tab={}", tab.label(false).to_lowercase());
         }
         text
     }

@@ -29,12 +29,10 @@ pub enum Modal {
 /// A prompt for a path.
 #[derive(Clone, Debug)]
 pub struct PathPrompt {
-    /// Purposes that the path may be used for, the first on Enter.
+    /// Purposes that the path may be used for, the first on Enter; one alone if it stands in for a file dialog that could not be shown.
     pub purposes: Vec<Purpose>,
     /// The text typed so far.
     pub path: String,
-    /// Whether it stands in for a file dialog that could not be shown.
-    pub no_dialog: bool,
     /// Whether it has not been drawn yet.
     pub fresh: bool,
     /// Why this path was refused.

@@ -240,11 +240,6 @@ impl Pins {
         }
     }
 
-    /// Forgets one that is being solved, or will be: cancels it.
-    pub fn forget(&mut self, id: u64) {
-        self.waiting.retain(|waiting| waiting.id != id);
-    }
-
     /// Renames a pin; a name that another pin has is numbered.
     pub fn rename(&mut self, id: u64, name: &str) {
         if let Some(i) = self.place(id) {
@@ -253,8 +248,9 @@ impl Pins {
         }
     }
 
-    /// Removes a pin.
+    /// Removes a pin; cancels one that is being solved, or will be.
     pub fn remove(&mut self, id: u64) {
+        self.waiting.retain(|waiting| waiting.id != id);
         if let Some(i) = self.place(id) {
             self.pins.remove(i);
             self.runs.remove(i);

@@ -134,27 +134,20 @@ impl RunningLesson {
         let (tabs, start) = (&self.tabs, &self.start);
         let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
         let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
-        let quoted = || readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?)));
         let unmet = task.check.unmet(now, before);
         let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
         let does = ready && unmet.is_none() && !beyond;
-        if work.stage(step) != Stage::Task {
-            // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
-            if does && work.fulfilled && !task.check.live().any(Live::is_done_by_hand) {
-                work.readings = quoted().collect();
-                work.changes = step.changes(&run.scene);
-            }
-            return;
+        let open = work.stage(step) == Stage::Task;
+        if open && ready {
+            work.tried = run.scene != start.scene
+                || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
+            (work.too_far, work.unmet) = (unmet.is_none() && beyond, unmet);
+            work.fulfilled |= does;
         }
-        if !ready {
-            return;
-        }
-        work.tried = run.scene != start.scene
-            || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
-        (work.too_far, work.unmet) = (unmet.is_none() && beyond, unmet);
-        if does {
-            work.fulfilled = true;
-            work.readings = quoted().collect();
+        // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
+        if does && work.fulfilled && (open || !task.check.live().any(Live::is_done_by_hand)) {
+            work.readings =
+                readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?))).collect();
             work.changes = step.changes(&run.scene);
         }
     }

@@ -1,11 +1,10 @@
 //! State of the sensitivity tab: the derivatives of the results, the typed uncertainties, and the random scenes.
 
-use super::background::Background;
+use super::background::{Background, BackgroundOf};
 use super::document::solved_alike;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
 use crate::job::sensitivity::{Derivatives, Draws};
 use crate::job::task::TaskOf;
-use crate::job::work::Work;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,8 +17,8 @@ pub const SEED: u64 = 1;
 /// Derivatives, uncertainties and random scenes.
 #[derive(Debug, Default)]
 pub struct SensitivityState {
-    derivatives: Background<<Derivatives as Work>::Message, <Derivatives as Work>::Output>,
-    drawing: Background<<Draws as Work>::Message, <Draws as Work>::Output>,
+    derivatives: BackgroundOf<Derivatives>,
+    drawing: BackgroundOf<Draws>,
     share: f64,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,

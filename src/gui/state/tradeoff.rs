@@ -1,10 +1,10 @@
 //! State of the trade-off tab: the measurement of error against time, its progress, and its results.
 
-use super::background::Background;
-use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
+use super::background::BackgroundOf;
+use crate::analysis::tradeoff::{Candidate, Family, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
-use crate::job::task::BackgroundTask;
-use crate::job::tradeoff::Progress;
+use crate::job::task::TaskOf;
+use crate::job::tradeoff::TradeoffWork;
 use crate::platform::Instant;
 use crate::problem::Numerics;
 use crate::scene::Scene;
@@ -13,14 +13,11 @@ use crate::solve::{Method, Settings};
 /// Name of the window's own setting, if it is none of the others.
 const PRESENT: &str = "present setting";
 
-/// The work of a measurement.
-pub type TradeoffTask = BackgroundTask<Progress, Vec<MeasuredSetting>>;
-
 /// A measurement, under way or ended.
 #[derive(Debug)]
 pub struct TradeoffState {
     /// The task; its messages are the settings measured so far.
-    pub work: Background<Progress, Vec<MeasuredSetting>>,
+    pub work: BackgroundOf<TradeoffWork>,
     /// The scene that is measured.
     pub scene: Scene,
     started: Instant,
@@ -32,7 +29,7 @@ pub struct TradeoffState {
 
 impl TradeoffState {
     /// A measurement of `scene` that began at `started`.
-    pub fn new(task: TradeoffTask, scene: Scene, started: Instant) -> Self {
+    pub fn new(task: TaskOf<TradeoffWork>, scene: Scene, started: Instant) -> Self {
         Self { work: task.into(), scene, started, share: 0.0, tradeoff: Tradeoff::of(&[]) }
     }
 

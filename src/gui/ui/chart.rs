@@ -1,7 +1,7 @@
 //! Charts of the tabs: a panel as figures describe it, with its axes, names and legend.
 
 use super::glossary::{self, Explained};
-use super::hint::text_width;
+use super::hint::{Hint, text_width};
 use super::plot::{between, dots, framed, level, line, marks, numbered, tick, upright};
 use super::theme::on_screen;
 use crate::digits::{power_of_ten, raised, short};
@@ -50,12 +50,8 @@ impl<'n> Chart<'n> {
     }
 
     /// As [`Self::show`], with changes to the plot; the x that is pointed at.
-    pub(super) fn show_with(
-        self,
-        ui: &mut egui::Ui,
-        change: impl FnOnce(Plot<'n>) -> Plot<'n>,
-    ) -> PlotResponse<Option<f64>> {
-        self.show_over(ui, change, |_| ())
+    pub(super) fn show_with(self, ui: &mut egui::Ui, change: impl FnOnce(Plot<'n>) -> Plot<'n>) -> Option<f64> {
+        self.show_over(ui, change, |_| ()).inner
     }
 
     /// As [`Self::show_with`], over a background that `ground` draws.
@@ -319,8 +315,7 @@ fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce
     let em = galley.size().y;
     let size = vec2(indent * em + galley.size().x + after * em, em);
     let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
-    response.explained_here(ui, text);
+    response.called(egui::Role::Label, text).explained_here(ui, text);
     draw(ui.painter(), area.left_center(), em);
     ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }
@@ -348,8 +343,11 @@ mod tests {
     use crate::control::Progress;
     use crate::export::figures::convergence;
 
-    fn values(marks: &[GridMark]) -> Vec<f64> {
-        marks.iter().map(|mark| mark.value).collect()
+    /// The numbers at an axis with these bounds, about `most`.
+    fn texts(axis: &Axis, bounds: [f64; 2], most: f64) -> Vec<String> {
+        let [from, to] = bounds.map(|end| axis.scale.place(end));
+        let input = GridInput { bounds: (from, to), base_step_size: 1.0 };
+        axis_marks(axis, &input, most).into_iter().map(|mark| written(axis, mark.value, mark.step_size)).collect()
     }
 
     #[test]
@@ -396,14 +394,6 @@ mod tests {
 
     #[test]
     fn marks_of_equal_ratios_are_round_whatever_the_range() {
-        let texts = |axis: &Axis, bounds: [f64; 2], most: f64| {
-            let bounds = bounds.map(|end| axis.scale.place(end));
-            let input = GridInput { bounds: (bounds[0], bounds[1]), base_step_size: 1.0 };
-            axis_marks(axis, &input, most)
-                .into_iter()
-                .map(|mark| written(axis, mark.value, mark.step_size))
-                .collect::<Vec<_>>()
-        };
         let log = Axis::default().log();
         assert_eq!(texts(&log, [50.0, 800.0], 8.0), ["50", "100", "200", "500"]);
         assert_eq!(texts(&log, [0.01, 1000.0], 8.0), ["0.01", "0.1", "1", "10", "100", "1000"]);
@@ -413,14 +403,12 @@ mod tests {
 
     #[test]
     fn ticks_are_round_inside_and_few() {
-        let input = |bounds| GridInput { bounds, base_step_size: 1.0 };
-        let linear = |input: &GridInput, most: f64| axis_marks(&Axis::default(), input, most);
-        assert_eq!(values(&linear(&input((0.0, 104.0)), 4.0)), [0.0, 50.0, 100.0]);
-        assert_eq!(values(&linear(&input((-30.0, 150.0)), 5.0)), [0.0, 50.0, 100.0, 150.0]);
-        let texts: Vec<String> = linear(&input((-0.5, 1.6)), 5.0).into_iter().map(tick).collect();
-        assert_eq!(texts, ["−0.5", "0.0", "0.5", "1.0", "1.5"]);
-        for bounds in [(0.0, 0.0), (f64::NEG_INFINITY, f64::INFINITY)] {
-            assert!(linear(&input(bounds), 4.0).is_empty());
+        let linear = |bounds: [f64; 2], most: f64| texts(&Axis::default(), bounds, most);
+        assert_eq!(linear([0.0, 104.0], 4.0), ["0", "50", "100"]);
+        assert_eq!(linear([-30.0, 150.0], 5.0), ["0", "50", "100", "150"]);
+        assert_eq!(linear([-0.5, 1.6], 5.0), ["−0.5", "0.0", "0.5", "1.0", "1.5"]);
+        for bounds in [[0.0, 0.0], [f64::NEG_INFINITY, f64::INFINITY]] {
+            assert!(linear(bounds, 4.0).is_empty());
         }
     }
 }

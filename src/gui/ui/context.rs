@@ -105,13 +105,7 @@ impl<'a> DrawContext<'a> {
     }
 
     /// As [`Self::button`], small, and called `name` by screen readers.
-    pub fn small_button(
-        &self,
-        ui: &mut Ui,
-        (text, about): (&str, &str),
-        name: impl Into<String>,
-        command: impl Into<Command>,
-    ) {
+    pub fn small_button(&self, ui: &mut Ui, (text, about): (&str, &str), name: &str, command: impl Into<Command>) {
         self.on_click(&ui.small_button(text).hint(about).accessible_name(name), command);
     }
 

@@ -16,15 +16,9 @@ const LIST: f32 = 190.0;
 const ACCURACY: &str = "accuracy";
 const BUDGET: &str = "budget";
 
-/// A combo box that shows `present`; returns the choice if it is another. `width`: of the box; `None` is the usual width.
-pub fn choose(
-    ui: &mut Ui,
-    id: &'static str,
-    present: Fidelity,
-    width: Option<f32>,
-    cx: &DrawContext<'_>,
-) -> (Response, Option<Fidelity>) {
-    list(ui, (id, width), present.to_string(), |ui| fidelities(ui, id, present, cx))
+/// A combo box that shows `present`; returns the choice if it is another.
+pub fn choose(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext<'_>) -> (Response, Option<Fidelity>) {
+    list(ui, (id, None), present.to_string(), |ui| fidelities(ui, id, present, cx))
 }
 
 /// As [`choose`], of all that is solved from now on, with a field for the most time that a solve may take.

@@ -7,8 +7,7 @@ use crate::gui::derived::words::{choice, chosen, label};
 use crate::gui::state::sweep::AxisForm;
 use crate::plan::Decision;
 use crate::scene::{Parameter, Value};
-use eframe::egui::accesskit::Role;
-use eframe::egui::{Button, ComboBox, Key, Response, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, Key, Response, RichText, Role, TextEdit, TextStyle, Ui};
 
 /// Width of the list of parameters, in heights of the text.
 const PARAMETERS: f32 = 11.0;
@@ -17,8 +16,7 @@ const PARAMETERS: f32 = 11.0;
 pub(super) fn field(ui: &mut Ui, (name, about): (&str, &str), (text, empty): (&mut String, &'static str), width: f32) {
     let width = width * ui.text_style_height(&TextStyle::Body);
     let response = ui.add(TextEdit::singleline(text).desired_width(width).hint_text(empty));
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
-    response.hint(about);
+    response.called(Role::TextInput, name).hint(about);
 }
 
 /// Shows the `entries` of a list, and returns its box. It closes when Enter or the space bar takes an entry, as it does after a click; then the
@@ -52,9 +50,7 @@ pub(super) fn list(
 ) {
     let em = ui.text_style_height(&TextStyle::Body);
     let list = ComboBox::from_id_salt(id).selected_text(chosen).width(width * em).height(36.0 * em);
-    let response = show_list(ui, list, entries);
-    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
-    response.hint(about);
+    show_list(ui, list, entries).called(Role::ComboBox, name).hint(about);
 }
 
 /// A list of the `options` of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.

@@ -2,7 +2,7 @@
 
 use super::highlight::ring_round;
 use super::rich::{self, Look};
-use crate::gui::ui::hint::{beside_with, describe};
+use crate::gui::ui::hint::{Hint, beside_with, describe};
 use crate::lessons::glossary::{Term, find};
 use crate::lessons::text::plain_blocks;
 use eframe::egui::{self, Id, RichText, Ui};
@@ -47,35 +47,30 @@ pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui:
 /// A hover area over a term at `place`; `number` tells apart the terms of one drawing.
 pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
     let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("About: {word}")));
-    response
+    response.called(egui::Role::Label, &format!("About: {word}"))
 }
 
 fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Rect>) -> egui::Response {
-    match find(word) {
-        Some(term) => {
-            describe(&response, || format!("{}: {}", title(term), plain_blocks(&term.text)));
-            let add = |ui: &mut Ui| {
-                ui.set_max_width(WIDTH);
-                ui.label(RichText::new(title(term)).strong());
-                let look = Look::usual(ui);
-                rich::blocks(ui, &term.text, look);
-            };
-            // What a lesson asks to look at is not covered either.
-            match panel.or_else(|| ring_round(ui.ctx(), response.rect.expand(RING_NEAR))) {
-                Some(rect) => beside_with(rect, response, add),
-                None => response.on_hover_ui(add),
+    let Some(term) = find(word) else {
+        ui.ctx().data_mut(|data| {
+            let missing: &mut Vec<String> = data.get_temp_mut_or_default(unexplained_id());
+            if !missing.iter().any(|other| other == word) {
+                missing.push(word.to_owned());
             }
-        }
-        None => {
-            ui.ctx().data_mut(|data| {
-                let missing: &mut Vec<String> = data.get_temp_mut_or_default(unexplained_id());
-                if !missing.iter().any(|other| other == word) {
-                    missing.push(word.to_owned());
-                }
-            });
-            response
-        }
+        });
+        return response;
+    };
+    describe(&response, || format!("{}: {}", title(term), plain_blocks(&term.text)));
+    let add = |ui: &mut Ui| {
+        ui.set_max_width(WIDTH);
+        ui.label(RichText::new(title(term)).strong());
+        let look = Look::usual(ui);
+        rich::blocks(ui, &term.text, look);
+    };
+    // What a lesson asks to look at is not covered either.
+    match panel.or_else(|| ring_round(ui.ctx(), response.rect.expand(RING_NEAR))) {
+        Some(rect) => beside_with(rect, response, add),
+        None => response.on_hover_ui(add),
     }
 }
 

@@ -39,11 +39,7 @@ pub fn ring(ui: &Ui, rect: Rect) {
     let colour = palette(ui.visuals().dark_mode).accent;
     let rect = rect.expand(highlight::GAP);
     let corner = CornerRadius::same(highlight::CORNER);
-    ui.painter().rect_stroke(
-        rect,
-        corner,
-        Stroke::new(highlight::GLOW, colour.gamma_multiply(0.25)),
-        StrokeKind::Middle,
-    );
-    ui.painter().rect_stroke(rect, corner, Stroke::new(highlight::LINE, colour), StrokeKind::Middle);
+    for (width, colour) in [(highlight::GLOW, colour.gamma_multiply(0.25)), (highlight::LINE, colour)] {
+        ui.painter().rect_stroke(rect, corner, Stroke::new(width, colour), StrokeKind::Middle);
+    }
 }

@@ -1,7 +1,7 @@
 //! Explanations on hover, which screen readers get too. In a panel they stand beside it and do not cover the rows around.
 //! And how wide a text is.
 
-use eframe::egui::{Color32, Rect, RectAlign, Response, TextStyle, Tooltip, Ui};
+use eframe::egui::{Color32, Rect, RectAlign, Response, Role, TextStyle, Tooltip, Ui, WidgetInfo};
 
 /// Between the panel and the explanation.
 const GAP: f32 = 12.0;
@@ -17,6 +17,8 @@ pub trait Hint {
     fn hint(self, text: impl Into<String>) -> Self;
     /// Shows `text` beside the panel that is `ui`.
     fn hint_beside(self, ui: &Ui, text: &str) -> Self;
+    /// Screen readers call it `name`, in this role.
+    fn called(self, role: Role, name: &str) -> Self;
 }
 
 impl Hint for Response {
@@ -28,6 +30,11 @@ impl Hint for Response {
 
     fn hint_beside(self, ui: &Ui, text: &str) -> Self {
         beside(ui.clip_rect(), self, text)
+    }
+
+    fn called(self, role: Role, name: &str) -> Self {
+        self.widget_info(|| WidgetInfo::labeled(role, true, name));
+        self
     }
 }
 

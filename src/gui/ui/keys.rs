@@ -50,7 +50,6 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Scope {
-    /// A shortcut that acts then.
     const fn on(self, modifiers: Modifiers, key: Key, about: &'static str, command: fn() -> Command) -> Shortcut {
         Shortcut { keys: KeyboardShortcut::new(modifiers, key), also: None, about, command, scope: self }
     }
@@ -72,89 +71,76 @@ fn choose(choice: usize) -> Command {
     Command::Lesson(LessonCommand::Choose(choice))
 }
 
-/// All shortcuts, in the groups and the order in which the sheet lists them.
-pub const GROUPS: &[(&str, &[Shortcut])] = &[
-    (
-        MOTION,
-        &[
-            Idle.on(NONE, Key::Space, "Play or pause", || Command::TogglePlay),
-            Idle.on(NONE, Key::ArrowLeft, "One frame back", || Command::StepFrames(-1)),
-            Idle.on(NONE, Key::ArrowRight, "One frame on", || Command::StepFrames(1)),
-            Idle.on(NONE, Key::Home, "To the start", || Command::Seek(0.0)),
-            Idle.on(NONE, Key::OpenBracket, "Follow the tooth before", || Command::NextTooth(-1)),
-            Idle.on(NONE, Key::CloseBracket, "Follow the next tooth", || Command::NextTooth(1)),
-        ],
-    ),
-    (
-        HOLDING,
-        &[
-            Idle.on(NONE, Key::ArrowUp, "Held plate up", || Command::Hold(HoldCommand::By(HOLD_STEP))),
-            Idle.on(NONE, Key::ArrowDown, "Held plate down", || Command::Hold(HoldCommand::By(-HOLD_STEP))),
-        ],
-    ),
-    (
-        "Scene",
-        &[
-            History.on(CTRL, Key::Z, "Undo", || Command::Undo),
-            Shortcut {
-                also: Some(KeyboardShortcut::new(CTRL, Key::Y)),
-                ..History.on(CTRL_SHIFT, Key::Z, "Redo", || Command::Redo)
-            },
-            Window.on(CTRL, Key::D, "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
-            Idle.on(NONE, Key::Escape, "Stop solving", || Command::CancelSolve),
-        ],
-    ),
-    (
-        "Lessons",
-        &[
-            Idle.on(NONE, Key::PageDown, "Next step", || Command::Lesson(LessonCommand::Next)),
-            Idle.on(NONE, Key::PageUp, "Previous step", || Command::Lesson(LessonCommand::Back)),
-            Idle.on(NONE, Key::Enter, "Confirm the answer, go to what is marked, or go on", || GO_ON),
-            Idle.on(NONE, Key::Num1, "First answer", || choose(0)),
-            Idle.on(NONE, Key::Num2, "Second answer", || choose(1)),
-            Idle.on(NONE, Key::Num3, "Third answer", || choose(2)),
-            Idle.on(NONE, Key::Num4, "Fourth answer", || choose(3)),
-            Window.on(NONE, Key::F5, "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
-            Idle.on(NONE, Key::H, "Hint", || Command::Lesson(LessonCommand::Hint)),
-        ],
-    ),
-    (
-        "File",
-        &[
-            Window.on(CTRL, Key::O, "Open a preset", || Command::Ask(Purpose::Open)),
-            Window.on(CTRL, Key::S, "Save", || Command::Save(None)),
-            Window.on(CTRL_SHIFT, Key::S, "Save under another name", || Command::Ask(Purpose::Save(None))),
-            Window.on(CTRL, Key::Q, "Quit", || Command::Proceed(Next::Quit)),
-        ],
-    ),
-    (
-        WINDOW,
-        &[
-            Window.on(CTRL, Key::Num1, "Show the motion", || Command::Show(Tab::Motion)),
-            Window.on(CTRL, Key::Num2, "Compare pinned runs", || Command::Show(Tab::Compare)),
-            Window.on(CTRL, Key::Num3, "Sweep a parameter", || Command::Show(Tab::Sweep)),
-            Window.on(CTRL, Key::Num4, "Show the torque; of a plate, exact results", || Command::Show(Tab::Torque)),
-            Window.on(CTRL, Key::Num5, "Show the trade-off", || Command::Show(Tab::Tradeoff)),
-            Window.on(CTRL, Key::Num6, "Show the start-up", || Command::Show(Tab::Startup)),
-            Window.on(CTRL, Key::Num7, "Hold a plate", || Command::Show(Tab::Hold)),
-            Window.on(CTRL, Key::Num8, "Show the rotor", || Command::Show(Tab::Rotor)),
-            Window.on(CTRL, Key::Num9, "Show what the results depend on", || Command::Show(Tab::Sensitivity)),
-            Window.on(CTRL_SHIFT, Key::F, "Fit to measurements", || Command::Show(Tab::Fit)),
-            Always.on(CTRL, Key::L, "Lecture size", || Command::ToggleLecture),
-            Always.on(CTRL, Key::T, "Light or dark", || Command::ToggleTheme),
-            Window.on(NONE, Key::F2, "Show or hide the parameters", || Command::ToggleParameters),
-            Window.on(NONE, Key::F3, "Show or hide the results", || Command::ToggleResults),
-            Window.on(CTRL, Key::P, "Picture of the window", || Command::Screenshot),
-            Always.on(NONE, Key::F1, "This sheet", || Command::ToggleShortcuts),
-        ],
-    ),
+const MOVING: &[Shortcut] = &[
+    Idle.on(NONE, Key::Space, "Play or pause", || Command::TogglePlay),
+    Idle.on(NONE, Key::ArrowLeft, "One frame back", || Command::StepFrames(-1)),
+    Idle.on(NONE, Key::ArrowRight, "One frame on", || Command::StepFrames(1)),
+    Idle.on(NONE, Key::Home, "To the start", || Command::Seek(0.0)),
+    Idle.on(NONE, Key::OpenBracket, "Follow the tooth before", || Command::NextTooth(-1)),
+    Idle.on(NONE, Key::CloseBracket, "Follow the next tooth", || Command::NextTooth(1)),
 ];
+
+const HELD: &[Shortcut] = &[
+    Idle.on(NONE, Key::ArrowUp, "Held plate up", || Command::Hold(HoldCommand::By(HOLD_STEP))),
+    Idle.on(NONE, Key::ArrowDown, "Held plate down", || Command::Hold(HoldCommand::By(-HOLD_STEP))),
+];
+
+const SCENE: &[Shortcut] = &[
+    History.on(CTRL, Key::Z, "Undo", || Command::Undo),
+    Shortcut {
+        also: Some(KeyboardShortcut::new(CTRL, Key::Y)),
+        ..History.on(CTRL_SHIFT, Key::Z, "Redo", || Command::Redo)
+    },
+    Window.on(CTRL, Key::D, "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
+    Idle.on(NONE, Key::Escape, "Stop solving", || Command::CancelSolve),
+];
+
+const LESSONS: &[Shortcut] = &[
+    Idle.on(NONE, Key::PageDown, "Next step", || Command::Lesson(LessonCommand::Next)),
+    Idle.on(NONE, Key::PageUp, "Previous step", || Command::Lesson(LessonCommand::Back)),
+    Idle.on(NONE, Key::Enter, "Confirm the answer, go to what is marked, or go on", || GO_ON),
+    Idle.on(NONE, Key::Num1, "First answer", || choose(0)),
+    Idle.on(NONE, Key::Num2, "Second answer", || choose(1)),
+    Idle.on(NONE, Key::Num3, "Third answer", || choose(2)),
+    Idle.on(NONE, Key::Num4, "Fourth answer", || choose(3)),
+    Window.on(NONE, Key::F5, "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
+    Idle.on(NONE, Key::H, "Hint", || Command::Lesson(LessonCommand::Hint)),
+];
+
+const FILE: &[Shortcut] = &[
+    Window.on(CTRL, Key::O, "Open a preset", || Command::Ask(Purpose::Open)),
+    Window.on(CTRL, Key::S, "Save", || Command::Save(None)),
+    Window.on(CTRL_SHIFT, Key::S, "Save under another name", || Command::Ask(Purpose::Save(None))),
+    Window.on(CTRL, Key::Q, "Quit", || Command::Proceed(Next::Quit)),
+];
+
+const LOOK: &[Shortcut] = &[
+    Window.on(CTRL, Key::Num1, "Show the motion", || Command::Show(Tab::Motion)),
+    Window.on(CTRL, Key::Num2, "Compare pinned runs", || Command::Show(Tab::Compare)),
+    Window.on(CTRL, Key::Num3, "Sweep a parameter", || Command::Show(Tab::Sweep)),
+    Window.on(CTRL, Key::Num4, "Show the torque; of a plate, exact results", || Command::Show(Tab::Torque)),
+    Window.on(CTRL, Key::Num5, "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+    Window.on(CTRL, Key::Num6, "Show the start-up", || Command::Show(Tab::Startup)),
+    Window.on(CTRL, Key::Num7, "Hold a plate", || Command::Show(Tab::Hold)),
+    Window.on(CTRL, Key::Num8, "Show the rotor", || Command::Show(Tab::Rotor)),
+    Window.on(CTRL, Key::Num9, "Show what the results depend on", || Command::Show(Tab::Sensitivity)),
+    Window.on(CTRL_SHIFT, Key::F, "Fit to measurements", || Command::Show(Tab::Fit)),
+    Always.on(CTRL, Key::L, "Lecture size", || Command::ToggleLecture),
+    Always.on(CTRL, Key::T, "Light or dark", || Command::ToggleTheme),
+    Window.on(NONE, Key::F2, "Show or hide the parameters", || Command::ToggleParameters),
+    Window.on(NONE, Key::F3, "Show or hide the results", || Command::ToggleResults),
+    Window.on(CTRL, Key::P, "Picture of the window", || Command::Screenshot),
+    Always.on(NONE, Key::F1, "This sheet", || Command::ToggleShortcuts),
+];
+
+/// All shortcuts, in the groups and the order in which the sheet lists them.
+pub const GROUPS: &[(&str, &[Shortcut])] =
+    &[(MOTION, MOVING), (HOLDING, HELD), ("Scene", SCENE), ("Lessons", LESSONS), ("File", FILE), (WINDOW, LOOK)];
 
 fn all() -> impl Iterator<Item = &'static Shortcut> {
     GROUPS.iter().flat_map(|(_, shortcuts)| *shortcuts)
 }
 
-/// The shortcut that asks for `command`.
 fn asking_for(command: &Command) -> Option<&'static Shortcut> {
     all().find(|shortcut| (shortcut.command)() == *command)
 }

@@ -115,10 +115,8 @@ impl PlotStyle {
         for (text, colour) in legend.iter().rev() {
             let place = self.write(pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text);
             let left = place.left();
-            let key = Rect::from_center_size(
-                pos2(left - 0.6 * self.row, bottom - 0.5 * self.row),
-                vec2(0.7 * self.row, 0.35 * self.row),
-            );
+            let middle = pos2(left - 0.6 * self.row, bottom - 0.5 * self.row);
+            let key = Rect::from_center_size(middle, vec2(0.7 * self.row, 0.35 * self.row));
             self.painter.rect_filled(key, 1.0, *colour);
             self.term(place.union(key), text);
             right = key.left() - gap;
@@ -156,8 +154,7 @@ impl PlotStyle {
         if ends[0] == ends[1] {
             let everywhere: Vec<_> =
                 titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
-            self.title(plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
-            return;
+            return self.title(plot, word, &everywhere.iter().map(String::as_str).collect::<Vec<_>>(), &[]);
         }
         self.title_with_ends(plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
     }

@@ -97,6 +97,11 @@ pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
     VLine::new("", x).color(colour).width(width).allow_hover(false)
 }
 
+/// The line at the x that is pointed at, if one is.
+pub(super) fn under_pointer(plot: &mut PlotUi<'_>, x: Option<f64>, colour: Color32) {
+    x.into_iter().for_each(|x| plot.vline(upright(x, colour, 1.0)));
+}
+
 /// Dots, which say what they are when the pointer is near, if they have a name.
 pub(super) fn dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
     Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())

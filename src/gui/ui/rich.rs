@@ -2,6 +2,7 @@
 
 use super::formula::{Style as MathStyle, Typeset};
 use crate::gui::ui::cache::once;
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::theme::{mathematics, palette};
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
@@ -44,23 +45,18 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
-                let mut size = mathematics::DISPLAY * look.size;
-                let set = |ui: &Ui, size: f32| {
-                    let style = MathStyle { size, colour: look.colour, display: true };
-                    Typeset::of(ui.painter(), &formula.nodes, style)
-                };
-                let mut formula_set = set(ui, size);
+                let style = MathStyle { size: mathematics::DISPLAY * look.size, colour: look.colour, display: true };
+                let mut formula_set = Typeset::of(ui.painter(), &formula.nodes, style);
                 if formula_set.width > room {
-                    size *= (room / formula_set.width) * 0.98;
-                    formula_set = set(ui, size);
+                    let size = style.size * ((room / formula_set.width) * 0.98);
+                    formula_set = Typeset::of(ui.painter(), &formula.nodes, MathStyle { size, ..style });
                 }
                 let height = formula_set.ascent + formula_set.descent + 0.5 * look.size;
                 let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
                 let left = area.left() + (0.5 * (room - formula_set.width)).max(0.0);
                 let at = pos2(left, area.top() + 0.25 * look.size + formula_set.ascent);
                 ui.painter().extend(formula_set.moved(at.to_vec2()));
-                let text = formula.plain();
-                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+                response.called(egui::Role::Label, &formula.plain());
             }
         }
     }
@@ -122,8 +118,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
         .collect();
     let height: f32 = heights.iter().map(|(ascent, descent)| ascent + descent + lead).sum();
     let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
-    let text = plain(parts);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+    let response = response.called(egui::Role::Label, &plain(parts));
     if ui.is_rect_visible(area) {
         let mut top = area.top();
         for (line, (ascent, descent)) in lines.iter().zip(&heights) {
@@ -146,11 +141,8 @@ fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let (dot, _) = ui.allocate_exact_size(vec2(0.95 * look.size, look.size), Sense::hover());
-        ui.painter().circle_filled(
-            dot.left_center() + vec2(0.4 * look.size, 0.08 * look.size),
-            0.13 * look.size,
-            look.colour,
-        );
+        let middle = dot.left_center() + vec2(0.4 * look.size, 0.08 * look.size);
+        ui.painter().circle_filled(middle, 0.13 * look.size, look.colour);
         ui.vertical(|ui| paragraph(ui, parts, look)).inner
     })
     .inner
@@ -158,11 +150,8 @@ fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
 
 fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let painter = ui.painter();
-    let space = painter
-        .layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour)
-        .size()
-        .x
-        .max(0.25 * look.size);
+    let blank = painter.layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour);
+    let space = blank.size().x.max(0.25 * look.size);
     let style = |colour: Color32| MathStyle { size: look.size, colour, display: false };
     let mut atoms = Vec::new();
     // Whether white space came before, and before that a number.
@@ -187,15 +176,12 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     if word.is_empty() {
                         break;
                     }
+                    let set = |colour| Typeset::text(painter, word, style(colour), *kind == Style::Slanted);
                     let set = match kind {
-                        Style::Plain => Typeset::text(painter, word, style(look.colour), false),
-                        Style::Slanted => Typeset::text(painter, word, style(look.colour), true),
+                        Style::Plain | Style::Slanted => set(look.colour),
                         // The fonts have one weight: what is strong has a colour.
-                        Style::Strong => {
-                            Typeset::text(painter, word, style(palette(ui.visuals().dark_mode).film), false)
-                        }
-                        Style::Code => Typeset::text(painter, word, style(look.colour), false)
-                            .with_ground(ui.visuals().extreme_bg_color),
+                        Style::Strong => set(palette(ui.visuals().dark_mode).film),
+                        Style::Code => set(look.colour).with_ground(ui.visuals().extreme_bg_color),
                     };
                     let glued = number && (word.starts_with(|c: char| c.is_ascii_digit()) || is_unit(word));
                     atoms.push(Atom { set, space: apart.then_some(space), glued });

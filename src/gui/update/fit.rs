@@ -1,14 +1,17 @@
-//! Carries out the commands of measurements and fits.
+//! Carries out the commands of measurements, of measured faces, and of fits.
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
 use crate::gui::command::FitCommand;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
+use crate::job::face::FaceWork;
 use crate::job::fit::FitWork;
+use crate::scene::Kind;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::PathBuf;
+use std::time::Duration;
 
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
@@ -48,6 +51,25 @@ impl Updater {
             }
             Err(error) => state.fail(error),
         }
+    }
+
+    pub(super) fn load_face(&mut self, path: PathBuf) {
+        if self.state.document.scene().kind() == Kind::Plate {
+            let text = "These are measured heights, and only a motor has rough faces: open a motor first.";
+            return self.state.fail(text);
+        }
+        self.state.view.tab = Tab::Rotor;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if let Some(task) = self.start_work("The heights cannot be read", FaceWork::new(path), Duration::ZERO) {
+            self.state.face.begin(name, task);
+        }
+    }
+
+    /// Gives the scene the roughness of two faces like this one: those of its keys that follow from it.
+    pub(super) fn take_roughness(&mut self) {
+        let Some(face) = self.state.face.found.as_ref() else { return };
+        let values = face.roughness(self.state.document.scene());
+        self.take_values(values);
     }
 
     fn start_fit(&mut self) {

@@ -52,26 +52,18 @@ impl Updater {
 
     pub(super) fn teach(&mut self, command: LessonCommand) {
         let State { document, view, lessons, .. } = &mut self.state;
-        let sets_up = matches!(
-            command,
-            LessonCommand::Open(..)
-                | LessonCommand::Again
-                | LessonCommand::Next
-                | LessonCommand::Back
-                | LessonCommand::SetUp
-        );
         let shows = command == LessonCommand::ShowMe;
-        let replaced = match command {
-            LessonCommand::Open(lesson, step) => lessons.open(lesson, step, document, view),
-            LessonCommand::Again => lessons.again(document, view),
-            LessonCommand::Next => lessons.turn(1, document, view),
-            LessonCommand::Back => lessons.turn(-1, document, view),
-            LessonCommand::Leave => lessons.leave(document, view),
-            LessonCommand::SetUp => lessons.set_up(document, view, true),
-            LessonCommand::ShowMe => lessons.show_me(document),
+        let (replaced, sets_up) = match command {
+            LessonCommand::Open(lesson, step) => (lessons.open(lesson, step, document, view), true),
+            LessonCommand::Again => (lessons.again(document, view), true),
+            LessonCommand::Next => (lessons.turn(1, document, view), true),
+            LessonCommand::Back => (lessons.turn(-1, document, view), true),
+            LessonCommand::Leave => (lessons.leave(document, view), false),
+            LessonCommand::SetUp => (lessons.set_up(document, view, true), true),
+            LessonCommand::ShowMe => (lessons.show_me(document), false),
             LessonCommand::AllResults(all) => {
                 lessons.running.iter_mut().for_each(|running| running.all_results = all);
-                false
+                (false, false)
             }
             LessonCommand::Choose(choice) => return self.choose(choice),
             LessonCommand::GoOn => return self.go_on(),
@@ -81,7 +73,7 @@ impl Updater {
                 if let Some((step, work)) = lessons.step_and_work() {
                     answer(&command, step, work);
                 }
-                false
+                (false, false)
             }
         };
         if replaced {
@@ -112,11 +104,10 @@ impl Updater {
     /// Does what comes next in the tour, whose last stop leads to the first lesson, or in a lesson.
     fn go_on(&mut self) {
         if let Some(stop) = self.state.lessons.tour {
-            match stop + 1 < STOPS.len() {
+            return match stop + 1 < STOPS.len() {
                 true => self.carry_out(Command::Tour(Some(stop + 1))),
                 false => self.teach(LessonCommand::Open(0, Some(0))),
-            }
-            return;
+            };
         }
         match self.state.lessons.stage() {
             Some(Stage::Question) if !self.state.lessons.lacks_number() => self.teach(LessonCommand::Commit),

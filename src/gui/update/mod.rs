@@ -2,7 +2,6 @@
 
 pub mod dialogs;
 mod exports;
-mod face;
 mod fit;
 mod lessons;
 mod links;

@@ -23,7 +23,6 @@ impl Updater {
                 }
             }
             PinCommand::Preset(name) => self.pin_preset(name),
-            PinCommand::Forget(id) => self.state.pins.forget(id),
             PinCommand::Rename(id, name) => self.state.pins.rename(id, &name),
             PinCommand::Remove(id) => self.state.pins.remove(id),
             PinCommand::Clear => self.state.pins.clear(),
@@ -59,7 +58,7 @@ impl Updater {
         let work = PinWork { scene: scene.clone(), fidelity };
         match self.start_work("A pinned run cannot be solved again", work, Duration::ZERO) {
             Some(task) => self.state.pins.begin(id, task),
-            None => self.state.pins.forget(id),
+            None => self.state.pins.remove(id),
         }
     }
 }

@@ -44,14 +44,7 @@ impl Updater {
             Command::Ask(purpose) => self.ask(purpose),
             Command::Chosen(purpose, path) => self.chosen(purpose, path),
             Command::Typed(purpose, path) => self.typed(purpose, path),
-            Command::OpenPathPrompt => {
-                let purposes = vec![Purpose::Open, Purpose::Save(None)];
-                let like = |failed: &Purpose| purposes.iter().any(|purpose| failed.is_like(purpose));
-                let failed = state.failed_path.take_if(|(failed, _)| like(failed));
-                let path = failed.map_or_else(|| state.suggested_path(&purposes[1]), |(_, path)| path);
-                let prompt = PathPrompt { purposes, path, no_dialog: false, fresh: true, refused: None };
-                state.modal = Some(Modal::Path(prompt));
-            }
+            Command::OpenPathPrompt => self.prompt(vec![Purpose::Open, Purpose::Save(None)]),
             Command::Save(then) => self.save(then),
             Command::QuitAnyway => self.proceed_with_document(Next::Quit),
             Command::DiscardThen(next) => self.discard_then(next),
@@ -85,7 +78,7 @@ impl Updater {
             Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
-            Command::CancelExport => state.exports.cancel(),
+            Command::CancelExport => state.exports.running.iter_mut().for_each(|running| running.work.cancel()),
             Command::CloseExportNote => state.exports.close_note(),
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
@@ -232,13 +225,17 @@ impl Updater {
         match answer {
             Answer::Path(path) => self.chosen(purpose, path),
             Answer::Cancelled => {}
-            Answer::NoDialog => {
-                let failed = self.state.failed_path.take_if(|(failed, _)| failed.is_like(&purpose));
-                let path = failed.map_or_else(|| self.state.suggested_path(&purpose), |(_, path)| path);
-                let purposes = vec![purpose];
-                let prompt = PathPrompt { purposes, path, no_dialog: true, fresh: true, refused: None };
-                self.state.modal = Some(Modal::Path(prompt));
-            }
+            Answer::NoDialog => self.prompt(vec![purpose]),
         }
+    }
+
+    /// Asks for a path to type: begins with the one at which something like this failed last, or the one suggested for the last of `purposes`.
+    fn prompt(&mut self, purposes: Vec<Purpose>) {
+        let state = &mut self.state;
+        let like = |failed: &Purpose| purposes.iter().any(|purpose| failed.is_like(purpose));
+        let failed = state.failed_path.take_if(|(failed, _)| like(failed)).map(|(_, path)| path);
+        let suggested = || purposes.last().map(|purpose| state.suggested_path(purpose));
+        let path = failed.or_else(suggested).unwrap_or_default();
+        state.modal = Some(Modal::Path(PathPrompt { purposes, path, fresh: true, refused: None }));
     }
 }

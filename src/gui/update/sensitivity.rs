@@ -8,7 +8,6 @@ use crate::solve::Settings;
 use std::sync::Arc;
 
 impl Updater {
-    /// Carries out a command of the sensitivity analysis.
     pub(super) fn sensitivity(&mut self, command: SensitivityCommand) {
         let document = &self.state.document;
         let (scene, fidelity) = (document.scene().clone(), document.target());

@@ -54,15 +54,12 @@ impl Updater {
         (self.platform.now)()
     }
 
-    /// Draws the window again when background work has told something, but not more often than `every`; at its end at once.
-    pub(super) fn wake(&self, every: Duration) -> impl Fn(bool) + Send + Sync + 'static {
-        let ctx = self.ctx.clone();
-        move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) }
-    }
-
-    /// Starts `work`, which draws the window again not more often than `every`; if it cannot be, that is said after what `failed`.
+    /// Starts `work`, which draws the window again not more often than `every`, but at once at its end; if it cannot be, that is said after what
+    /// `failed`.
     pub(super) fn start_work<W: Work>(&mut self, failed: &str, work: W, every: Duration) -> Option<TaskOf<W>> {
-        BackgroundTask::of(work, self.wake(every)).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
+        let ctx = self.ctx.clone();
+        let wake = move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) };
+        BackgroundTask::of(work, wake).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
     /// Shows an error about a file, whose path is suggested at the next try.

@@ -116,15 +116,12 @@ fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
 }
 
 fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
-    let title = match &prompt.purposes[..] {
-        [only] => only.title(),
-        _ => "Open or save a preset",
-    };
-    heading(ui, title);
-    if prompt.no_dialog {
-        let text = "No file dialog answers on this machine: type the path.";
-        cx.note(ui, text);
+    if let [only] = &prompt.purposes[..] {
+        heading(ui, only.title());
+        cx.note(ui, "No file dialog answers on this machine: type the path.");
         ui.add_space(6.0);
+    } else {
+        heading(ui, "Open or save a preset");
     }
     let folder = prompt.purposes.iter().all(|purpose| purpose.filter().is_none());
     let label = ui.label(if folder { "Folder" } else { "Path" });

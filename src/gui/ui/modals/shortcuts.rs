@@ -51,23 +51,18 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
 
 fn group(ui: &mut egui::Ui, title: &str, shortcuts: &[Shortcut], widest: f32, cx: &DrawContext<'_>) {
     ui.label(RichText::new(title).color(cx.colours.quiet));
-    egui::Grid::new(("shortcuts", title)).num_columns(2).min_col_width(widest).spacing([GAP / 2.0, 5.0]).show(
-        ui,
-        |ui| {
-            for shortcut in shortcuts {
-                ui.label(RichText::new(keys::name(&shortcut.keys)).monospace().strong());
-                let also = shortcut.also.map_or_else(String::new, |keys| format!(" (also {})", keys::name(&keys)));
-                ui.add(egui::Label::new(format!("{}{also}", shortcut.about)).extend());
-                ui.end_row();
-            }
-            // These are egui's own.
-            let zoom = [(ZOOM_IN, "Larger"), (ZOOM_OUT, "Smaller"), (ZOOM_RESET, "As large as usual")];
-            for (keys, about) in zoom.into_iter().filter(|_| title == WINDOW) {
-                ui.label(RichText::new(keys::name(&keys)).monospace().strong());
-                ui.add(egui::Label::new(about).extend());
-                ui.end_row();
-            }
-        },
-    );
+    let grid = egui::Grid::new(("shortcuts", title)).num_columns(2).min_col_width(widest).spacing([GAP / 2.0, 5.0]);
+    grid.show(ui, |ui| {
+        let own = shortcuts.iter().map(|shortcut| (shortcut.keys, shortcut.also, shortcut.about));
+        // These are egui's own.
+        let zoom = [(ZOOM_IN, "Larger"), (ZOOM_OUT, "Smaller"), (ZOOM_RESET, "As large as usual")];
+        let zoom = zoom.into_iter().filter(|_| title == WINDOW).map(|(keys, about)| (keys, None, about));
+        for (keys, also, about) in own.chain(zoom) {
+            ui.label(RichText::new(keys::name(&keys)).monospace().strong());
+            let also = also.map_or_else(String::new, |keys| format!(" (also {})", keys::name(&keys)));
+            ui.add(egui::Label::new(format!("{about}{also}")).extend());
+            ui.end_row();
+        }
+    });
     ui.add_space(12.0);
 }

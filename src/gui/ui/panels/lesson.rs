@@ -43,10 +43,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| {
         scrolled(ui, ("lesson", running.lesson, running.step), 10.0, |ui| {
             let look = Look::reading(ui);
-            let Some((step, work)) = step else {
-                recap(ui, lesson, &running.work, cx);
-                return;
-            };
+            let Some((step, work)) = step else { return recap(ui, lesson, &running.work, cx) };
             ui.add(egui::Label::new(RichText::new(&step.title).heading().strong()).wrap());
             ui.add_space(0.4 * look.size);
             lesson_parts::blocks(ui, &step.body, look, false, cx);
@@ -143,10 +140,8 @@ fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.on_click(&ui.button("Back"), LessonCommand::Back);
         cx.button(ui, "Take it again", "From the first step, with nothing answered", LessonCommand::Again);
         let next = cx.state.lessons.following();
-        cx.on_click(
-            &next_button(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back"),
-            LessonCommand::Leave,
-        );
+        let close = next_button(ui, "Close", next.is_none(), cx);
+        cx.on_click(&close.on_hover_text("Brings your own scene back"), LessonCommand::Leave);
         if let Some(next) = next {
             let button = next_button(ui, "Next lesson", true, cx);
             cx.on_click(&button.on_hover_text("Enter"), LessonCommand::Open(next, None));
@@ -194,9 +189,8 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
             if readings(&question.ask).next().is_none() {
                 lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
             }
-            ui.add(
-                egui::Label::new(RichText::new(question.answer.words(question.answer.right())).size(look.size)).wrap(),
-            );
+            let right = question.answer.words(question.answer.right());
+            ui.add(egui::Label::new(RichText::new(right).size(look.size)).wrap());
         }
     }
     ui.add_space(12.0);

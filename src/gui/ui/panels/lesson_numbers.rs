@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
     };
     // Three columns of numbers; the names have what is left.
     let em = ui.text_style_height(&TextStyle::Body);
-    let row = |ui: &mut Ui, name: &mut dyn FnMut(&mut Ui), cells: [RichText; 3]| {
+    let row = |ui: &mut Ui, name: Option<&dyn Fn(&mut Ui)>, cells: [RichText; 3]| {
         let height = ui.spacing().interact_size.y.min(1.3 * em);
         ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::right_to_left(Align::Center), |ui| {
             for (cell, width) in cells.into_iter().zip(NUMBER_WIDTHS).rev() {
@@ -54,13 +54,14 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
                     ui.add(egui::Label::new(cell).extend());
                 });
             }
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| name(ui));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| name.into_iter().for_each(|name| name(ui)));
         });
     };
     let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
     let table = ui.scope(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
-        row(ui, &mut |ui| drop(ui.label(quiet("Your run"))), [quiet("at first"), quiet("now"), quiet("")]);
+        let whose: &dyn Fn(&mut Ui) = &|ui| drop(ui.label(quiet("Your run")));
+        row(ui, Some(whose), [quiet("at first"), quiet("now"), quiet("")]);
         for &shown_name in &step.show {
             let words = shown_name.words();
             let unit = match shown_name.unit(scene) {
@@ -85,15 +86,8 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
                 name(ui);
             }
             let present = RichText::new(shown(shown_name, now)).strong().color(ui.visuals().strong_text_color());
-            row(
-                ui,
-                &mut |ui| {
-                    if fits {
-                        name(ui)
-                    }
-                },
-                [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(cx.colours.film)],
-            );
+            let cells = [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(cx.colours.film)];
+            row(ui, fits.then_some(&name as &dyn Fn(&mut Ui)), cells);
         }
     });
     // The ring stands outside of what the panel clips.

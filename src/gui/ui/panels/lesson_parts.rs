@@ -98,7 +98,7 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                     Some(Prediction::Choice(choice)) => Some(choice),
                     _ => None,
                 };
-                if let Some(choice) = choices(ui, all, chosen, !work.committed, look, cx) {
+                if let Some(choice) = choices(ui, all, chosen, !work.committed, cx) {
                     cx.push(LessonCommand::Predict(Prediction::Choice(choice)));
                 }
             }
@@ -129,13 +129,10 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                 cx.note(ui, if task { "Prediction made: now see what happens" } else { "Prediction made" });
             }
             (true, Kind::Calculate) if task => {
+                let right = question.answer.words(question.answer.right());
                 match work.prediction.is_some_and(|given| question.answer.is_right(given)) {
                     true => cx.say(ui, "✔ Right", cx.colours.good),
-                    false => cx.say(
-                        ui,
-                        format!("The answer is {}", question.answer.words(question.answer.right())),
-                        cx.colours.contact,
-                    ),
+                    false => cx.say(ui, format!("The answer is {right}"), cx.colours.contact),
                 }
             }
             _ => {}
@@ -152,14 +149,8 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
 }
 
 /// Choices below each other, each with its mark; the one that was clicked.
-fn choices(
-    ui: &mut Ui,
-    all: &[Choice],
-    chosen: Option<usize>,
-    open: bool,
-    look: Look,
-    cx: &DrawContext<'_>,
-) -> Option<usize> {
+fn choices(ui: &mut Ui, all: &[Choice], chosen: Option<usize>, open: bool, cx: &DrawContext<'_>) -> Option<usize> {
+    let look = Look::reading(ui);
     let side = 1.25 * look.size;
     let sense = if open { egui::Sense::click() } else { egui::Sense::hover() };
     let row = |ui: &mut Ui, choice: &[Inline], chosen: bool| {
@@ -231,7 +222,7 @@ fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, unmarked: bool, ope
     let Answer::Choice { choices: all, .. } = &observe.answer else { return };
     boxed(ui, cx.colours.film, title(observe.kind), |ui| {
         blocks(ui, &observe.ask, look, true, cx);
-        if let Some(choice) = choices(ui, all, work.observed, open, look, cx) {
+        if let Some(choice) = choices(ui, all, work.observed, open, cx) {
             cx.push(LessonCommand::Observe(choice));
         }
         if let (true, Some(choice)) = (open, work.observed) {

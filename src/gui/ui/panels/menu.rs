@@ -65,7 +65,8 @@ pub fn menu(ui: &mut egui::Ui, name: &str, entries: &mut dyn FnMut(&mut egui::Ui
     ui.menu_button(name, |ui| entries(ui)).response
 }
 
-fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &DrawContext<'_>) {
+fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: impl Into<Command>, cx: &DrawContext<'_>) {
+    let command = command.into();
     let entry = ui.add_enabled(enabled, Button::new(text).shortcut_text(keys::of(&command)));
     take(ui, entry, command, cx);
 }
@@ -85,17 +86,13 @@ const EXPORTS: &[&[Export]] = &[
     SWEEP,
     &[Export::TradeoffTable, Export::TradeoffFigure],
     &[Export::Sensitivity],
-    FIT,
-    STARTUP,
+    &[Export::Fit],
+    &[Export::Startup],
 ];
 /// Exports of the pinned runs.
 pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport];
 /// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
-/// Exports of a start-up.
-pub const STARTUP: &[Export] = &[Export::Startup];
-/// Exports of a fit.
-pub const FIT: &[Export] = &[Export::Fit];
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) {
@@ -162,20 +159,14 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     }
     ui.separator();
     let running = state.running.is_some();
-    item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
+    item(ui, "Leave the lesson", running, LessonCommand::Leave, cx);
     if HAS_FILES {
         item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
-        item(
-            ui,
-            "Read lessons of folders again",
-            !state.folders.is_empty(),
-            Command::Lesson(LessonCommand::Reload),
-            cx,
-        );
+        item(ui, "Read lessons of folders again", !state.folders.is_empty(), LessonCommand::Reload, cx);
     }
     export_item(ui, Export::Answers, cx.state.can_export(Export::Answers), cx);
     if !state.faults.is_empty() {
-        item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
+        item(ui, "What was wrong with lessons…", true, LessonCommand::Faults, cx);
     }
 }
 

@@ -18,8 +18,6 @@ use crate::plan::Decision;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, Align, Layout, RichText, TextStyle, vec2};
 
-/// The value of a switch that leaves it to the plan.
-const AUTO: &str = "auto";
 /// Width that a combo box needs beside its text, in heights of the text.
 const COMBO_ICON: f32 = 2.2;
 
@@ -142,7 +140,6 @@ impl Columns {
     }
 }
 
-/// Options of a switch.
 fn options(parameter: &Parameter) -> &'static [&'static str] {
     match parameter.kind {
         ParameterKind::Choice { options, .. } => options,
@@ -193,7 +190,7 @@ impl SwitchRow<'_> {
             self.combo(ui, parameter, ui.available_width(), &explanation, term.id);
         }
         let asked = asked(self.document().scene(), parameter.key);
-        if asked != AUTO && !asked.is_empty() {
+        if asked != words::AUTO_NAME && !asked.is_empty() {
             let back = Command::Reset(parameter.key);
             self.overruled(ui, decision, back);
         }
@@ -254,7 +251,7 @@ impl SwitchRow<'_> {
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
             let name = format!("{} back to auto", capitalised(decision::term(decision)));
-            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), name, back);
+            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), &name, back);
         });
         ui.add_space(2.0);
     }

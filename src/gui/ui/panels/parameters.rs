@@ -15,7 +15,7 @@ use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
-use eframe::egui::{self, RichText, TextStyle};
+use eframe::egui::{self, RichText, TextStyle, Ui};
 
 /// Keys of the main parameters, listed first.
 const MAIN: &[&str] = &[
@@ -51,7 +51,7 @@ const NOTE_SIZE: f32 = 0.88;
 const FRAME_MARGIN: i8 = 6;
 
 /// Shows the parameters of the scene, and at each why its last edit was rejected.
-pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
     scrolled_anew(ui, "parameters", cx.state.view.opened, 8.0, |ui| {
@@ -70,7 +70,7 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    fn all(&mut self, ui: &mut egui::Ui) {
+    fn all(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.y = 4.0;
         outline_fields(ui);
         ui.add_space(6.0);
@@ -131,7 +131,7 @@ impl Panel<'_> {
     }
 
     /// Makes the column of units as wide as the widest of `parameters`.
-    fn measure_units(&mut self, ui: &egui::Ui, parameters: &[&'static Parameter]) {
+    fn measure_units(&mut self, ui: &Ui, parameters: &[&'static Parameter]) {
         self.units = parameters.iter().map(|parameter| text_width(ui, &self.scene.unit(parameter))).fold(0.0, f32::max);
     }
 
@@ -148,19 +148,16 @@ impl Panel<'_> {
         parameters
     }
 
-    fn row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+    fn row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let row = ui.push_id(parameter.key, |ui| {
             let value = self.scene.get(parameter.key);
             match (parameter.kind, &value) {
                 (_, None) if self.scene.following(parameter.key).is_some() => self.following_row(ui, parameter),
-                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
-                    self.switch_row(ui, parameter, false)
-                }
-                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, Some(value)) => {
-                    if parameter.absent.is_some() {
-                        self.switch_row(ui, parameter, true);
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, number) => {
+                    if parameter.absent.is_some() || number.is_none() {
+                        self.switch_row(ui, parameter, number.is_some());
                     }
-                    self.number_row(ui, parameter, value);
+                    number.iter().for_each(|number| self.number_row(ui, parameter, number));
                 }
                 (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
                 (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
@@ -194,7 +191,7 @@ impl Panel<'_> {
     }
 
     /// A value that follows from others: to be read.
-    fn following_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+    fn following_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let Some(value) = self.scene.following(parameter.key) else { return };
         let explanation = format!("{}\nFollows from the keys above\n{}", parameter.about, parameter.key);
         ui.horizontal_wrapped(|ui| {
@@ -205,7 +202,7 @@ impl Panel<'_> {
     }
 
     /// The name, and at its right the button that brings back what it was.
-    fn label_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) -> egui::Response {
+    fn label_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) -> egui::Response {
         let explanation = self.explanation(parameter);
         let text = RichText::new(label(parameter));
         let text = if is_main(self.scene, parameter) { text.strong() } else { text };
@@ -215,12 +212,7 @@ impl Panel<'_> {
     }
 
     /// `add` at the left, and the reset button at the right if the value is not the one that was opened.
-    fn beside_reset<R>(
-        &mut self,
-        ui: &mut egui::Ui,
-        parameter: &'static Parameter,
-        add: impl FnOnce(&mut egui::Ui) -> R,
-    ) -> R {
+    fn beside_reset<R>(&mut self, ui: &mut Ui, parameter: &'static Parameter, add: impl FnOnce(&mut Ui) -> R) -> R {
         let original = self.original(parameter).filter(|value| Some(value) != self.scene.get(parameter.key).as_ref());
         let side = ui.text_style_height(&TextStyle::Body);
         let right = ui.max_rect().right();
@@ -239,7 +231,7 @@ impl Panel<'_> {
         row.inner
     }
 
-    fn number_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+    fn number_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) {
         let explanation = self.explanation(parameter);
         // The checkbox above mostly says it already.
         let said =
@@ -261,11 +253,8 @@ impl Panel<'_> {
             };
             let typed = field_name(parameter);
             self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
-            ui.add(
-                egui::Label::new(RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet))
-                    .selectable(false)
-                    .extend(),
-            );
+            let unit = RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet);
+            ui.add(egui::Label::new(unit).selectable(false).extend());
         });
     }
 
@@ -281,7 +270,7 @@ impl Panel<'_> {
         Field { key: parameter.key, value, name, hint: "", refused, width, wrapped: false }
     }
 
-    fn slider(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
+    fn slider(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
         let present = value.as_number().unwrap_or_default();
         let (range, logarithmic) = slider_range(self.scene, parameter);
         let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
@@ -309,7 +298,7 @@ impl Panel<'_> {
     }
 
     /// The checkbox that switches an optional parameter on and off.
-    fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
+    fn switch_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, present: bool) {
         let mut on = present;
         let explanation = self.explanation(parameter);
         if ui.checkbox(&mut on, parameter.switch).hint_beside(ui, &explanation).changed() {
@@ -319,11 +308,8 @@ impl Panel<'_> {
             });
         }
         if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {
-            return quiet(
-                ui,
-                self.cx,
-                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter)).trim_end(),
-            );
+            let now = format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter));
+            return quiet(ui, self.cx, now.trim_end());
         }
         // That unset numerics are left to the fidelity need not be said four times.
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
@@ -331,7 +317,7 @@ impl Panel<'_> {
         }
     }
 
-    fn flag_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, on: bool) {
+    fn flag_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, on: bool) {
         let explanation = self.explanation(parameter);
         self.beside_reset(ui, parameter, |ui| {
             let mut on = on;
@@ -342,20 +328,20 @@ impl Panel<'_> {
         });
     }
 
-    fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
+    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
         let named = self.label_row(ui, parameter);
         let width = ui.available_width();
         let list = choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
         self.cx.lead_to(ui, parameter.key, list.id);
     }
 
-    fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+    fn text_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) {
         let name = label(parameter);
         let field = Field { hint: name, wrapped: true, ..self.field(parameter, Some(value), name, f32::INFINITY) };
         field.show(ui, self.cx).hint_beside(ui, parameter.about);
     }
 
-    fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+    fn path_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let about = format!("{}\n{}", parameter.about, parameter.key);
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
         let field = self.field(parameter, None, label(parameter), f32::INFINITY);
@@ -379,7 +365,7 @@ impl Panel<'_> {
         });
     }
 
-    fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
+    fn rows_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, rows: usize) {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
             ui.label(label(parameter)).hint_beside(ui, &explanation);
@@ -389,7 +375,7 @@ impl Panel<'_> {
     }
 
     /// Notes below a parameter: why an edit is refused, and that it has no effect.
-    fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+    fn footnotes(&self, ui: &mut Ui, parameter: &'static Parameter) {
         let rejected = self.cx.state.rejected.of(parameter.key);
         if let Some(message) = rejected.filter(|_| !records::tells(ui, parameter.key)) {
             let prefix = format!("{} = ", parameter.key);
@@ -438,7 +424,7 @@ fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
 }
 
 /// A round arrow in `area`.
-fn reset_button(ui: &egui::Ui, area: egui::Rect, name: &str) -> egui::Response {
+fn reset_button(ui: &Ui, area: egui::Rect, name: &str) -> egui::Response {
     let response = ui.interact(area, ui.scope_id().with("reset"), egui::Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
     let visuals = ui.style().interact(&response);
@@ -450,7 +436,7 @@ fn reset_button(ui: &egui::Ui, area: egui::Rect, name: &str) -> egui::Response {
     response
 }
 
-fn quiet(ui: &mut egui::Ui, cx: &DrawContext<'_>, text: &str) {
+fn quiet(ui: &mut Ui, cx: &DrawContext<'_>, text: &str) {
     let size = NOTE_SIZE * TextStyle::Body.resolve(ui.style()).size;
     ui.add(egui::Label::new(RichText::new(text).size(size).color(cx.colours.quiet)).wrap().selectable(false));
 }

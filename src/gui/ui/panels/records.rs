@@ -152,12 +152,9 @@ pub fn show(
         let mut another: Vec<Value> = records.last().cloned().unwrap_or_else(new);
         // On top of the last one, so that it is connected and nothing overlaps.
         let at = |key: &str| columns.iter().position(|column| column.key == key);
-        if let (Some(bottom), Some(top)) = (at("z_bottom_mm"), at("z_top_mm")) {
-            let height = |i: usize| another[i].as_number().unwrap_or_default();
-            let (low, high) = (height(bottom), height(top));
-            if fewest > 0 {
-                (another[bottom], another[top]) = (Value::Number(high), Value::Number(high + (high - low)));
-            }
+        if let (Some(bottom), Some(top), true) = (at("z_bottom_mm"), at("z_top_mm"), fewest > 0) {
+            let [low, high] = [bottom, top].map(|i| another[i].as_number().unwrap_or_default());
+            (another[bottom], another[top]) = (Value::Number(high), Value::Number(high + (high - low)));
         }
         if let Some(Value::Text(name)) = another.first_mut().filter(|_| columns[0].key == "name") {
             *name = format!("{one} {}", records.len() + 1);

@@ -72,14 +72,8 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &M
     }
     let top = ui.next_widget_position();
     headline(ui, "α", "α", &shown.text(Alpha), "");
-    cx.note(
-        ui,
-        if regime::sucks(result.alpha) {
-            "the air sucks: contact carries more than the load"
-        } else {
-            "share of the load carried by air"
-        },
-    );
+    let sucks = regime::sucks(result.alpha).then_some("the air sucks: contact carries more than the load");
+    cx.note(ui, sucks.unwrap_or("share of the load carried by air"));
     shares(ui, result.alpha.value, cx);
     let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
     cx.mark(ui, "headline", headline);
@@ -319,11 +313,8 @@ fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
     painter.rect_filled(area, 3, cx.colours.contact);
     let air = egui::Rect::from_min_max(area.min, egui::pos2(area.left() + share * area.width(), area.bottom()));
-    painter.rect_filled(
-        air,
-        if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() },
-        cx.colours.film,
-    );
+    let corners = if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() };
+    painter.rect_filled(air, corners, cx.colours.film);
     response.explained(ui, "α");
     // Adding 0 turns −0 into 0.
     let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);

@@ -43,8 +43,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 cx.on_click(&entry, Command::SecondsPerCycle(seconds));
             }
         });
-        name(&speed, "Speed");
-        speed.explained_here(ui, "Slow motion");
+        speed.called(egui::Role::Slider, "Speed").explained_here(ui, "Slow motion");
         if let Some(at) = scrub(ui, place, frames, ["Time in the cycle", "Drag to an instant of the cycle"]) {
             // To a recorded frame; the end of the cycle is its start.
             cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
@@ -93,12 +92,10 @@ fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {
 }
 
 /// A slider from 0 to `most` over what is left of the row but for a label; where it was dragged to.
-fn scrub(ui: &mut egui::Ui, mut at: f64, most: f64, [called, hover]: [&'static str; 2]) -> Option<f64> {
+fn scrub(ui: &mut egui::Ui, mut at: f64, most: f64, [called, hover]: [&str; 2]) -> Option<f64> {
     ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
     let slider = Slider::new(&mut at, 0.0..=most).clamping(egui::SliderClamping::Never).show_value(false);
-    let scrub = ui.add(slider.smart_aim(false));
-    name(&scrub, called);
-    scrub.hint(hover).changed().then_some(at)
+    ui.add(slider.smart_aim(false)).called(egui::Role::Slider, called).hint(hover).changed().then_some(at)
 }
 
 /// Fidelity, error, time; progress and cancel while something runs.
@@ -141,9 +138,4 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         });
     });
-}
-
-/// Gives a widget without text of its own a name for screen readers.
-fn name(response: &egui::Response, text: &'static str) {
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, text));
 }

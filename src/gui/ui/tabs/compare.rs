@@ -36,8 +36,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if pins.can_restore() {
             cx.button(ui, "Bring the pins back", "Those that were removed together", PinCommand::Restore);
         }
-        introduction(ui, cx);
-        return;
+        return introduction(ui, cx);
     }
     chips(ui, cx);
     note(ui, cx);
@@ -71,7 +70,6 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
     cx.say(ui, text, colour);
 }
 
-/// Buttons that add a pin.
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
     let empty = cx.state.pins.pins.is_empty();
@@ -110,7 +108,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
                 ui.spinner();
                 ui.label(&waiting.name);
                 let name = format!("Do not pin {}", waiting.name);
-                cx.small_button(ui, ("✕", "Do not pin it"), name, PinCommand::Forget(waiting.id));
+                cx.small_button(ui, ("✕", "Do not pin it"), &name, PinCommand::Remove(waiting.id));
             });
         }
     });
@@ -137,9 +135,9 @@ fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool,
         name_field(ui, id, run, label, cx);
         if !present {
             let open = ("Open", "Makes this the present scene; undo brings back what was");
-            cx.small_button(ui, open, format!("Open {}", run.label), PinCommand::Open(id));
+            cx.small_button(ui, open, &format!("Open {}", run.label), PinCommand::Open(id));
         }
-        cx.small_button(ui, ("✕", "Remove this pin"), format!("Remove {}", run.label), PinCommand::Remove(id));
+        cx.small_button(ui, ("✕", "Remove this pin"), &format!("Remove {}", run.label), PinCommand::Remove(id));
     };
     let row = egui::Layout::left_to_right(egui::Align::Center);
     ui.allocate_ui_with_layout(size, row, |ui| frame(ui, colour).show(ui, parts));
@@ -169,10 +167,7 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .desired_width(width);
     let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
-    let response = ui.add(field).hint(about);
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, format!("Label of {}", run.label))
-    });
+    let response = ui.add(field).hint(about).called(egui::Role::TextInput, &format!("Label of {}", run.label));
     if response.lost_focus() {
         let escaped = ui.input(|input| input.key_pressed(Key::Escape));
         if !escaped && text != run.label {

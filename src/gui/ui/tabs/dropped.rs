@@ -10,7 +10,7 @@ use crate::gui::state::dropped::Dropped;
 use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::panels::menu::{STARTUP, export_button};
+use crate::gui::ui::panels::menu::export_button;
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, Color32, RichText};
 
@@ -21,29 +21,25 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = SHARE * ui.available_height();
     let dropped = cx.state.dropped.as_ref();
     ui.horizontal_wrapped(|ui| {
-        match dropped.filter(|dropped| dropped.work.running()) {
-            Some(_) => {
-                cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
-            }
-            None => {
-                let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
-                cx.mark(ui, "start", button.rect);
-                cx.lead_to(ui, "start", button.id);
-                cx.on_click(&button, StartupCommand::Start);
-            }
+        if dropped.is_some_and(|dropped| dropped.work.running()) {
+            cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
+        } else {
+            let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
+            cx.mark(ui, "start", button.rect);
+            cx.lead_to(ui, "start", button.id);
+            cx.on_click(&button, StartupCommand::Start);
         }
         if cx.state.can_export(Export::Startup) {
-            export_button(ui, STARTUP, cx);
+            export_button(ui, &[Export::Startup], cx);
         }
     });
     let Some(dropped) = dropped else {
-        cx.introduce(ui, &[
+        return cx.introduce(ui, &[
             "What does a plate under a load do when it is dropped on the vibration?",
             "It falls from rest, at twice the gap at which it floats, through gas at ambient pressure, while the vibration comes up. Its \
              way is marched with time steps of two lengths, whose difference is the error of the height. In the tab Hold it \
              can be pushed by hand and let go, in slow motion.",
         ]);
-        return;
     };
     let (text, colour) = ending(dropped, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {

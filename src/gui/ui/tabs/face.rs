@@ -12,6 +12,7 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
 use crate::gui::ui::parts::table;
 use crate::scene::{Parameter, Value};
@@ -77,9 +78,8 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     let long = format!("Heights, {length} × {width} µm, x along the wave");
     let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
     style.title_with_ends(titled, "Measured face", &[&long, "Heights"], [&ends[0], &ends[1]]);
-    let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover());
     let name = "Heights of the measured face: point to see the profile along x there";
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover()).called(egui::Role::Image, name);
     let share = response.hover_pos().map_or(0.5, |at| (at.y - rect.top()) / rect.height());
     let row = ((1.0 - share) * map.ny as f32).clamp(0.0, (map.ny - 1) as f32) as usize;
     let y = rect.bottom() - (row as f32 + 0.5) / map.ny as f32 * rect.height();

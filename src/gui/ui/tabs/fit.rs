@@ -6,7 +6,7 @@ use crate::export::figure::Panel;
 use crate::export::fit::{figures, optimum_figure};
 use crate::gui::command::{Command, FitCommand};
 use crate::gui::derived::words::label;
-use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::dialogs::{Export, Purpose};
 use crate::gui::state::fit::{FitForm, FitResult, FitState, Sought, chooses};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
@@ -14,7 +14,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::{AxisRow, field, list};
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::panels::menu::{FIT, export_button};
+use crate::gui::ui::panels::menu::export_button;
 use crate::gui::ui::parts::{first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
 use crate::problem::Problem;
@@ -268,7 +268,7 @@ fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         let about = "Gives the scene these values: one edit, which can be undone";
         cx.button(ui, "Take these values", about, FitCommand::Take);
-        export_button(ui, FIT, cx);
+        export_button(ui, &[Export::Fit], cx);
     });
 }
 

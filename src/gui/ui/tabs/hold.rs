@@ -35,8 +35,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
         cx.introduce(ui, &[text]);
         let hover = "A built-in preset: some of its gas escapes, some is squeezed";
-        cx.button(ui, "Open the plate at its crossover", hover, Next::Preset(PRESET));
-        return;
+        return cx.button(ui, "Open the plate at its crossover", hover, Next::Preset(PRESET));
     };
     controls(ui, hold, cx);
     if ui.ctx().content_rect().height() >= LOW {

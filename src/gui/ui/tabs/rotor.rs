@@ -14,8 +14,8 @@ use crate::gui::ui::hint::{Hint, describe};
 use crate::gui::ui::paint::Axes;
 use crate::gui::ui::parts::scrolled;
 use crate::problem::{Problem, Scenario};
+use crate::scene::Value;
 use crate::scene::edges::{lengths, reach, with_edge};
-use crate::scene::{Parameter, Value};
 use eframe::egui::{self, CursorIcon, Rect, Sense, Stroke, TextStyle, Tooltip, Ui, vec2};
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
@@ -33,13 +33,15 @@ const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
 const REACH: f32 = 5.0;
 /// Rounding of a dragged edge \[mm\].
 const STEP: f64 = 0.01;
+/// Lengths of a part, as in its table.
+const LENGTHS: [&str; 4] = ["Inner radius", "Outer radius", "Bottom", "Top"];
+
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();
     let Some(Problem { scenario: Scenario::Motor(motor), .. }) = &cx.state.problem else {
-        cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
-        return;
+        return cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
     };
     scrolled(ui, "rotor", 14.0, |ui| {
         let known = cx.state.rotor.found();
@@ -130,7 +132,7 @@ fn section(
 ) {
     let boxes: Vec<[f64; 4]> = parts.iter().filter_map(|part| lengths(part)).collect();
     let (rect, canvas) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    canvas.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Cross-section of the rotor"));
+    let canvas = canvas.called(egui::Role::Image, "Cross-section of the rotor");
     let bound = |i: usize, pick: fn(f64, f64) -> f64| boxes.iter().map(|part| part[i]).reduce(pick).unwrap_or(0.0);
     let now = [bound(0, f64::min), bound(1, f64::max), bound(2, f64::min), bound(3, f64::max)];
     // While an edge is dragged the scale stays.
@@ -174,22 +176,17 @@ fn section(
         if area.width() > 4.0 * text.size && area.height() > 1.2 * text.size {
             painter.text(area.center(), egui::Align2::CENTER_CENTER, &name, text, ui.visuals().strong_text_color());
         }
-        let edges = [
-            Rect::from_two_pos(area.left_top(), area.left_bottom()),
-            Rect::from_two_pos(area.right_top(), area.right_bottom()),
-            Rect::from_two_pos(area.left_bottom(), area.right_bottom()),
-            Rect::from_two_pos(area.left_top(), area.right_top()),
-        ];
-        for (which, edge) in edges.into_iter().enumerate() {
+        let [left, right] = [area.with_max_x(area.left()), area.with_min_x(area.right())];
+        let [bottom, top] = [area.with_min_y(area.bottom()), area.with_max_y(area.top())];
+        for (which, (edge, called)) in [left, right, bottom, top].into_iter().zip(LENGTHS).enumerate() {
             let id = canvas.id.with((number, which));
             let cursor = if which < 2 { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
             let held = ui.interact(edge.expand(REACH).intersect(rect), id, Sense::drag()).on_hover_cursor(cursor);
-            let named = format!("{} of {name}, to drag", label(which));
-            held.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &named));
+            let held = held.called(egui::Role::Slider, &format!("{called} of {name}, to drag"));
             if held.hovered() || held.dragged() {
                 painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
             }
-            let told = format!("{} of {name}: {} mm", label(which), significant(lengths[which], 5));
+            let told = format!("{called} of {name}: {} mm", significant(lengths[which], 5));
             let held = if held.dragged() {
                 // A hint goes when a pointer drags.
                 describe(&held, || told.clone());
@@ -204,12 +201,11 @@ fn section(
             };
             let along =
                 if which < 2 { f64::from(at.x - origin.x) / points } else { f64::from(origin.y - at.y) / points };
-            let key = Parameter::find("rotor.part").map_or("rotor.part", |parameter| parameter.key);
             let reach = reach(parts, (number, which), STEP);
             // As few digits as the step has.
             let to = ((along / STEP).round() * STEP).clamp(*reach.start(), *reach.end());
             let value = Value::Records(with_edge(parts, (number, which), (to * 1e4).round() / 1e4));
-            cx.push(Command::Set { key, value, dragging: held.dragged() });
+            cx.push(Command::Set { key: "rotor.part", value, dragging: held.dragged() });
         }
     }
     ui.data_mut(|data| match dragged {
@@ -217,11 +213,6 @@ fn section(
         Some(_) if !dragging => data.remove::<[f64; 4]>(kept),
         _ => {}
     });
-}
-
-/// Name of a length of a part, by its place in the part's table.
-fn label(which: usize) -> &'static str {
-    ["Inner radius", "Outer radius", "Bottom", "Top"].get(which).copied().unwrap_or_default()
 }
 
 /// The mesh as it is, and magnified as the load bends it.
@@ -262,7 +253,6 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, t
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
 }
 
-/// Draws the supports of the ring.
 fn supports(painter: &egui::Painter, scale: Axes, cx: &DrawContext<'_>) {
     let Some(Value::Records(supports)) = cx.state.document.scene().get("rotor.support") else { return };
     for [inner, outer, low, high] in supports.iter().filter_map(|support| lengths(support)) {

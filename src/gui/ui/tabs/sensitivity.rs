@@ -29,8 +29,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         buttons(ui, state, cx);
         cx.alarm(ui, state.failure().map(|failure| format!("Nothing was found: {failure}")));
         let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
-            cx.introduce(ui, INTRODUCTION);
-            return;
+            return cx.introduce(ui, INTRODUCTION);
         };
         let (name, stale) = (&found.scene().name, state.stale(cx.state.document.scene()));
         cx.alarm(ui, stale.then(|| format!("Computed for “{name}” before the scene changed; compute again")));
@@ -90,8 +89,7 @@ fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>
 fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let value = found.values[output];
     if !value.value.is_finite() {
-        cx.note(ui, "This scene has no such result");
-        return;
+        return cx.note(ui, "This scene has no such result");
     }
     let unit = found.outputs[output].unit(&found.problem);
     let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
@@ -126,8 +124,7 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>
     title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
     let mut panel = bars(found, output, None);
     if panel.y.names.is_empty() {
-        cx.note(ui, "It depends on none of them");
-        return;
+        return cx.note(ui, "It depends on none of them");
     }
     panel.x.label = String::new();
     for (_, name) in &mut panel.y.names {

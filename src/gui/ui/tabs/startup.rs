@@ -8,7 +8,7 @@ use crate::gui::state::dialogs::Export;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::panels::menu::{STARTUP, export_button};
+use crate::gui::ui::panels::menu::export_button;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::views;
 use crate::scene;
@@ -23,15 +23,11 @@ const LINES: (f32, f32) = (6.5, 13.0);
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     if cx.state.document.scene().floats() {
-        dropped::show(ui, cx);
-        return;
+        return dropped::show(ui, cx);
     }
     let height = ui.available_height();
     buttons(ui, cx);
-    let Some(startup) = &cx.state.startup else {
-        introduction(ui, cx);
-        return;
-    };
+    let Some(startup) = &cx.state.startup else { return introduction(ui, cx) };
     state(ui, startup, cx);
     if startup.points.is_empty() {
         return;
@@ -42,24 +38,21 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
     cx.mark(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
-        views::run::show(ui, run, startup.ranges.as_ref(), None, cx);
+        views::run::show(ui, run, startup.ranges, None, cx);
     }
 }
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        match cx.state.startup.as_ref().filter(|startup| startup.work.running()) {
-            Some(_) => {
-                let about = "Ends it; the cycles computed so far stay";
-                cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
-            }
-            None => {
-                let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
-                cx.mark(ui, "start", button.rect);
-                cx.lead_to(ui, "start", button.id);
-                cx.on_click(&button, StartupCommand::Start);
-            }
+        if cx.state.startup.as_ref().is_some_and(|startup| startup.work.running()) {
+            let about = "Ends it; the cycles computed so far stay";
+            cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
+        } else {
+            let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
+            let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
+            cx.mark(ui, "start", button.rect);
+            cx.lead_to(ui, "start", button.id);
+            cx.on_click(&button, StartupCommand::Start);
         }
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
         let mut follow = startup.follows_newest;
@@ -69,7 +62,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let hover = "Plays the cycles that are kept one after the other, from the first";
         cx.button(ui, "Play from rest", hover, StartupCommand::Replay);
         if cx.state.can_export(Export::Startup) {
-            export_button(ui, STARTUP, cx);
+            export_button(ui, &[Export::Startup], cx);
         }
     });
 }

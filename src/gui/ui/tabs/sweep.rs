@@ -15,8 +15,7 @@ use crate::gui::ui::panels::parameters::GROUPS;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
-use eframe::egui::accesskit::Role;
-use eframe::egui::{Ui, WidgetInfo};
+use eframe::egui::{Role, Ui};
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -28,10 +27,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.push(SweepCommand::Form(asked.clone()));
     }
     buttons(ui, &asked, cx);
-    let Some(swept) = cx.state.sweep.swept.as_ref() else {
-        cx.introduce(ui, INTRODUCTION);
-        return;
-    };
+    let Some(swept) = cx.state.sweep.swept.as_ref() else { return cx.introduce(ui, INTRODUCTION) };
     state(ui, swept, cx);
     let quantity = cx.state.sweep.quantity(&swept.sweep.quantities());
     let present = if swept.stale(cx.state.document.scene()) { None } else { swept.present(cx.state.document.scene()) };
@@ -102,18 +98,13 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 }
                 let about = "Solves every point on all cores; the window stays usable";
                 let good = cx.state.sweep.faults.iter().all(Option::is_none);
-                cx.on_click(
-                    &first_button(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about),
-                    SweepCommand::Start,
-                );
-                let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);
+                let button = first_button(ui, "Start the sweep", (swept.is_none(), good), cx);
+                cx.on_click(&button.hint(about), SweepCommand::Start);
+                let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, cx);
                 if let Some(fidelity) = chosen {
-                    let mut next = form.clone();
-                    next.fidelity = fidelity;
-                    cx.push(SweepCommand::Form(next));
+                    cx.push(SweepCommand::Form(Form { fidelity, ..form.clone() }));
                 }
-                combo.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
-                combo.explained_here(ui, "Fidelity");
+                combo.called(Role::ComboBox, "Fidelity of the sweep").explained_here(ui, "Fidelity");
             }
         }
         quantity(ui, cx);

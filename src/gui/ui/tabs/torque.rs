@@ -48,8 +48,8 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 
 fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx: &DrawContext<'_>) {
     if merit.stator_speed <= 0.0 {
-        cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
-        return;
+        let text = "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.";
+        return cx.note(ui, text);
     }
     let (measured, elsewhere) = cx.state.torques();
     let panels = panels(merit, measured);
@@ -66,8 +66,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         let height = (SHARES[i] * height).max(LEAST_LINES[i] * em);
         let chart = Chart { name, height, panel: &panel, words: (Some("Rotor speed"), word) };
         let linked = egui::Id::unique("torque charts");
-        let shown = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
-        pointed = shown.inner.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
+        let at = chart.show_with(ui, |plot| plot.link_cursor(linked, Vec2b::new(true, false)).show_x(true));
+        pointed = at.filter(|x| (0.0..=merit.rpm(merit.stator_speed)).contains(x)).or(pointed);
     };
     let side_by_side = ui.available_width() > BESIDE * em;
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
@@ -134,10 +134,7 @@ fn panels(merit: &TorqueCurves, measured: Vec<[f64; 2]>) -> [Panel; 3] {
 
 /// The values at the speed under the pointer.
 fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &DrawContext<'_>) {
-    let Some(speed) = pointed else {
-        cx.note(ui, "Point at a chart to read its values");
-        return;
-    };
+    let Some(speed) = pointed else { return cx.note(ui, "Point at a chart to read its values") };
     let at = |of: &Performance| {
         let next = of.curve.partition_point(|point| merit.rpm(point.speed) < speed).clamp(1, of.curve.len().max(2) - 1);
         let (a, b) = (of.curve.get(next - 1)?, of.curve.get(next)?);
@@ -193,8 +190,7 @@ fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     cx.note(ui, format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
     cx.note(ui, format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
     if merit.with_film.no_load_speed.is_none() {
-        cx.note(ui, "No tooth touches the rotor: nothing but that drag drives it.");
-        return;
+        return cx.note(ui, "No tooth touches the rotor: nothing but that drag drives it.");
     }
     let dry = stated(Some(merit.dry_equivalent), 1.0, "");
     let text = format!(

@@ -31,10 +31,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     scrolled(ui, "trade-off", 20.0, |ui| {
         buttons(ui, cx);
-        let Some(measured) = &cx.state.tradeoff else {
-            cx.introduce(ui, INTRODUCTION);
-            return;
-        };
+        let Some(measured) = &cx.state.tradeoff else { return cx.introduce(ui, INTRODUCTION) };
         state(ui, measured, cx);
         let tradeoff = &measured.tradeoff;
         if !tradeoff.points.iter().any(|point| point.error.is_some()) {
@@ -64,10 +61,8 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             None => {
                 let about = "Takes up to about a minute; the window stays usable";
-                cx.on_click(
-                    &first_button(ui, "Measure", (cx.state.tradeoff.as_ref().is_none(), true), cx).hint(about),
-                    Command::Measure,
-                );
+                let button = first_button(ui, "Measure", (cx.state.tradeoff.is_none(), true), cx);
+                cx.on_click(&button.hint(about), Command::Measure);
             }
         }
         if running.is_none() && cx.state.can_export(Export::TradeoffTable) {
@@ -174,10 +169,8 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         let button = ui.add_enabled(ours, egui::Button::new("Use it"));
         let button = button.on_disabled_hover_text("The window solves by its own method only");
         let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
-        cx.on_click(
-            &named.hint("One edit, undone like any other"),
-            Command::Use(candidate.settings.fidelity, candidate.numerics),
-        );
+        let setting = Command::Use(candidate.settings.fidelity, candidate.numerics);
+        cx.on_click(&named.hint("One edit, undone like any other"), setting);
     });
 }
 

@@ -31,20 +31,25 @@ pub(super) struct Frame<'a, T> {
 }
 
 impl<'a, T> Frame<'a, T> {
-    /// `run` at the phase of `view`; `None` if its scenario is not the one that `pick` picks. `name`: under which its curves are cached.
+    /// `run` at the phase of `view`, and behind it `first`, on one scale, or with the ranges `within`; `None` if its scenario is not the one that
+    /// `pick` picks. `name`: under which its curves are cached.
     pub(super) fn of(
         ui: &Ui,
         name: &str,
-        run: &'a SolvedScene,
+        (run, first): (&'a SolvedScene, Option<&'a SolvedScene>),
+        within: Option<Ranges>,
         pick: fn(&Scenario) -> Option<&T>,
         view: &'a View,
     ) -> Option<Self> {
+        let first = first.and_then(|first| Self::of(ui, "scales of the first run", (first, None), None, pick, view));
         let (recording, number) = (&run.solution.recording, (run.number, run.fidelity));
         let of = pick(&run.problem.scenario)?;
         let scales = once(ui, name, number, || Scales::new(recording));
-        let (ranges, place) = (scales.ranges, view.place(recording));
+        let both = first.as_ref().map_or(scales.ranges, |first| scales.ranges.and(first.ranges));
+        let (ranges, place) = (within.unwrap_or(both), view.place(recording));
         let (lines, tooth) = (Lines::at(recording, place), view.tooth.min(recording.teeth.saturating_sub(1)));
-        Some(Self { run: number, recording, of, scales, ranges, place, lines, view, tooth, first: None })
+        let first = first.map(Box::new);
+        Some(Self { run: number, recording, of, scales, ranges, place, lines, view, tooth, first })
     }
 
     /// x at the left and at the right end \[m\].

@@ -6,7 +6,7 @@ use crate::estimate::Estimate;
 use crate::export::startup::CycleRow;
 use crate::gui::command::StartupCommand;
 use crate::gui::derived::format::raised;
-use crate::gui::derived::scales::span;
+use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
@@ -97,7 +97,6 @@ fn plot(
     let aim = periodic.map(|run| of(&Numbers::of_outcome(&startup.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
     let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
-    let margin = 0.12 * (high - low);
     let (film, good) = (style.palette.film, style.palette.good);
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", good)];
@@ -107,7 +106,7 @@ fn plot(
     let cap = WIDEST_BAND * (high - low);
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };
     let name = format!("{}: click to look at a cycle", curve.titles[0]);
-    let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], [low - margin, high + margin]];
+    let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], with_margin([low, high], 0.12)];
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let present = startup.chosen as f64;
     let shown = inset.show(ui, style, |plot| {

@@ -8,7 +8,7 @@ use super::pointer::named;
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{load_unit, number, time, times, with_known_digits};
-use crate::gui::derived::scales::span;
+use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, colour_between, room};
@@ -211,12 +211,11 @@ fn tag(style: &PlotStyle, at: Pos2, anchor: Align2, text: &str) {
 
 /// Pressure along x at mid-width.
 fn profile(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
-    let [low, high] = hold.pressure_range.map(|pressure| pressure * 1e-3);
-    let margin = 0.06 * (high - low);
+    let range = with_margin(hold.pressure_range.map(|pressure| pressure * 1e-3), 0.06);
     let wide = hold.plate.width.is_some();
     let titles = [if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"];
     style.title_with_bar(rect, "Film pressure", &titles, hold.pressure_range);
-    let bounds = [[-0.5, 0.5].map(|end| 1e3 * end * hold.plate.length), [low - margin, high + margin]];
+    let bounds = [[-0.5, 0.5].map(|end| 1e3 * end * hold.plate.length), range];
     Inset { name: "Pressure along the held plate", rect, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(hold.plate.gas.ambient_pressure * 1e-3, style.palette.quiet, 1.0));
         let points: Vec<_> = profile_points(hold).map(|(x, pressure)| [x * 1e3, pressure * 1e-3]).collect();
@@ -263,12 +262,11 @@ impl Trail<'_> {
     fn show(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
         let Self { title, unit, colour, of, reach, rest } = *self;
         let end = hold.now.reading.time;
-        let [low, high] = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
-        let margin = 0.08 * (high - low);
+        let range = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
         let name = title.split(',').next().unwrap_or(title);
         style.title(rect, name, &[title], &[]);
         // The dot at the present instant is whole.
-        let bounds = [[-hold.window(), 0.02 * hold.window()], [low - margin, high + margin]];
+        let bounds = [[-hold.window(), 0.02 * hold.window()], with_margin(range, 0.08)];
         Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
             let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
             let band = hold.trail().map(|reading| {
@@ -298,7 +296,6 @@ fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     let means = hold.trail().map(|reading| reading.mean_pressure);
     let [low, high] =
         span(means.chain([law(far), 2.0 * hold.plate.gas.ambient_pressure])).map(|pressure| pressure * 1e-3);
-    let side = 0.04 * (far - near);
     let (film, contact) = (style.palette.film, style.palette.contact);
     let titles = [
         "Mean pressure against the gap, kPa absolute",
@@ -307,7 +304,7 @@ fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
         "p, kPa",
     ];
     style.title(rect, "Loop", &titles, &[("film", film), ("Boyle", contact)]);
-    let bounds = [[near - side, far + side].map(|gap| gap * 1e6), [0.9 * low, 1.06 * high]];
+    let bounds = [with_margin([near, far], 0.04).map(|gap| gap * 1e6), [0.9 * low, 1.06 * high]];
     let name = "Mean pressure against the gap of the held plate";
     Inset { name, rect, bounds, below: Some("gap, µm") }.show(ui, style, |plot| {
         let at = |gap: f64, pressure: f64| [gap * 1e6, pressure * 1e-3];

@@ -1,5 +1,6 @@
 //! A chart among the painted drawings of a view.
 
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{framed, id, marks, numbered, tick};
 use crate::ticks::Steps;
@@ -14,8 +15,7 @@ pub(super) struct Inset<'a> {
     pub(super) rect: Rect,
     /// Ranges of the axes until they are zoomed.
     pub(super) bounds: [[f64; 2]; 2],
-    /// Name of the axis below; `None` if its numbers are below another drawing, empty if it is
-    /// written elsewhere.
+    /// Name of the axis below; `None` if its numbers are below another drawing.
     pub(super) below: Option<&'a str>,
 }
 
@@ -44,14 +44,13 @@ impl<'a> Inset<'a> {
             if above < f64::from(hidden) { String::new() } else { tick(mark) }
         };
         // The name has the left end, and a neighbour begins soon after the right one.
-        let named = below.filter(|name| !name.is_empty());
-        let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(name)).clamp(0.0, 0.6 * row);
+        let spare = below.map_or(0.0, |name| gutter - 4.0 - style.width(name)).clamp(0.0, 0.6 * row);
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
             let half = 0.28 * row * text.chars().count() as f32;
             let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
             let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.5 * row;
-            if fits || named.is_none() { text } else { String::new() }
+            if fits || below.is_none() { text } else { String::new() }
         };
         let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
         let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
@@ -64,7 +63,7 @@ impl<'a> Inset<'a> {
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, chart), self.bounds, add);
         shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-        if let Some(name) = named {
+        if let Some(name) = below {
             let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
             let place = style.write(corner, Align2::RIGHT_TOP, name, style.palette.quiet);
             style.term(place, name.split(',').next().unwrap_or(name));
@@ -87,9 +86,8 @@ fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64>
     if !strip.is_positive() {
         return None;
     }
-    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag());
     let text = format!("Line of {}: drag it", name.split(':').next().unwrap_or(name));
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag()).called(egui::Role::Image, &text);
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     if response.double_clicked()
         && let Some(mut memory) = PlotMemory::load(ui.ctx(), id(name))

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::inset::Inset;
 use crate::gui::ui::paint::PlotStyle;
-use crate::gui::ui::plot::{between, level, line, upright};
+use crate::gui::ui::plot::{between, level, line, under_pointer};
 use crate::problem::Motor;
 use crate::recording::Recording;
 use eframe::egui::{Color32, Rect, Ui};
@@ -40,9 +40,7 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
         }
         pressure(plot, (shown.recording, width), &shown.lines.contact, 1e3, (contact, 0.35));
         pressure(plot, (shown.recording, width), &shown.lines.film, 1e3, (film, 0.0));
-        if let Some(x) = shown.view.cursor_x {
-            plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, shown.view.cursor_x.map(|x| x * 1e3), style.palette.accent);
     })
 }
 

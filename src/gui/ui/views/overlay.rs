@@ -9,16 +9,16 @@ use super::pointer::named;
 use super::series::{Series, Trace};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::scales::{Curve, RunCurves, span};
+use crate::gui::derived::scales::{Curve, RunCurves, span, with_margin};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
-use crate::gui::ui::plot::{level, line, upright};
+use crate::gui::ui::plot::{level, line, under_pointer};
 use crate::gui::ui::theme::run_colour;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Lines};
-use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, CursorIcon, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::{LineStyle, PlotResponse};
 
 /// Wavelengths, or lengths of plates, that differ by less are the same.
@@ -39,6 +39,19 @@ struct Pinned<'a, T> {
     of: &'a T,
     place: f64,
     lines: Lines,
+}
+
+impl<T> Pinned<'_, T> {
+    /// Draws its map, between these x \[m\] and in colours of this range, with a strip of its own colour at the left. `name`: of the picture.
+    fn map(&self, ui: &Ui, style: &PlotStyle, rect: Rect, name: &str, (x, range): ([f64; 2], [f64; 2])) -> Axes {
+        let stamp = Stamp { run: (self.pin.id, Fidelity::Draft), place: self.place, tooth: 0, x, range };
+        let axes = field::draw(ui, style, rect, self.recording, name, stamp);
+        let strip = Rect::from_min_max(pos2(rect.left() - 9.0, rect.top()), pos2(rect.left() - 4.0, rect.bottom()));
+        style.painter.rect_filled(strip, 1.0, self.colour);
+        let [low, high] = range.map(|pressure| number(pressure / 1e3));
+        named(ui, rect, &format!("Pressure map of {}, colours from {low} to {high} kPa", self.label), Sense::hover());
+        axes
+    }
 }
 
 /// Draws the pinned runs at the view's phase; scrolls if that takes more than there is room for.
@@ -188,11 +201,8 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         let metre = along.metre(run.recording.length);
         // In metres of this run: its own teeth are where its own x says.
         let x = x.map(|x| x / metre);
-        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
-        let axes = field::draw(ui, &inside, *rect, run.recording, &format!("overlaid motor {slot}"), stamp);
-        key_beside(&inside.painter, *rect, run.colour);
+        let axes = run.map(ui, &inside, *rect, &format!("overlaid motor {slot}"), (x, range));
         axes.cursor(&inside, cursor.map(|x| x / metre));
-        map_name(ui, *rect, run.label, range);
     }
     if let Some(last) = maps.last() {
         let name = if along.alike { "x, mm" } else { "x/λ" };
@@ -227,18 +237,6 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         let at = (response, x.filter(|_| !on_a_term));
         along.read(at, ("λ", &heads), runs, cx, |ui, run, x| values(ui, run, x / along.metre(run.recording.length)));
     }
-}
-
-/// A strip of a run's colour left of its map.
-fn key_beside(painter: &Painter, map: Rect, colour: Color32) {
-    let strip = Rect::from_min_max(pos2(map.left() - 9.0, map.top()), pos2(map.left() - 4.0, map.bottom()));
-    painter.rect_filled(strip, 1.0, colour);
-}
-
-/// Describes a map for screen readers.
-fn map_name(ui: &Ui, rect: Rect, label: &str, range: [f64; 2]) {
-    let [low, high] = range.map(|pressure| number(pressure / 1e3));
-    named(ui, rect, &format!("Pressure map of {label}, colours from {low} to {high} kPa"), Sense::hover());
 }
 
 /// The period that all have; not a number if they differ.
@@ -335,9 +333,7 @@ fn draw_pressure(
             let loads = [&run.lines.contact, &run.lines.film][field];
             pressure(plot, (run.recording, run.of.contact_width), loads, metre, (run.colour, 0.16));
         }
-        if let Some(x) = cursor {
-            plot.vline(upright(x * written, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     })
 }
 
@@ -374,12 +370,11 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let cursor = cx.state.view.cursor_x.map(|x| x * along.of_first());
     let range = span(runs.iter().flat_map(|run| run.pin.curves.scales.ranges.pressure));
     let ambient = span(runs.iter().flat_map(|run| [run.of.gas.ambient_pressure; 2]));
-    let [low, high] = span([range, ambient].into_iter().flatten()).map(|pressure| pressure * 1e-3);
-    let margin = 0.06 * (high - low);
+    let pressures = span([range, ambient].into_iter().flatten()).map(|pressure| pressure * 1e-3);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
     inside.title(chart, "Film pressure", &titles, &[]);
     let written = along.written();
-    let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
+    let bounds = [x.map(|x| x * written), with_margin(pressures, 0.06)];
     let name = "Plates along their length: point to read values";
     // Of round ones the length is the diameter.
     let round = runs.iter().all(|run| run.recording.radial);
@@ -392,9 +387,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
             let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
             plot.line(line(&points, run.colour, 1.8, LineStyle::Solid));
         }
-        if let Some(x) = cursor {
-            plot.vline(upright(x * written, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     });
     column.bottom += axis;
 
@@ -412,10 +405,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
         let left = start + beside * step;
         let rect = row.with_min_x(left + if beside > 0.0 { 16.0 } else { 0.0 }).with_max_x(left + step);
         let x = [-0.5, 0.5].map(|x| x * run.of.length);
-        let stamp = Stamp { run: (run.pin.id, Fidelity::Draft), place: run.place, tooth: 0, x, range };
-        field::draw(ui, &inside, rect, run.recording, &format!("overlaid plate {slot}"), stamp);
-        key_beside(&inside.painter, rect, run.colour);
-        map_name(ui, rect, run.label, range);
+        run.map(ui, &inside, rect, &format!("overlaid plate {slot}"), (x, range));
     }
 
     // Over the cycle, and against the gap.

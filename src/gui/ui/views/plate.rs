@@ -7,10 +7,10 @@ use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::gui::derived::format::{load_unit, number, times};
-use crate::gui::derived::scales::Curve;
+use crate::gui::derived::scales::{Curve, with_margin};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle};
-use crate::gui::ui::plot::{dots, level, line, upright};
+use crate::gui::ui::plot::{dots, level, line, under_pointer};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
@@ -128,9 +128,8 @@ pub(super) fn wall_and_plate(style: &PlotStyle, rect: Rect, [wall, under]: [f32;
 fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<()> {
     let ambient = shown.of.gas.ambient_pressure;
     let [low, high] = shown.ranges.pressure;
-    let (low, high) = (low.min(ambient), high.max(ambient));
-    let margin = 0.06 * (high - low);
-    let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin].map(|pressure| pressure * 1e-3)];
+    let range = with_margin([low.min(ambient), high.max(ambient)], 0.06);
+    let bounds = [shown.x_range().map(|x| x * 1e3), range.map(|pressure| pressure * 1e-3)];
     let title = if shown.of.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
     let (film, quiet) = (style.palette.film, style.palette.quiet);
     let behind = style.at_first(shown.first.as_ref());
@@ -145,9 +144,7 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
             plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
         }
         plot.line(line(&profile(shown.recording, shown.place), film, 1.8, LineStyle::Solid));
-        if let Some(x) = shown.view.cursor_x {
-            plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
-        }
+        under_pointer(plot, shown.view.cursor_x.map(|x| x * 1e3), style.palette.accent);
     })
 }
 
@@ -221,7 +218,7 @@ pub(super) fn show_loops(
     (loops, legend): (&[Loop<'_>], &[(&str, Color32)]),
     phase: f64,
 ) {
-    let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
+    let bounds = ranges.map(|range| with_margin(range, 0.08));
     let titles = [
         "Mean pressure against the gap, kPa gauge",
         "Mean pressure, kPa gauge",

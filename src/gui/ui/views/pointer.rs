@@ -1,13 +1,12 @@
 //! Regions that are pointed at and clicked, and the row of values below a view.
 
+use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::PlotStyle;
-use eframe::egui::{self, Align2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+use eframe::egui::{Align2, Rect, Response, Role, Sense, Ui, pos2};
 
 /// A named region that is pointed at, clicked or dragged.
 pub(super) fn named(ui: &Ui, rect: Rect, name: &str, sense: Sense) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(name), sense);
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
-    response
+    ui.interact(rect, ui.scope_id().with(name), sense).called(Role::Image, name)
 }
 
 /// Values beside each other, in as many lines as they take.

@@ -11,39 +11,18 @@ use eframe::egui::Ui;
 
 /// Draws `run` at the view's phase, and behind it `first`, a run that it is compared with, on one scale; the axes have the ranges `within`, if it
 /// is one cycle of several.
-pub fn show(
-    ui: &mut Ui,
-    run: &SolvedScene,
-    within: Option<&Ranges>,
-    first: Option<&SolvedScene>,
-    cx: &DrawContext<'_>,
-) {
+pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<Ranges>, first: Option<&SolvedScene>, cx: &DrawContext<'_>) {
     if !has_fields(&run.solution.recording) {
         return drop(ui.label("This run has no fields to show."));
     }
     let Some(area) = room(ui) else { return };
     let first = first.filter(|first| first.number != run.number);
-    if let Some(shown) = frame(ui, run, within, first, motor_of, cx) {
+    let view = &cx.state.view;
+    if let Some(shown) = Frame::of(ui, "scales", (run, first), within, motor_of, view) {
         motor::show(ui, area, &shown, cx);
-    } else if let Some(shown) = frame(ui, run, within, first, plate_of, cx) {
+    } else if let Some(shown) = Frame::of(ui, "scales", (run, first), within, plate_of, view) {
         plate::show(ui, area, &shown, cx);
     }
-}
-
-/// The frame of `run` to draw; `None` if its scenario is not the one that `pick` picks.
-fn frame<'a, T>(
-    ui: &Ui,
-    run: &'a SolvedScene,
-    within: Option<&Ranges>,
-    first: Option<&'a SolvedScene>,
-    pick: fn(&Scenario) -> Option<&T>,
-    cx: &DrawContext<'a>,
-) -> Option<Frame<'a, T>> {
-    let view = &cx.state.view;
-    let first = first.and_then(|first| Frame::of(ui, "scales of the first run", first, pick, view));
-    let shown = Frame::of(ui, "scales", run, pick, view)?;
-    let both = first.as_ref().map_or(shown.ranges, |first| shown.ranges.and(first.ranges));
-    Some(Frame { ranges: within.copied().unwrap_or(both), first: first.map(Box::new), ..shown })
 }
 
 fn motor_of(scenario: &Scenario) -> Option<&Motor> {

@@ -2,7 +2,7 @@
 
 use super::inset::{Inset, chosen};
 use crate::gui::command::Command;
-use crate::gui::derived::scales::Curve;
+use crate::gui::derived::scales::{Curve, with_margin};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{dots, line, upright};
@@ -45,8 +45,7 @@ impl Series<'_> {
     /// when it is dragged, chooses the phase.
     pub(super) fn show(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, cx: &DrawContext<'_>) {
         // Of nothing at all the unit is the scale.
-        let [low, high] = if self.range == [0.0; 2] { [-0.5, 0.5] } else { self.range.map(|end| end / self.unit) };
-        let margin = 0.08 * (high - low);
+        let range = if self.range == [0.0; 2] { [-0.5, 0.5] } else { self.range.map(|end| end / self.unit) };
         let (scale, below) = match self.period {
             period if period < 1e-3 => (1e6 * period, "t, µs"),
             period if period.is_finite() => (1e3 * period, "t, ms"),
@@ -55,7 +54,7 @@ impl Series<'_> {
         let now = cx.state.view.phase;
         style.title(rect, self.word, self.titles, self.legend);
         let name = format!("{}: click to jump there", self.name);
-        let bounds = [[0.0, scale], [low - margin, high + margin]];
+        let bounds = [[0.0, scale], with_margin(range, 0.08)];
         let inset = Inset { name: &name, rect, bounds, below: Some(below) };
         let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;
         let shown = inset.show(ui, style, |plot| {

@@ -12,7 +12,7 @@ use crate::export::figure::{
 use crate::export::sweep::{curve_panel, map_panel};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::raised;
-use crate::gui::derived::scales::span;
+use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::Swept;
 use crate::gui::ui::cache::once;
@@ -146,10 +146,9 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
         panel = panel.layer(Mark { style, ..Mark::vertical(values[0], "present") });
     }
     if axis.words.is_empty() {
-        let [from, to] = span(axis.values.iter().map(|value| axis.scale.place(*value)));
-        let side = 0.02 * (to - from);
-        let value = |place: f64| if axis.scale == Scale::Log { 10f64.powf(place) } else { place };
-        panel.x = panel.x.fixed(value(from - side), value(to + side));
+        let ends = with_margin(span(axis.values.iter().map(|value| axis.scale.place(*value))), 0.02);
+        let [from, to] = ends.map(|place| if axis.scale == Scale::Log { 10f64.powf(place) } else { place });
+        panel.x = panel.x.fixed(from, to);
     }
     let [low, high] = span(swept.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value));
     let from_zero = low > 0.0 && low < FROM_ZERO * high || high < 0.0 && high > FROM_ZERO * low;

@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::inset::Inset;
 use crate::film::velocity::Velocity;
 use crate::gui::derived::format::number;
-use crate::gui::derived::scales::span;
+use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{between, dots, level, line, upright};
@@ -55,8 +55,7 @@ impl<T> Place<'_, T> {
         let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
         let (unit, size) = if high.max(-low) < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
-        let margin = 0.08 * (high - low);
-        let across = [low - margin, high + margin].map(|u| u / size);
+        let across = with_margin([low, high], 0.08).map(|u| u / size);
         let up = [-MARGIN, 1.0 + MARGIN].map(|part| part * self.shown.ranges.thickness[1] * 1e6);
         let place = number(x * 1e3);
         let [long, middle] = ["Velocity across the film, z in µm, at x =", "Velocity, z in µm, x ="]

@@ -70,17 +70,13 @@ fn stator(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
         let heights = &shown.lines.stator[shown.lines.of(tooth)];
         let top: Vec<Pos2> = recording.x.iter().zip(heights).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
         let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
-        let feet = [body(middle + first), body(middle + last)];
+        let feet = [first, last].map(|end| pos2(axes.px(middle + end), body(middle + end)));
         // A pixel below the body's edge, so that no seam shows.
-        let foot = feet[0].max(feet[1]) + 2.0;
+        let foot = feet[0].y.max(feet[1].y) + 2.0;
         style.band(top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
         let followed = tooth == shown.tooth;
         let stroke = if followed { Stroke::new(2.0, style.palette.accent) } else { Stroke::new(1.0, colour) };
-        let mut outline = Vec::with_capacity(top.len() + 2);
-        outline.push(pos2(axes.px(middle + first), feet[0]));
-        outline.extend_from_slice(&top);
-        outline.push(pos2(axes.px(middle + last), feet[1]));
-        style.painter.line(outline, stroke);
+        style.painter.line([&feet[..1], &top[..], &feet[1..]].concat(), stroke);
         if numbered {
             let at = pos2(axes.px(middle), axes.rect.bottom() - 2.0);
             let colour = if followed { style.palette.accent } else { style.palette.canvas };
