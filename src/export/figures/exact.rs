@@ -15,16 +15,16 @@ const WHOLE: f64 = 2.0;
 
 /// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
 pub fn exact(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Figure {
-    let mut figure = Figure::new("computed and exact")
-        .panel(coefficients(plate, found).height(42.0))
-        .panel(cycle(plate, found, recording).height(38.0));
-    figure.caption = format!(
+    let caption = format!(
         "Spring and damping of the film, parts of the load in phase with the approach and with its speed over p_a · area · ε, for \
          small amplitudes over the squeeze number (a) with those of this solve as points, ε = {}; load over one cycle with \
          those of gas that cannot leave (Boyle) and of gas that is not compressed (b).",
         crate::digits::significant(plate.amplitude / plate.mean_gap, 3)
     );
-    figure
+    Figure::new("computed and exact")
+        .panel(coefficients(plate, found).height(42.0))
+        .panel(cycle(plate, found, recording).height(38.0))
+        .caption(caption)
 }
 
 fn coefficients(plate: &Plate, found: &ExactComparison) -> Panel {
