@@ -26,19 +26,12 @@ fn scene_with(preset: &str, changes: &[(&str, f64)]) -> Scene {
     scene
 }
 
-fn motor_of(problem: &Problem) -> &Motor {
-    match &problem.scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
-}
-
 /// α of a motor that has to converge.
 fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) -> Periodic {
     let mut scene = scene_with("fundamental", changes);
     scene.set_all(choices.iter().copied()).unwrap();
     let (problem, plan, found) = checked(&scene, fidelity);
-    check_mass(motor_of(&problem), &plan).unwrap();
+    check_mass(problem.scenario.motor().unwrap(), &plan).unwrap();
     found
 }
 
@@ -47,13 +40,13 @@ fn checked(scene: &Scene, fidelity: Fidelity) -> (Problem, Plan, Periodic) {
     let problem = Problem::try_from(scene).unwrap();
     let (plan, found) = periodic(&problem, fidelity, |plan| plan);
     assert_eq!(found.status, Status::Converged, "{}", options(scene));
-    check(motor_of(&problem), &plan, &found).unwrap();
+    check(problem.scenario.motor().unwrap(), &plan, &found).unwrap();
     (problem, plan, found)
 }
 
 /// The periodic state of a motor by its plan, `changed`.
 fn periodic(problem: &Problem, fidelity: Fidelity, changed: impl Fn(Plan) -> Plan) -> (Plan, Periodic) {
-    let motor = motor_of(problem);
+    let motor = problem.scenario.motor().unwrap();
     let plan = changed(Plan::motor(motor, fidelity, &problem.numerics).unwrap());
     let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
     (plan, found)
@@ -213,9 +206,8 @@ fn mass_balance(motor: &Motor, plan: &Plan, found: &Periodic) -> Option<f64> {
 
 /// What cannot be of a plate's result; in words if it is.
 fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
-    let (recording, Outcome::Plate(result)) = (&solution.recording, &solution.outcome) else {
-        return Err("no plate".to_owned());
-    };
+    let recording = &solution.recording;
+    let Some(result) = solution.outcome.plate() else { return Err("no plate".to_owned()) };
     let fault = |words: String| Err(format!("{words}; {:?}, {result:?}", solution.status));
     let numbers = [
         result.film_load.value,
@@ -815,7 +807,7 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
     // q = L/λ + A cos kx/C(k₁), which is nowhere negative: every tooth touches at all times, the gap is H_m everywhere.
     let scene = scene_with("fundamental", &[("motor.load_per_wave_n", 100.0)]);
     let problem = Problem::try_from(&scene).unwrap();
-    let motor = motor_of(&problem);
+    let motor = problem.scenario.motor().unwrap();
     let RotorCompliance::Beam { .. } = motor.rotor else { panic!("a beam") };
     let flat = 1e6 * motor.load * motor.compliances(1, &Cancel::new()).unwrap().harmonic(1) / motor.wavelength();
     // Nine tenths of what can be pressed flat; the grooves carry nothing, so the teeth need a little more.

@@ -11,7 +11,7 @@ use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
 use squeezefilm::problem::{Outline, Problem, Scenario};
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::{Outcome, Performance, PlateResult};
+use squeezefilm::solution::{Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 use std::collections::BTreeMap;
@@ -164,10 +164,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
         scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
         Problem::try_from(&scene).unwrap()
     };
-    let plate = |set: &[&str]| match problem("plate-crossover", set).scenario {
-        Scenario::Plate(plate) => plate,
-        Scenario::Motor(_) => unreachable!("it is a plate"),
-    };
+    let plate = |set: &[&str]| problem("plate-crossover", set).scenario.plate().unwrap().clone();
     // Hold: how long the air takes.
     let leak = 1e6 * leak_time(&plate(&[]), 1e-6);
     states(1, "the air needs about 160 µs", leak, 160.0, 0.03);
@@ -201,22 +198,13 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     };
     let trapped: Vec<f64> = cycles("plate-trapped")
         .iter()
-        .map(|outcome| match outcome {
-            Outcome::Plate(result) => PlateResult::ratio(result.film_load.value, &plate(&[])),
-            Outcome::Motor(_) => unreachable!("it is a plate"),
-        })
+        .map(|outcome| PlateResult::ratio(outcome.plate().unwrap().film_load.value, &plate(&[])))
         .collect();
     states(4, "In the first cycle the mean load ratio is 0.17", trapped[0], 0.17, 0.01);
     states(4, "startup.mean_load_ratio about 0.33", *trapped.last().unwrap(), 0.33, 0.005);
     assert!(trapped.windows(2).all(|pair| pair[1] > pair[0] - 1e-4), "it pumps up: {trapped:?}");
     states(4, "about two hundred cycles", trapped.len() as f64, 200.0, 0.1);
-    let motor: Vec<f64> = cycles("fundamental")
-        .iter()
-        .map(|outcome| match outcome {
-            Outcome::Motor(result) => result.alpha.value,
-            Outcome::Plate(_) => unreachable!("it is a motor"),
-        })
-        .collect();
+    let motor: Vec<f64> = cycles("fundamental").iter().map(|outcome| outcome.motor().unwrap().alpha.value).collect();
     states(7, "In the first cycle the air carries only 0.15", motor[0], 0.15, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[1], 0.215, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[2], 0.24, 0.02);

@@ -48,10 +48,7 @@ pub struct Both {
 impl Both {
     /// The numbers of one of its solves.
     pub fn result(solved: &Result<Solution, String>) -> Option<&MotorResult> {
-        match &solved.as_ref().ok()?.outcome {
-            Outcome::Motor(result) => Some(result),
-            Outcome::Plate(_) => None,
-        }
+        solved.as_ref().ok()?.outcome.motor()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Presets with changes, which the tests of the solver solve.
 #![allow(dead_code, reason = "no file of tests uses all of it")]
 
-use squeezefilm::problem::{Motor, Plate, Problem, Scenario};
+use squeezefilm::problem::{Motor, Plate, Problem};
 use squeezefilm::scene::{Scene, presets};
 
 /// The built-in preset of this name, with these keys changed.
@@ -18,16 +18,10 @@ pub(crate) fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
 
 /// The motor of such a scene.
 pub(crate) fn motor(preset: &str, changes: &[(&str, &str)]) -> Motor {
-    match problem(preset, changes).scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
+    problem(preset, changes).scenario.motor().unwrap().clone()
 }
 
 /// The plate of such a scene.
 pub(crate) fn plate(preset: &str, changes: &[(&str, &str)]) -> Plate {
-    match problem(preset, changes).scenario {
-        Scenario::Plate(plate) => plate,
-        Scenario::Motor(_) => panic!("a plate"),
-    }
+    problem(preset, changes).scenario.plate().unwrap().clone()
 }

@@ -85,9 +85,8 @@ mod tests {
     use super::*;
     use crate::control::Cancel;
     use crate::export::figure::Range;
-    use crate::problem::{Problem, Scenario};
+    use crate::problem::Problem;
     use crate::scene::presets;
-    use crate::solution::Outcome;
     use crate::solve::{Settings, solve};
 
     #[test]
@@ -97,9 +96,7 @@ mod tests {
             scene.set("plate.frequency_khz", khz).unwrap();
             let problem = Problem::try_from(&scene).unwrap();
             let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
-            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
-                panic!("a plate")
-            };
+            let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate()).unwrap();
             let found = ExactComparison::of(plate, result, &solution.recording);
             let panel = coefficients(plate, &found);
             let (present, Range::Fixed(from, to)) = (found.effective_squeeze_number, &panel.x.range) else {
