@@ -24,6 +24,13 @@ fn with_input(arguments: &[&str], text: &[u8]) -> Output {
     child.wait_with_output().unwrap()
 }
 
+/// Runs, and expects success.
+fn done(arguments: &[&str]) -> Output {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    output
+}
+
 fn out(output: &Output) -> &str {
     std::str::from_utf8(&output.stdout).unwrap()
 }
@@ -34,8 +41,7 @@ fn err(output: &Output) -> &str {
 
 /// Runs with `--json` at draft fidelity and reads the whole of standard output.
 fn solved(arguments: &[&str]) -> Value {
-    let output = run(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
     assert_eq!(err(&output), "");
     serde_json::from_slice(&output.stdout).unwrap()
 }
@@ -212,8 +218,7 @@ fn a_motor_pressed_all_round_the_wave_leads_with_its_stall_torque_and_warns() {
         .into_iter()
         .chain(set.into_iter().flat_map(|set| ["--set", set]))
         .collect();
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0));
+    let output = done(&arguments);
     let lines: Vec<&str> = out(&output).lines().collect();
     let place = |name: &str| lines.iter().position(|line| line.starts_with(name)).unwrap();
     let (stall, bound) = (place("  stall torque "), place("  maximum operating torque "));
@@ -267,8 +272,7 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
     let to = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let vary = ["--fidelity=draft", "--vary=plate.frequency_khz=10:20:2", "--figures=none"];
     for (changes, column) in [(&[][..], "film_load_min_n_per_m"), (&["--set=plate.width_mm=1"], "film_load_min_n")] {
-        let output = run(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let output = done(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
         let text = fs::read_to_string(folder.path().join(column).join("sweep.csv")).unwrap();
         assert!(text.lines().next().unwrap().split(',').any(|name| name == column), "{text}");
     }
@@ -353,7 +357,7 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["sovle", "fundamental"], 2, &["sovle", "solve"]);
     refused(&["solve", "fundamental", "--fidelity", "best"], 2, &["draft, standard, fine, reference"]);
     refused(&["solve", "fundamental", "--method", "best"], 2, &["auto, paper"]);
-    refused(&["solve", "fundamental", "--threads", "0"], 2, &["--threads"]);
+    refused(&["solve", "fundamental", "--threads", "0"], 2, &["--threads", "expected a whole number from 1 to 1024"]);
     refused(&["solve", "plate-viscous", "--method", "paper"], 2, &["paper", "motors"]);
     refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
     refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
@@ -372,6 +376,9 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["sweep", "fundamental"], 2, &["--vary"]);
     refused(&["sweep", "plate-viscous", "--vary=plate.length_mm=1:2:2", "--method=paper"], 2, &["paper", "motors"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
+    refused(&["compare"], 2, &["PRESET"]);
+    refused(&["compare", "fundamental", "fundamentl"], 2, &["fundamental"]);
+    refused(&["compare", "fundamental", "plate-viscous", "--method", "paper"], 2, &["motors"]);
 }
 
 #[test]
@@ -399,8 +406,7 @@ fn shells_and_man_are_told_every_command() {
         .collect();
     assert!(listed.contains(&"solve") && listed.contains(&"man"), "{listed:?}");
     for shell in ["bash", "zsh", "fish", "powershell"] {
-        let script = run(&["completions", shell]);
-        assert_eq!(script.status.code(), Some(0));
+        let script = done(&["completions", shell]);
         assert!(listed.iter().all(|command| out(&script).contains(command)), "{shell}");
     }
     let folder = tempfile::tempdir().unwrap();
@@ -459,8 +465,7 @@ fn files_of_a_motor_agree_with_the_summary() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("a/b");
     let arguments = ["solve", "fundamental", "--fidelity", "draft", "--json", "--out", folder.to_str().unwrap()];
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&arguments);
     assert!(err(&output).contains("series.csv"));
 
     let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -544,8 +549,7 @@ fn files_of_a_motor_agree_with_the_summary() {
 fn files_of_a_strip_are_per_metre() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
-    let output = run(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]);
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let series = columns(&folder.path().join("series.csv"));
     let fields = columns(&folder.path().join("fields.csv"));
@@ -780,8 +784,7 @@ fn names_do_nothing_to_terminals_spreadsheets_and_reports() {
     let rest = ["--set", &name, "--fidelity", "draft", "--out", path, "--figures", "svg"];
     let harmless = |text: &str| !text.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}');
     for command in [&["compare", "plate-viscous", "plate-crossover"][..], &["solve", "plate-viscous"]] {
-        let output = run(&[command, &rest].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let output = done(&[command, &rest].concat());
         assert!(harmless(out(&output)) && harmless(err(&output)), "{}", out(&output));
         let title = out(&output).lines().find(|line| line.contains("=HYPERLINK(1)\\u{1b}[2J\\u{202e}")).unwrap();
         assert!(title.contains("xxx…") && title.chars().count() < 150, "{title}");
@@ -855,8 +858,7 @@ fn presets_are_listed_and_printed_as_files() {
 #[test]
 fn every_number_of_a_preset_has_an_error_or_is_exact() {
     let names = squeezefilm::scene::presets::BUILT_IN.iter().map(|preset| preset.name);
-    let solved = run(&[&["solve", "--fidelity", "draft"][..], &names.collect::<Vec<_>>()].concat());
-    assert_eq!(solved.status.code(), Some(0), "{}", err(&solved));
+    let solved = done(&[&["solve", "--fidelity", "draft"][..], &names.collect::<Vec<_>>()].concat());
     assert!(!out(&solved).contains("not estimated"), "{}", out(&solved));
     let plates = out(&solved).lines().filter(|line| line.trim_start().starts_with("least film thickness"));
     let given = plates.filter(|line| line.contains("the mean gap is") && !line.contains('±')).count();
@@ -868,8 +870,7 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let arguments = ["table1", "--converged", "--fidelity", "draft", "--threads", "2"];
-    let output = run(&[&arguments[..], &["--json", "--out", path]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&[&arguments[..], &["--json", "--out", path]].concat());
     let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(rows.len(), 14);
     for row in &rows {
@@ -887,8 +888,7 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     for (record, row) in reader.records().zip(&rows) {
         assert!(close(record.unwrap()[load].parse().unwrap(), row["film_load_n"].as_f64().unwrap()));
     }
-    let table = run(&arguments);
-    assert_eq!(table.status.code(), Some(0));
+    let table = done(&arguments);
     assert!(rows.iter().all(|row| out(&table).contains(row["row"].as_str().unwrap())));
 
     // A row that cannot be solved says so, and the others are solved.
@@ -1018,7 +1018,6 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
     refused(&["fundamental"], 2, &["fundamental is a preset, not a command: squeezefilm solve fundamental"]);
     refused(&["fundamentel"], 2, &["unrecognized subcommand"]);
     refused(&["solve", "fundamental", "--accuracy", "-1%"], 2, &["from 0.0001% to 50%"]);
-    refused(&["solve", "fundamental", "--threads", "0"], 2, &["expected a whole number from 1 to 1024"]);
 }
 
 #[test]

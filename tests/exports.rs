@@ -318,19 +318,6 @@ fn one_preset_alone_has_a_report_without_differences() {
     assert!(parameters.lines().count() > 5, "all of its parameters: {parameters}");
 }
 
-#[test]
-fn what_cannot_be_compared_is_refused() {
-    for (arguments, word) in [
-        (&["compare"][..], "PRESET"),
-        (&["compare", "fundamental", "fundamentl"], "fundamental"),
-        (&["compare", "fundamental", "plate-viscous", "--method", "paper"], "motors"),
-    ] {
-        let output = squeezefilm(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains(word), "{arguments:?}");
-    }
-}
-
 /// Runs in a shell that lets no file grow beyond a few kilobytes, as a disk that is nearly full.
 #[cfg(target_os = "linux")]
 #[test]
