@@ -7,7 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::compare::{ComparedRun, runs};
 use crate::analysis::decision::effort;
-use crate::digits::duration;
+use crate::digits::{counted, duration};
 use crate::export::animation::Options;
 use crate::export::compare::{frames, mark, object, parameter_rows, result_texts};
 use crate::export::files::{self, Control, ExportError};
@@ -77,8 +77,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::result(arguments.common.output.json, told, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
-    let presets = if runs.len() == 1 { "preset" } else { "presets" };
-    terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
+    terminal::note(&format!("{} in {}", counted(runs.len(), "preset", "presets"), duration(wall_s)));
     if let Some(folder) = &folder {
         let bar = Bar::points(frames(&runs, Options::default().frames), 0);
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };

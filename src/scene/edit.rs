@@ -6,7 +6,7 @@ use super::parameter::{Parameter, ParameterKind};
 use super::parse;
 use super::value::{Value, show_text};
 use super::values::Scene;
-use crate::digits::rounded;
+use crate::digits::{counted, rounded};
 use std::borrow::Borrow;
 use std::path::Path;
 
@@ -152,7 +152,7 @@ impl Scene {
     pub fn title(&self, original: &Self) -> String {
         match self.changed(original).count() {
             keys if keys > 0 && self.name == original.name => {
-                let keys = format!("{keys} {}", if keys == 1 { "key" } else { "keys" });
+                let keys = counted(keys, "key", "keys");
                 match self.unchanged_name() {
                     name if name != self.name => format!("{name}, changed again: {keys}"),
                     name => format!("{name}, changed: {keys}"),
