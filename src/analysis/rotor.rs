@@ -96,8 +96,7 @@ impl RotorCurves {
 
 /// The rotor of a motor with every key at its default but for the model.
 fn reference(model: &str) -> Option<RotorCompliance> {
-    let mut scene = Scene::motor();
-    scene.set("rotor.model", model).ok()?;
+    let scene = Scene::motor().with([("rotor.model", model)]).ok()?;
     Some(Problem::try_from(&scene).ok()?.scenario.motor()?.rotor.clone())
 }
 

@@ -97,8 +97,7 @@ mod tests {
 
     fn unmet(source: &str, set: &[(&str, &str)], alpha: f64) -> Option<String> {
         let start = Scene::motor();
-        let mut now = start.clone();
-        now.set_all(set.iter().copied()).unwrap();
+        let now = start.with(set).unwrap();
         let numbers = |alpha: f64| {
             let mut numbers = Numbers::default();
             numbers.set(Quantity::Alpha, alpha);
@@ -151,8 +150,7 @@ mod tests {
     #[test]
     fn numbers_that_a_text_quotes_are_those_of_the_run() {
         let start = Scene::motor();
-        let mut scene = start.clone();
-        scene.set("film.min_spacing_nm", "100").unwrap();
+        let scene = start.with([("film.min_spacing_nm", "100")]).unwrap();
         let (mut before, mut after) = (Numbers::default(), Numbers::default());
         before.set(Quantity::Alpha, 0.25);
         after.set(Quantity::Alpha, 0.5);

@@ -6,9 +6,7 @@ use squeezefilm::scene::{Scene, presets};
 
 /// The built-in preset of this name, with these keys changed.
 pub(crate) fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    scene
+    presets::find(preset).unwrap().with(changes).unwrap()
 }
 
 /// The problem of such a scene.

@@ -92,8 +92,7 @@ mod tests {
     #[test]
     fn the_present_squeeze_number_is_well_inside_the_curves() {
         for khz in ["0.001", "1", "10000"] {
-            let mut scene = presets::find("plate-crossover").unwrap();
-            scene.set("plate.frequency_khz", khz).unwrap();
+            let scene = presets::find("plate-crossover").unwrap().with([("plate.frequency_khz", khz)]).unwrap();
             let problem = Problem::try_from(&scene).unwrap();
             let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
             let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate()).unwrap();
