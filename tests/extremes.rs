@@ -28,8 +28,7 @@ fn scene_with(preset: &str, changes: &[(&str, f64)]) -> Scene {
 
 /// α of a motor that has to converge.
 fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) -> Periodic {
-    let mut scene = scene_with("fundamental", changes);
-    scene.set_all(choices.iter().copied()).unwrap();
+    let scene = scene_with("fundamental", changes).with(choices).unwrap();
     let (problem, plan, found) = checked(&scene, fidelity);
     check_mass(problem.scenario.motor().unwrap(), &plan).unwrap();
     found
@@ -413,9 +412,8 @@ fn motors_that_were_hard_to_reach_converge() {
     ];
     for (reason, shear, values) in motors {
         let pairs: Vec<(&str, f64)> = HARD.into_iter().zip(values).collect();
-        let mut scene = scene_with("fundamental", &pairs);
-        scene.set("film.slip", "second-order").unwrap();
-        scene.set("film.shear", shear).unwrap();
+        let choices = [("film.slip", "second-order"), ("film.shear", shear)];
+        let scene = scene_with("fundamental", &pairs).with(choices).unwrap();
         assert!(survives(&scene, Fidelity::Draft).is_ok_and(repeats), "{reason}");
     }
 }
@@ -427,8 +425,7 @@ fn a_motor_that_repeats_only_when_it_is_marched_converges() {
     let values =
         [12.8533, 27.0, 0.01, -6841.52, 87.3719, 0.201_634, 6.0, 3389.53, 0.192_838, 0.189_756, 0.1, 0.001_802_23, 9.9452e-9, 20.6243, 890.57, 18.4231, 228_940.0];
     let pairs: Vec<_> = HARD.into_iter().zip(values).chain([("stator.tangential_amplitude_um", 0.0)]).collect();
-    let mut scene = scene_with("fundamental", &pairs);
-    scene.set("film.slip", "none").unwrap();
+    let scene = scene_with("fundamental", &pairs).with([("film.slip", "none")]).unwrap();
     assert!(survives(&scene, Fidelity::Draft).is_ok_and(repeats));
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let found = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
@@ -875,8 +872,7 @@ fn the_cost_of_a_solve_is_flat() {
             .par_iter()
             .map(|spacing| {
                 // On the plan's own grids: how many more the accuracy asks for is another matter.
-                let mut scene = scene_with("fundamental", &changes(*spacing));
-                scene.set("numerics.time", "march").unwrap();
+                let scene = scene_with("fundamental", &changes(*spacing)).with([("numerics.time", "march")]).unwrap();
                 let problem = Problem::try_from(&scene).unwrap();
                 let unrefined = |plan: Plan| Plan { most_grids: plan.grids.len(), ..plan };
                 let (_, found) = periodic(&problem, Fidelity::Standard, unrefined);

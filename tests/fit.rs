@@ -24,9 +24,7 @@ fn bounds(vary: &[&str]) -> Vec<Bounds> {
 }
 
 fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    scene
+    presets::find(preset).unwrap().with(changes).unwrap()
 }
 
 fn table(scene: &Scene, text: &str) -> Measured {
@@ -40,8 +38,7 @@ fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings
 
 /// The film load of a scene with changes.
 fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
-    let mut scene = scene.clone();
-    scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str()))).unwrap();
+    let scene = scene.with(changes).unwrap();
     match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
         Outcome::Motor(result) => result.film_load.value,
         Outcome::Plate(result) => result.film_load.value,

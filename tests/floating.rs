@@ -225,8 +225,7 @@ fn the_film_carries_the_load_at_the_gap_that_is_found() {
         assert!(off < error * floating.stiffness.value, "{preset}: {fine:?} {load}");
         // Stiffness as the difference of two given gaps.
         let at = |share: f64| {
-            let mut near = given.clone();
-            near.set("plate.mean_gap_um", &(gap * share * 1e6).to_string()).unwrap();
+            let near = given.with([("plate.mean_gap_um", (gap * share * 1e6).to_string())]).unwrap();
             solved(&near, Fidelity::Reference).1.unwrap().outcome.plate().unwrap().film_load.value
         };
         let away = 0.02 * (gap - plate.amplitude) / gap;

@@ -82,8 +82,8 @@ fn derivatives_are_as_exact_as_they_say() {
 
 #[test]
 fn a_trapped_plate_has_the_derivatives_of_its_formula() {
-    let mut scene = presets::find("plate-trapped").unwrap();
-    scene.set_all([("plate.length_mm", "1000"), ("plate.frequency_khz", "10000"), ("film.slip", "none")]).unwrap();
+    let set = [("plate.length_mm", "1000"), ("plate.frequency_khz", "10000"), ("film.slip", "none")];
+    let scene = presets::find("plate-trapped").unwrap().with(set).unwrap();
     let keys = ["plate.amplitude_um", "plate.mean_gap_um", "film.ambient_pressure_kpa", "plate.length_mm"];
     let found = sensitivity(&scene, &keys, Fidelity::Fine);
     let (amplitude, gap) = (number(&scene, keys[0]), number(&scene, keys[1]));
@@ -111,9 +111,9 @@ fn a_trapped_plate_has_the_derivatives_of_its_formula() {
 
 #[test]
 fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_under_its_load() {
-    let mut scene = presets::find("floating-disc").unwrap();
-    scene.set_all([("plate.frequency_khz", "10000"), ("plate.radius_mm", "100"), ("film.slip", "none")]).unwrap();
-    scene.set("plate.mass_g", "10000").unwrap();
+    let disc = [("plate.radius_mm", "100"), ("plate.mass_g", "10000")];
+    let set = disc.into_iter().chain([("plate.frequency_khz", "10000"), ("film.slip", "none")]);
+    let scene = presets::find("floating-disc").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.amplitude_um", "plate.mass_g"], Fidelity::Fine);
     // h = a √((s + 3/2)/(s − 1)), s = (1 + w)²: d ln h/d ln w = w (1 + w) [1/(s + 3/2) − 1/(s − 1)].
     let w = 10.0 * 9.80665 / (101_325.0 * std::f64::consts::PI * 0.01);
@@ -128,8 +128,7 @@ fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_un
 #[test]
 fn at_an_end_of_a_range_there_is_one_side() {
     let slope = |at: &str| {
-        let mut scene = presets::find("plate-crossover").unwrap();
-        scene.set("film.ambient_pressure_kpa", at).unwrap();
+        let scene = presets::find("plate-crossover").unwrap().with([("film.ambient_pressure_kpa", at)]).unwrap();
         let column = &sensitivity(&scene, &["film.ambient_pressure_kpa"], Fidelity::Standard).columns[0];
         (column.sides, column.slopes.as_ref().unwrap()[0])
     };
@@ -173,7 +172,6 @@ fn what_is_proportional_has_the_elasticity_one() {
 #[test]
 fn what_all_grids_have_alike_may_still_be_off() {
     // A rectangle so slow that its gas is not compressed: the damping by its width is known from a series, and every grid has the same nodes across.
-    let mut scene = presets::find("plate-crossover").unwrap();
     let set = [
         ("plate.shape", "rectangle"),
         ("plate.length_mm", "0.475"),
@@ -183,7 +181,7 @@ fn what_all_grids_have_alike_may_still_be_off() {
         ("plate.amplitude_um", "0.02563"),
         ("film.slip", "none"),
     ];
-    scene.set_all(set).unwrap();
+    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.width_mm"], Fidelity::Standard).elasticity(2, 0).unwrap();
     let exact = 1.076_008_2;
     assert!((found.value - exact).abs() <= found.error && found.error < 1e-2, "{found:?}");
@@ -362,19 +360,17 @@ fn text_object_and_files_agree() {
 
 #[test]
 fn two_ladders_that_agree_by_chance_are_no_proof() {
-    let mut scene = presets::find("plate-crossover").unwrap();
-    scene
-        .set_all([
-            ("plate.shape", "disc"),
-            ("plate.radius_mm", "0.7436"),
-            ("plate.frequency_khz", "279.1"),
-            ("plate.mean_gap_um", "6.5465"),
-            ("plate.amplitude_um", "0.52814"),
-            ("film.slip", "none"),
-            ("film.viscosity_upa_s", "24.08"),
-            ("film.ambient_pressure_kpa", "100.5"),
-        ])
-        .unwrap();
+    let set = [
+        ("plate.shape", "disc"),
+        ("plate.radius_mm", "0.7436"),
+        ("plate.frequency_khz", "279.1"),
+        ("plate.mean_gap_um", "6.5465"),
+        ("plate.amplitude_um", "0.52814"),
+        ("film.slip", "none"),
+        ("film.viscosity_upa_s", "24.08"),
+        ("film.ambient_pressure_kpa", "100.5"),
+    ];
+    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.amplitude_um"], Fidelity::Standard);
     let slope = found.slope(2, 0).unwrap();
     // By solves to an accuracy of 10⁻⁶ on both sides.

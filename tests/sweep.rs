@@ -28,8 +28,7 @@ fn sweep(preset: &str, vary: &[&str]) -> Sweep {
 
 fn sweep_of(changes: &[(&str, &str)], preset: &str, vary: &[&str]) -> Sweep {
     let vary: Vec<Vary> = vary.iter().map(|text| text.parse().unwrap()).collect();
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
+    let scene = presets::find(preset).unwrap().with(changes).unwrap();
     Sweep::new(&scene, &vary, &DRAFT).unwrap()
 }
 
@@ -90,9 +89,8 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
 #[test]
 fn a_sweep_of_the_load_finds_the_motor_that_is_pressed_too_hard() {
     // From a contact on the crests alone to one all round the wave: the bound goes on rising, and the stall torque falls behind.
-    let mut scene = presets::find("fundamental").unwrap();
     let set = [("stator.frequency_khz", "40"), ("motor.contact_radius_mm", "60"), ("motor.waves", "9")];
-    scene.set_all(set).unwrap();
+    let scene = presets::find("fundamental").unwrap().with(set).unwrap();
     let sweep = Sweep::new(&scene, &["motor.load_per_wave_n=1.67:16.67:4".parse().unwrap()], &DRAFT).unwrap();
     let rows = with_threads(2, &sweep);
     let column = |quantity| rows.iter().map(|row| row.numbers.get(quantity).unwrap()).collect::<Vec<_>>();

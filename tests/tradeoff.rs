@@ -79,8 +79,7 @@ fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
         ("doubled-mesh", &[("film.min_spacing_nm", "150"), ("numerics.steps_per_cycle", "72")]),
         ("plate-viscous", &[("numerics.film_nodes_across", "9")]),
     ] {
-        let mut scene = presets::find(preset).unwrap();
-        scene.set_all(changes.iter().copied()).unwrap();
+        let scene = presets::find(preset).unwrap().with(changes).unwrap();
         let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);
         // What takes seconds each is one of its family.
