@@ -65,14 +65,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if cancel.is_cancelled() {
         return Err(ExportError::Cancelled.into());
     }
-    for run in &runs {
-        match &run.solved {
-            Err(reason) => terminal::error(&format!("{}: {reason}", run.label)),
-            Ok(solution) => solution.warnings.iter().for_each(|warning| {
-                terminal::warning(&format!("{}: {warning}", run.label));
-            }),
-        }
-    }
+    runs.iter().for_each(|run| terminal::warnings(&run.label, &run.solved));
     let told = || json::document(&object(&runs, &settings), command);
     terminal::result(arguments.common.output.json, told, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)

@@ -73,14 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::note(&format!("cancelled; reached was\n\n{human}"));
         return Ok(exit);
     }
-    for Table1Row { published, run } in &rows {
-        match &run.solved {
-            Err(error) => terminal::error(&format!("{}: {error}", published.row)),
-            Ok(solution) => solution.warnings.iter().for_each(|warning| {
-                terminal::warning(&format!("{}: {warning}", published.row));
-            }),
-        }
-    }
+    rows.iter().for_each(|row| terminal::warnings(&row.published.row, &row.run.solved));
     let objects: Vec<_> = rows.iter().map(|row| object(row, &settings)).collect();
     terminal::result(arguments.json, || json_text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
