@@ -1,21 +1,14 @@
 //! The program as its users see it: what it prints where, the exit status, the files.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, json, out, refused, run, squeezefilm};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn squeezefilm(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    command.args(arguments).stdin(Stdio::null());
-    command
-}
-
-fn run(arguments: &[&str]) -> Output {
-    squeezefilm(arguments).output().unwrap()
-}
+use std::process::{Output, Stdio};
 
 fn with_input(arguments: &[&str], text: &[u8]) -> Output {
     let mut command = squeezefilm(arguments);
@@ -24,38 +17,11 @@ fn with_input(arguments: &[&str], text: &[u8]) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// Runs, and expects success.
-fn done(arguments: &[&str]) -> Output {
-    let output = run(arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    output
-}
-
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
-}
-
 /// Runs with `--json` at draft fidelity and reads the whole of standard output.
 fn solved(arguments: &[&str]) -> Value {
     let output = done(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
     assert_eq!(err(&output), "");
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-/// Runs, expects the status, nothing on standard output, and these words on standard error.
-fn refused(arguments: &[&str], status: i32, words: &[&str]) {
-    let output = run(arguments);
-    let said = err(&output);
-    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {said}");
-    assert_eq!(out(&output), "", "{arguments:?}");
-    for word in words {
-        assert!(said.contains(word), "{arguments:?}: {word:?} is not in {said:?}");
-    }
-    assert!(!said.contains("panicked"), "{said}");
+    json(&output)
 }
 
 const NUMBERS: [&str; 9] = [
@@ -184,7 +150,7 @@ fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
     assert!(err(&sweep(&[])).contains(stays));
     let air = sweep(&["--set", "film.gas=air", "--json"]);
     assert!(!err(&air).contains("mean free path"));
-    let air: Value = serde_json::from_str(out(&air)).unwrap();
+    let air = json(&air);
     let knudsen = |row: usize| air["rows"][row]["knudsen_number"].as_f64().unwrap();
     assert!(close(knudsen(0), 2.0 * knudsen(1)), "{air}");
 }
@@ -294,8 +260,7 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
     let line = squeeze(["floating-disc", "plate-crossover"]);
     assert!(line.contains(" by radius ") && line.ends_with("by length, not by radius"), "{line}");
     assert!(squeeze(["plate-viscous", "plate-crossover"]).ends_with("× 45.5"));
-    let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]);
-    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = json(&done(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]));
     assert_eq!((&result["runs"][0]["force_unit"], &result["runs"][1]["force_unit"]), (&"N".into(), &"N/m".into()));
     assert!(result["runs"][1]["difference_percent"].get("film_load_n").is_none());
 }
@@ -479,7 +444,7 @@ fn files_of_a_motor_agree_with_the_summary() {
     expected.sort();
     assert!(names.iter().eq(expected.iter().map(String::as_str)), "{names:?}");
     let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
-    assert_eq!(summary, serde_json::from_slice::<Value>(&output.stdout).unwrap());
+    assert_eq!(summary, json(&output));
     assert_eq!(summary["command"][0], "squeezefilm");
     let number = |key: &str| summary[key].as_f64().unwrap();
 
@@ -549,8 +514,7 @@ fn files_of_a_motor_agree_with_the_summary() {
 fn files_of_a_strip_are_per_metre() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
-    let output = done(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]);
-    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = json(&done(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]));
     let series = columns(&folder.path().join("series.csv"));
     let fields = columns(&folder.path().join("fields.csv"));
     assert!(close(mean(&series["film_load_n_per_m"]), summary["film_load_n"].as_f64().unwrap()));
@@ -718,7 +682,7 @@ fn a_preset_is_read_from_standard_input() {
     let toml = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=100"]).stdout;
     let output = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &toml);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    let piped: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let piped = json(&output);
     assert_eq!(piped["film_load_n"], solved(&["fundamental", "--set", "film.min_spacing_nm=100"])["film_load_n"]);
     let output = with_input(&["compare", "-"], b"schema = 2\n");
     assert_eq!(output.status.code(), Some(2));
@@ -755,8 +719,7 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
     let asked = with_input(&["new", "--diameter-mm", "60"], b"Mine\nfast\n40\n\n150\n9\n");
     assert_eq!(asked.status.code(), Some(0), "{}", err(&asked));
     assert!(err(&asked).contains("Frequency, kHz: ") && err(&asked).contains("frequency-khz = fast is not accepted"));
-    let piped = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout);
-    let piped: Value = serde_json::from_slice(&piped.stdout).unwrap();
+    let piped = json(&with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout));
     assert_eq!(piped["preset"], "Mine");
     // The answers end behind a question: what is missing stands on lines of its own.
     refused(
@@ -814,7 +777,7 @@ fn words_and_three_keys_are_swept_and_points_that_are_no_scene_are_marked() {
     ];
     let output = run(&[&["sweep", "fundamental", "--fidelity=draft", "--json", "--out", path], &vary[..]].concat());
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&output);
     assert_eq!(
         (&object["axes"][0]["values"][1], &object["axes"][0]["scale"]),
         (&"fukui-kaneko".into(), &"list".into())
@@ -949,7 +912,9 @@ fn an_interrupt_ends_a_long_solve_and_leaves_no_file() {
                 .spawn()
                 .unwrap();
             std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-            assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+            assert!(
+                std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success()
+            );
             child.wait_with_output().unwrap()
         };
         // The solve takes far longer. Of a program that has not yet begun to listen, the signal itself is the end.
@@ -973,7 +938,7 @@ fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
     arguments.push("--json");
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(3), "{}", err(&output));
-    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = json(&output);
     assert_eq!((&result["converged"], &result["status"]), (&Value::from(false), &Value::from("not converged")));
     assert!(result["alpha"].is_number() && result["residual"].as_f64() > result["tolerance"].as_f64());
     assert!(!result["warnings"].as_array().unwrap().is_empty());
@@ -1097,7 +1062,7 @@ fn measured_faces_are_read_and_told() {
     fs::write(at("stator.csv"), face(48)).unwrap();
     let output = run(&["surface", &at("rotor.csv"), &at("stator.csv"), "--json", "--out", &at("out"), "--quiet"]);
     assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
-    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let told = json(&output);
     assert_eq!(told["faces"].as_array().unwrap().len(), 2);
     let sizes = [0, 1].map(|face| told["faces"][face]["sz_nm"].as_f64().unwrap());
     assert!((told["min_spacing_nm"].as_f64().unwrap() - 0.5 * (sizes[0] + sizes[1])).abs() < 1e-9, "{told}");

@@ -2,6 +2,9 @@
 //! the command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, json, out};
 use serde_json::Value;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
@@ -12,7 +15,6 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solve::{Record, Settings, solve};
-use std::process::{Command, Output, Stdio};
 
 fn at(fidelity: Fidelity) -> Settings {
     Settings { fidelity, ..Settings::default() }
@@ -267,15 +269,8 @@ fn threads_change_no_bit() {
 
 // ---- the command
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
 fn refused(arguments: &[&str], words: &str) {
-    let output = run(&[&["sensitivity"], arguments].concat());
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {said}");
-    assert!(said.contains(words), "{arguments:?}: {said}");
+    program::refused(&[&["sensitivity"], arguments].concat(), 2, &[words]);
 }
 
 #[test]
@@ -301,9 +296,8 @@ fn text_object_and_files_agree() {
     let words = ["--uncertainty", "film.min_spacing_nm=20%", "--monte-carlo", "20", "--fidelity", "draft"];
     let arguments =
         [&["sensitivity", "fundamental", "--keys", "motor.load_per_wave_n", "--json", "--out", path][..], &words];
-    let output = run(&arguments.concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = done(&arguments.concat());
+    let object = json(&output);
     let outputs = object["outputs"].as_array().unwrap();
     assert_eq!(object["whole_numbers"], serde_json::json!(["motor.waves", "stator.teeth_per_wave"]));
     assert_eq!(object["monte_carlo"], serde_json::json!({ "seed": 1, "solved": 20, "failed": 0, "redrawn": 0 }));
@@ -351,10 +345,9 @@ fn text_object_and_files_agree() {
     }
     assert_eq!(std::fs::read(folder.path().join("sensitivity.json")).unwrap(), output.stdout);
 
-    let text = run(&["sensitivity", "levitating", "--fidelity", "draft", "--keys", "motor.load_per_wave_n"]);
-    let text = String::from_utf8(text.stdout).unwrap();
+    let text = done(&["sensitivity", "levitating", "--fidelity", "draft", "--keys", "motor.load_per_wave_n"]);
     let cells: Vec<&str> =
-        text.lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
+        out(&text).lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
     assert_eq!(cells, ["motor.load_per_wave_n", "0", "none", "none"]);
 }
 
