@@ -375,7 +375,7 @@ fn shells_and_man_are_told_every_command() {
         assert!(listed.iter().all(|command| out(&script).contains(command)), "{shell}");
     }
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(run(&["man", folder.path().to_str().unwrap()]).status.code(), Some(0));
+    done(&["man", folder.path().to_str().unwrap()]);
     for command in listed {
         let page = std::fs::read_to_string(folder.path().join(format!("squeezefilm-{command}.1"))).unwrap();
         assert!(page.contains(".SH OPTIONS") && page.contains(".SH SYNOPSIS"), "{page}");
@@ -507,7 +507,7 @@ fn files_of_a_motor_agree_with_the_summary() {
     let scene = folder.join("scene.toml");
     let again = solved(&[scene.to_str().unwrap()]);
     assert_eq!(again["film_load_n"], summary["film_load_n"]);
-    assert_eq!(run(&arguments).status.code(), Some(0));
+    done(&arguments);
 }
 
 #[test]
@@ -553,7 +553,7 @@ fn figures_are_written_in_the_formats_asked_for() {
         let out = folder.path().join(formats);
         let arguments =
             ["solve", "plate-viscous", "--fidelity", "draft", "--figures", formats, "--out", out.to_str().unwrap()];
-        assert_eq!(run(&arguments).status.code(), Some(0));
+        done(&arguments);
         let names = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let mut names: Vec<String> = names.filter(|name| name.starts_with("loads.")).collect();
         names.sort();
@@ -562,7 +562,7 @@ fn figures_are_written_in_the_formats_asked_for() {
     // The film at every instant, and a note where there is none.
     let out = folder.path().join("vtk");
     let vtk = ["--fidelity", "draft", "--figures", "vtk", "--out", out.to_str().unwrap()];
-    assert_eq!(run(&[&["solve", "plate-viscous"], &vtk[..]].concat()).status.code(), Some(0));
+    done(&[&["solve", "plate-viscous"], &vtk[..]].concat());
     let series: Value = serde_json::from_slice(&fs::read(out.join("film.vtk.series")).unwrap()).unwrap();
     let files = series["files"].as_array().unwrap();
     assert!(files.len() > 30 && files.iter().all(|file| out.join(file["name"].as_str().unwrap()).exists()));
@@ -640,10 +640,8 @@ fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     fs::write(folder.path().join("summary.json"), "older").unwrap();
     fs::create_dir(folder.path().join("series.csv")).unwrap();
     let path = folder.path().to_str().unwrap();
-    let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(err(&output).contains("series.csv: cannot be written: it is a folder"), "{}", err(&output));
-    assert!(output.stdout.is_empty());
+    let arguments = ["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path];
+    refused(&arguments, 1, &["series.csv: cannot be written: it is a folder"]);
     assert_eq!(fs::read_to_string(folder.path().join("summary.json")).unwrap(), "older");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     // Of several presets, each in its own folder.
@@ -714,7 +712,7 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
     }
     assert_eq!(solved(&[path])["preset"], "My motor");
     refused(&given, 2, &["there is such a file already; --replace replaces it"]);
-    assert_eq!(run(&[&given[..], &["--replace"]].concat()).status.code(), Some(0));
+    done(&[&given[..], &["--replace"]].concat());
     // What is not given is asked for, again where the answer is refused; the end of the answers leaves the rest to assumptions.
     let asked = with_input(&["new", "--diameter-mm", "60"], b"Mine\nfast\n40\n\n150\n9\n");
     assert_eq!(asked.status.code(), Some(0), "{}", err(&asked));

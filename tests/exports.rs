@@ -342,10 +342,8 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
 fn a_folder_that_cannot_be_written_is_told_before_anything_is_solved() {
     // Nobody may write there, root neither.
     for command in [&["compare", "fundamental", "levitating"][..], &["reproduce"], &["solve", "fundamental"]] {
-        let output = program::run(&[command, &["--out", "/proc/squeezefilm"]].concat());
-        let said = err(&output);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(said.contains("/proc/squeezefilm: cannot be written: "), "{said}");
+        let arguments = [command, &["--out", "/proc/squeezefilm"]].concat();
+        program::refused(&arguments, 1, &["/proc/squeezefilm: cannot be written: "]);
     }
     // A reader that has no room for the data.
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
