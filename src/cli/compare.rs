@@ -97,9 +97,8 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     }
     text.push_str(&columns.text(&[]));
 
-    let mut columns = Columns::new();
     let letters = |first: &str| std::iter::once(first.to_owned()).chain((0..runs.len()).map(letter));
-    columns.row(letters("parameter"));
+    let mut columns = Columns::headed(letters("parameter"));
     let mut listed = 0;
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         listed += 1;
@@ -114,9 +113,8 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
         text.push_str(&columns.text(&right));
     }
 
-    let mut columns = Columns::new();
     let pair = |i: usize| if i == 0 { vec![letter(i)] } else { vec![letter(i), format!("{} − A", letter(i))] };
-    columns.row(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
+    let mut columns = Columns::headed(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
     for (_, name, texts) in result_texts(runs) {
         // The first has no difference.
         let texts = texts.into_iter().enumerate().flat_map(|(i, texts)| texts.into_iter().take(1 + usize::from(i > 0)));

@@ -154,8 +154,8 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     let name = show_text(&sensitivity.scene().name);
     let mut text =
         heading(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"));
-    let mut columns = Columns::new();
-    columns.row(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
+    let mut columns =
+        Columns::headed(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
     let values = sensitivity
         .values
         .iter()
@@ -222,12 +222,11 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
     let given: Vec<String> = given.collect();
     let mut text = paragraph(&format!("Uncertain parameters (standard deviation): {}", given.join(", ")), "\n", "");
     text.push('\n');
-    let mut columns = Columns::new();
     let mut head = vec!["", "value", "std. dev. from parameters", "numerical error", "largest contribution"];
     if found.carlo.is_some() {
         head.extend(["Monte Carlo (std. dev.)", "5 % … 95 %"]);
     }
-    columns.row(head);
+    let mut columns = Columns::headed(head);
     let (mut beyond, mut bent) = (Vec::new(), Vec::new());
     for (i, output) in sensitivity.outputs.iter().enumerate() {
         let value = sensitivity.values[i];

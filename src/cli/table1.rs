@@ -119,8 +119,7 @@ fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -
         text.push_str(&format!("changed in every row: {key} = {value}\n"));
     }
     text.push('\n');
-    let mut columns = Columns::new();
-    columns.row(["", "film load, N", "", "film share α", "", "", ""]);
+    let mut columns = Columns::headed(["", "film load, N", "", "film share α", "", "", ""]);
     columns.row(["row", "published", "computed", "published", "computed", "difference", ""]);
     for row in rows {
         let published = &row.published;
