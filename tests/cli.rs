@@ -1,21 +1,14 @@
 //! The program as its users see it: what it prints where, the exit status, the files.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, json, out, refused, run, squeezefilm};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn squeezefilm(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    command.args(arguments).stdin(Stdio::null());
-    command
-}
-
-fn run(arguments: &[&str]) -> Output {
-    squeezefilm(arguments).output().unwrap()
-}
+use std::process::{Output, Stdio};
 
 fn with_input(arguments: &[&str], text: &[u8]) -> Output {
     let mut command = squeezefilm(arguments);
@@ -24,32 +17,11 @@ fn with_input(arguments: &[&str], text: &[u8]) -> Output {
     child.wait_with_output().unwrap()
 }
 
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
-}
-
 /// Runs with `--json` at draft fidelity and reads the whole of standard output.
 fn solved(arguments: &[&str]) -> Value {
-    let output = run(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
     assert_eq!(err(&output), "");
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-/// Runs, expects the status, nothing on standard output, and these words on standard error.
-fn refused(arguments: &[&str], status: i32, words: &[&str]) {
-    let output = run(arguments);
-    let said = err(&output);
-    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {said}");
-    assert_eq!(out(&output), "", "{arguments:?}");
-    for word in words {
-        assert!(said.contains(word), "{arguments:?}: {word:?} is not in {said:?}");
-    }
-    assert!(!said.contains("panicked"), "{said}");
+    json(&output)
 }
 
 const NUMBERS: [&str; 9] = [
@@ -178,7 +150,7 @@ fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
     assert!(err(&sweep(&[])).contains(stays));
     let air = sweep(&["--set", "film.gas=air", "--json"]);
     assert!(!err(&air).contains("mean free path"));
-    let air: Value = serde_json::from_str(out(&air)).unwrap();
+    let air = json(&air);
     let knudsen = |row: usize| air["rows"][row]["knudsen_number"].as_f64().unwrap();
     assert!(close(knudsen(0), 2.0 * knudsen(1)), "{air}");
 }
@@ -212,8 +184,7 @@ fn a_motor_pressed_all_round_the_wave_leads_with_its_stall_torque_and_warns() {
         .into_iter()
         .chain(set.into_iter().flat_map(|set| ["--set", set]))
         .collect();
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0));
+    let output = done(&arguments);
     let lines: Vec<&str> = out(&output).lines().collect();
     let place = |name: &str| lines.iter().position(|line| line.starts_with(name)).unwrap();
     let (stall, bound) = (place("  stall torque "), place("  maximum operating torque "));
@@ -267,8 +238,7 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
     let to = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let vary = ["--fidelity=draft", "--vary=plate.frequency_khz=10:20:2", "--figures=none"];
     for (changes, column) in [(&[][..], "film_load_min_n_per_m"), (&["--set=plate.width_mm=1"], "film_load_min_n")] {
-        let output = run(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let output = done(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
         let text = fs::read_to_string(folder.path().join(column).join("sweep.csv")).unwrap();
         assert!(text.lines().next().unwrap().split(',').any(|name| name == column), "{text}");
     }
@@ -290,8 +260,7 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
     let line = squeeze(["floating-disc", "plate-crossover"]);
     assert!(line.contains(" by radius ") && line.ends_with("by length, not by radius"), "{line}");
     assert!(squeeze(["plate-viscous", "plate-crossover"]).ends_with("× 45.5"));
-    let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]);
-    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = json(&done(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]));
     assert_eq!((&result["runs"][0]["force_unit"], &result["runs"][1]["force_unit"]), (&"N".into(), &"N/m".into()));
     assert!(result["runs"][1]["difference_percent"].get("film_load_n").is_none());
 }
@@ -353,7 +322,7 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["sovle", "fundamental"], 2, &["sovle", "solve"]);
     refused(&["solve", "fundamental", "--fidelity", "best"], 2, &["draft, standard, fine, reference"]);
     refused(&["solve", "fundamental", "--method", "best"], 2, &["auto, paper"]);
-    refused(&["solve", "fundamental", "--threads", "0"], 2, &["--threads"]);
+    refused(&["solve", "fundamental", "--threads", "0"], 2, &["--threads", "expected a whole number from 1 to 1024"]);
     refused(&["solve", "plate-viscous", "--method", "paper"], 2, &["paper", "motors"]);
     refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
     refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
@@ -372,6 +341,9 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["sweep", "fundamental"], 2, &["--vary"]);
     refused(&["sweep", "plate-viscous", "--vary=plate.length_mm=1:2:2", "--method=paper"], 2, &["paper", "motors"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
+    refused(&["compare"], 2, &["PRESET"]);
+    refused(&["compare", "fundamental", "fundamentl"], 2, &["fundamental"]);
+    refused(&["compare", "fundamental", "plate-viscous", "--method", "paper"], 2, &["motors"]);
 }
 
 #[test]
@@ -399,12 +371,11 @@ fn shells_and_man_are_told_every_command() {
         .collect();
     assert!(listed.contains(&"solve") && listed.contains(&"man"), "{listed:?}");
     for shell in ["bash", "zsh", "fish", "powershell"] {
-        let script = run(&["completions", shell]);
-        assert_eq!(script.status.code(), Some(0));
+        let script = done(&["completions", shell]);
         assert!(listed.iter().all(|command| out(&script).contains(command)), "{shell}");
     }
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(run(&["man", folder.path().to_str().unwrap()]).status.code(), Some(0));
+    done(&["man", folder.path().to_str().unwrap()]);
     for command in listed {
         let page = std::fs::read_to_string(folder.path().join(format!("squeezefilm-{command}.1"))).unwrap();
         assert!(page.contains(".SH OPTIONS") && page.contains(".SH SYNOPSIS"), "{page}");
@@ -459,8 +430,7 @@ fn files_of_a_motor_agree_with_the_summary() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("a/b");
     let arguments = ["solve", "fundamental", "--fidelity", "draft", "--json", "--out", folder.to_str().unwrap()];
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&arguments);
     assert!(err(&output).contains("series.csv"));
 
     let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -474,7 +444,7 @@ fn files_of_a_motor_agree_with_the_summary() {
     expected.sort();
     assert!(names.iter().eq(expected.iter().map(String::as_str)), "{names:?}");
     let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
-    assert_eq!(summary, serde_json::from_slice::<Value>(&output.stdout).unwrap());
+    assert_eq!(summary, json(&output));
     assert_eq!(summary["command"][0], "squeezefilm");
     let number = |key: &str| summary[key].as_f64().unwrap();
 
@@ -537,16 +507,14 @@ fn files_of_a_motor_agree_with_the_summary() {
     let scene = folder.join("scene.toml");
     let again = solved(&[scene.to_str().unwrap()]);
     assert_eq!(again["film_load_n"], summary["film_load_n"]);
-    assert_eq!(run(&arguments).status.code(), Some(0));
+    done(&arguments);
 }
 
 #[test]
 fn files_of_a_strip_are_per_metre() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
-    let output = run(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = json(&done(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]));
     let series = columns(&folder.path().join("series.csv"));
     let fields = columns(&folder.path().join("fields.csv"));
     assert!(close(mean(&series["film_load_n_per_m"]), summary["film_load_n"].as_f64().unwrap()));
@@ -585,7 +553,7 @@ fn figures_are_written_in_the_formats_asked_for() {
         let out = folder.path().join(formats);
         let arguments =
             ["solve", "plate-viscous", "--fidelity", "draft", "--figures", formats, "--out", out.to_str().unwrap()];
-        assert_eq!(run(&arguments).status.code(), Some(0));
+        done(&arguments);
         let names = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let mut names: Vec<String> = names.filter(|name| name.starts_with("loads.")).collect();
         names.sort();
@@ -594,7 +562,7 @@ fn figures_are_written_in_the_formats_asked_for() {
     // The film at every instant, and a note where there is none.
     let out = folder.path().join("vtk");
     let vtk = ["--fidelity", "draft", "--figures", "vtk", "--out", out.to_str().unwrap()];
-    assert_eq!(run(&[&["solve", "plate-viscous"], &vtk[..]].concat()).status.code(), Some(0));
+    done(&[&["solve", "plate-viscous"], &vtk[..]].concat());
     let series: Value = serde_json::from_slice(&fs::read(out.join("film.vtk.series")).unwrap()).unwrap();
     let files = series["files"].as_array().unwrap();
     assert!(files.len() > 30 && files.iter().all(|file| out.join(file["name"].as_str().unwrap()).exists()));
@@ -672,10 +640,8 @@ fn a_folder_where_a_file_would_be_is_told_before_anything_is_solved() {
     fs::write(folder.path().join("summary.json"), "older").unwrap();
     fs::create_dir(folder.path().join("series.csv")).unwrap();
     let path = folder.path().to_str().unwrap();
-    let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(err(&output).contains("series.csv: cannot be written: it is a folder"), "{}", err(&output));
-    assert!(output.stdout.is_empty());
+    let arguments = ["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path];
+    refused(&arguments, 1, &["series.csv: cannot be written: it is a folder"]);
     assert_eq!(fs::read_to_string(folder.path().join("summary.json")).unwrap(), "older");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     // Of several presets, each in its own folder.
@@ -714,7 +680,7 @@ fn a_preset_is_read_from_standard_input() {
     let toml = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=100"]).stdout;
     let output = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &toml);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    let piped: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let piped = json(&output);
     assert_eq!(piped["film_load_n"], solved(&["fundamental", "--set", "film.min_spacing_nm=100"])["film_load_n"]);
     let output = with_input(&["compare", "-"], b"schema = 2\n");
     assert_eq!(output.status.code(), Some(2));
@@ -746,13 +712,12 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
     }
     assert_eq!(solved(&[path])["preset"], "My motor");
     refused(&given, 2, &["there is such a file already; --replace replaces it"]);
-    assert_eq!(run(&[&given[..], &["--replace"]].concat()).status.code(), Some(0));
+    done(&[&given[..], &["--replace"]].concat());
     // What is not given is asked for, again where the answer is refused; the end of the answers leaves the rest to assumptions.
     let asked = with_input(&["new", "--diameter-mm", "60"], b"Mine\nfast\n40\n\n150\n9\n");
     assert_eq!(asked.status.code(), Some(0), "{}", err(&asked));
     assert!(err(&asked).contains("Frequency, kHz: ") && err(&asked).contains("frequency-khz = fast is not accepted"));
-    let piped = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout);
-    let piped: Value = serde_json::from_slice(&piped.stdout).unwrap();
+    let piped = json(&with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout));
     assert_eq!(piped["preset"], "Mine");
     // The answers end behind a question: what is missing stands on lines of its own.
     refused(
@@ -780,8 +745,7 @@ fn names_do_nothing_to_terminals_spreadsheets_and_reports() {
     let rest = ["--set", &name, "--fidelity", "draft", "--out", path, "--figures", "svg"];
     let harmless = |text: &str| !text.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}');
     for command in [&["compare", "plate-viscous", "plate-crossover"][..], &["solve", "plate-viscous"]] {
-        let output = run(&[command, &rest].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let output = done(&[command, &rest].concat());
         assert!(harmless(out(&output)) && harmless(err(&output)), "{}", out(&output));
         let title = out(&output).lines().find(|line| line.contains("=HYPERLINK(1)\\u{1b}[2J\\u{202e}")).unwrap();
         assert!(title.contains("xxx…") && title.chars().count() < 150, "{title}");
@@ -811,7 +775,7 @@ fn words_and_three_keys_are_swept_and_points_that_are_no_scene_are_marked() {
     ];
     let output = run(&[&["sweep", "fundamental", "--fidelity=draft", "--json", "--out", path], &vary[..]].concat());
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&output);
     assert_eq!(
         (&object["axes"][0]["values"][1], &object["axes"][0]["scale"]),
         (&"fukui-kaneko".into(), &"list".into())
@@ -855,8 +819,7 @@ fn presets_are_listed_and_printed_as_files() {
 #[test]
 fn every_number_of_a_preset_has_an_error_or_is_exact() {
     let names = squeezefilm::scene::presets::BUILT_IN.iter().map(|preset| preset.name);
-    let solved = run(&[&["solve", "--fidelity", "draft"][..], &names.collect::<Vec<_>>()].concat());
-    assert_eq!(solved.status.code(), Some(0), "{}", err(&solved));
+    let solved = done(&[&["solve", "--fidelity", "draft"][..], &names.collect::<Vec<_>>()].concat());
     assert!(!out(&solved).contains("not estimated"), "{}", out(&solved));
     let plates = out(&solved).lines().filter(|line| line.trim_start().starts_with("least film thickness"));
     let given = plates.filter(|line| line.contains("the mean gap is") && !line.contains('±')).count();
@@ -868,8 +831,7 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let arguments = ["table1", "--converged", "--fidelity", "draft", "--threads", "2"];
-    let output = run(&[&arguments[..], &["--json", "--out", path]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = done(&[&arguments[..], &["--json", "--out", path]].concat());
     let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(rows.len(), 14);
     for row in &rows {
@@ -887,8 +849,7 @@ fn table_1_has_14_rows_each_near_the_published_one() {
     for (record, row) in reader.records().zip(&rows) {
         assert!(close(record.unwrap()[load].parse().unwrap(), row["film_load_n"].as_f64().unwrap()));
     }
-    let table = run(&arguments);
-    assert_eq!(table.status.code(), Some(0));
+    let table = done(&arguments);
     assert!(rows.iter().all(|row| out(&table).contains(row["row"].as_str().unwrap())));
 
     // A row that cannot be solved says so, and the others are solved.
@@ -949,7 +910,9 @@ fn an_interrupt_ends_a_long_solve_and_leaves_no_file() {
                 .spawn()
                 .unwrap();
             std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-            assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+            assert!(
+                std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success()
+            );
             child.wait_with_output().unwrap()
         };
         // The solve takes far longer. Of a program that has not yet begun to listen, the signal itself is the end.
@@ -973,7 +936,7 @@ fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
     arguments.push("--json");
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(3), "{}", err(&output));
-    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = json(&output);
     assert_eq!((&result["converged"], &result["status"]), (&Value::from(false), &Value::from("not converged")));
     assert!(result["alpha"].is_number() && result["residual"].as_f64() > result["tolerance"].as_f64());
     assert!(!result["warnings"].as_array().unwrap().is_empty());
@@ -1018,7 +981,6 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
     refused(&["fundamental"], 2, &["fundamental is a preset, not a command: squeezefilm solve fundamental"]);
     refused(&["fundamentel"], 2, &["unrecognized subcommand"]);
     refused(&["solve", "fundamental", "--accuracy", "-1%"], 2, &["from 0.0001% to 50%"]);
-    refused(&["solve", "fundamental", "--threads", "0"], 2, &["expected a whole number from 1 to 1024"]);
 }
 
 #[test]
@@ -1098,7 +1060,7 @@ fn measured_faces_are_read_and_told() {
     fs::write(at("stator.csv"), face(48)).unwrap();
     let output = run(&["surface", &at("rotor.csv"), &at("stator.csv"), "--json", "--out", &at("out"), "--quiet"]);
     assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
-    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let told = json(&output);
     assert_eq!(told["faces"].as_array().unwrap().len(), 2);
     let sizes = [0, 1].map(|face| told["faces"][face]["sz_nm"].as_f64().unwrap());
     assert!((told["min_spacing_nm"].as_f64().unwrap() - 0.5 * (sizes[0] + sizes[1])).abs() < 1e-9, "{told}");

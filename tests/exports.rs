@@ -1,7 +1,10 @@
 //! What leaves the program, read back by readers that are not ours.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
 use npyz::NpyFile;
+use program::{done, err, json, out, squeezefilm};
 use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 use squeezefilm::analysis::compare::runs;
@@ -16,17 +19,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn squeezefilm(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-fn done(arguments: &[&str]) -> Output {
-    let output = squeezefilm(arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    output
-}
+use std::process::{Command, Stdio};
 
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> =
@@ -98,7 +91,7 @@ fn an_npz_reads_back_to_what_was_solved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let arguments = ["solve", "fundamental", "--fidelity", "draft", "--figures", "none", "--json", "--out", path];
-    let summary: Value = serde_json::from_slice(&done(&arguments).stdout).unwrap();
+    let summary = json(&done(&arguments));
     let first = fs::read(folder.path().join("fields.npz")).unwrap();
     let arrays = arrays(&folder.path().join("fields.npz"));
     let (shape, film) = &arrays["film_n_per_m"];
@@ -160,7 +153,7 @@ fn python_reads_the_npz_with_the_example_of_the_docs() {
     let blocks = docs.split("```python\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let example = blocks.into_iter().find(|block| block.contains("np.load")).unwrap();
     let ran = Command::new("python3").args(["-c", example]).current_dir(&folder).output().unwrap();
-    let (said, faults) = (String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
+    let (said, faults) = (out(&ran), err(&ran));
     assert!(ran.status.success() && said.starts_with("Fundamental case: film load 0.60"), "{said}{faults}");
 }
 
@@ -171,7 +164,7 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let presets = ["fundamental", "min-spacing-100nm", "levitating"];
     let draft = ["--fidelity", "draft", "--json"];
     let output = done(&[&["compare"], &presets[..], &draft, &["--out", path, "--figures", "svg"]].concat());
-    let compared: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let compared = json(&output);
     assert_eq!(
         compared,
         serde_json::from_slice::<Value>(&fs::read(folder.path().join("compare.json")).unwrap()).unwrap()
@@ -182,9 +175,8 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
         let after = json.split(&key).skip(1);
         after.map(|rest| rest.split([',', '\n']).next().unwrap().to_owned()).collect()
     };
-    let ours = String::from_utf8(output.stdout).unwrap();
-    let ours: Vec<&str> = ours.split("\"label\"").skip(1).collect();
-    let single = |preset: &&str| String::from_utf8(done(&[&["solve", preset], &draft[..]].concat()).stdout).unwrap();
+    let ours: Vec<&str> = out(&output).split("\"label\"").skip(1).collect();
+    let single = |preset: &&str| out(&done(&[&["solve", preset], &draft[..]].concat())).to_owned();
     let singles: Vec<String> = presets.iter().map(single).collect();
     for (single, run) in singles.iter().zip(&ours) {
         for name in [
@@ -268,8 +260,8 @@ fn motors_and_plates_are_compared_as_far_as_they_go() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let all = ["compare", "fundamental", "plate-crossover", "--all", "--fidelity", "draft", "--figures", "none"];
-    let said = done(&[&all[..], &["--out", path]].concat());
-    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    let output = done(&[&all[..], &["--out", path]].concat());
+    let said = out(&output);
     assert!(said.contains("plate.length_mm") && said.contains("film.slip"), "{said}");
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert_eq!((count(&page(&html), "svg"), count(&page(&html), "img")), (9, 2));
@@ -310,25 +302,12 @@ fn one_preset_alone_has_a_report_without_differences() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let said = done(&["compare", "plate-crossover", "--fidelity", "draft", "--out", path]);
-    assert!(String::from_utf8_lossy(&said.stdout).starts_with("one preset, fidelity draft"));
+    assert!(out(&said).starts_with("one preset, fidelity draft"));
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
     let text: String = page(&html).descendants().filter_map(|node| node.text()).collect();
     assert!(text.contains("Plate, crossover") && !text.contains("difference"), "{text}");
     let parameters = fs::read_to_string(folder.path().join("parameters.csv")).unwrap();
     assert!(parameters.lines().count() > 5, "all of its parameters: {parameters}");
-}
-
-#[test]
-fn what_cannot_be_compared_is_refused() {
-    for (arguments, word) in [
-        (&["compare"][..], "PRESET"),
-        (&["compare", "fundamental", "fundamentl"], "fundamental"),
-        (&["compare", "fundamental", "plate-viscous", "--method", "paper"], "motors"),
-    ] {
-        let output = squeezefilm(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains(word), "{arguments:?}");
-    }
 }
 
 /// Runs in a shell that lets no file grow beyond a few kilobytes, as a disk that is nearly full.
@@ -350,7 +329,7 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
             .arg(folder.path())
             .output()
             .unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = err(&output);
         assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
         assert!(said.contains(": cannot be written: ") && said.contains("too large"), "{arguments}: {said}");
         assert_eq!(names(folder.path()), ["report.html"], "{arguments}");
@@ -363,18 +342,14 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
 fn a_folder_that_cannot_be_written_is_told_before_anything_is_solved() {
     // Nobody may write there, root neither.
     for command in [&["compare", "fundamental", "levitating"][..], &["reproduce"], &["solve", "fundamental"]] {
-        let output = squeezefilm(&[command, &["--out", "/proc/squeezefilm"]].concat());
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(said.contains("/proc/squeezefilm: cannot be written: "), "{said}");
+        let arguments = [command, &["--out", "/proc/squeezefilm"]].concat();
+        program::refused(&arguments, 1, &["/proc/squeezefilm: cannot be written: "]);
     }
     // A reader that has no room for the data.
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    let arguments = ["compare", "fundamental", "levitating", "--fidelity", "draft"];
-    let output =
-        command.args(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
+    let mut command = squeezefilm(&["compare", "fundamental", "levitating", "--fidelity", "draft"]);
+    let output = command.stdout(full).output().unwrap();
+    let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("standard output: cannot be written: "), "{said}");
 }
@@ -385,8 +360,8 @@ fn the_paper_is_reproduced_and_a_run_cut_short_leaves_nothing() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("paper");
     let path = folder.to_str().unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    let child = child.args(["reproduce", "--out", path]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = squeezefilm(&["reproduce", "--out", path]);
+    let child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
     let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     let output = child.wait_with_output().unwrap();
@@ -396,8 +371,7 @@ fn the_paper_is_reproduced_and_a_run_cut_short_leaves_nothing() {
         assert!(!folder.exists());
     }
 
-    let output = done(&["reproduce", "--out", path, "--fidelity", "draft", "--json", "--figures", "svg"]);
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&done(&["reproduce", "--out", path, "--fidelity", "draft", "--json", "--figures", "svg"]));
     assert_eq!((object["unsolved"].as_u64(), object["table1"].as_array().unwrap().len()), (Some(0), 14));
     let published: Vec<f64> =
         object["table1"].as_array().unwrap().iter().map(|row| row["published_alpha"].as_f64().unwrap()).collect();

@@ -26,19 +26,11 @@ fn scene_with(preset: &str, changes: &[(&str, f64)]) -> Scene {
     scene
 }
 
-fn motor_of(problem: &Problem) -> &Motor {
-    match &problem.scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
-}
-
 /// α of a motor that has to converge.
 fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) -> Periodic {
-    let mut scene = scene_with("fundamental", changes);
-    scene.set_all(choices.iter().copied()).unwrap();
+    let scene = scene_with("fundamental", changes).with(choices).unwrap();
     let (problem, plan, found) = checked(&scene, fidelity);
-    check_mass(motor_of(&problem), &plan).unwrap();
+    check_mass(problem.scenario.motor().unwrap(), &plan).unwrap();
     found
 }
 
@@ -47,13 +39,13 @@ fn checked(scene: &Scene, fidelity: Fidelity) -> (Problem, Plan, Periodic) {
     let problem = Problem::try_from(scene).unwrap();
     let (plan, found) = periodic(&problem, fidelity, |plan| plan);
     assert_eq!(found.status, Status::Converged, "{}", options(scene));
-    check(motor_of(&problem), &plan, &found).unwrap();
+    check(problem.scenario.motor().unwrap(), &plan, &found).unwrap();
     (problem, plan, found)
 }
 
 /// The periodic state of a motor by its plan, `changed`.
 fn periodic(problem: &Problem, fidelity: Fidelity, changed: impl Fn(Plan) -> Plan) -> (Plan, Periodic) {
-    let motor = motor_of(problem);
+    let motor = problem.scenario.motor().unwrap();
     let plan = changed(Plan::motor(motor, fidelity, &problem.numerics).unwrap());
     let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
     (plan, found)
@@ -213,9 +205,8 @@ fn mass_balance(motor: &Motor, plan: &Plan, found: &Periodic) -> Option<f64> {
 
 /// What cannot be of a plate's result; in words if it is.
 fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
-    let (recording, Outcome::Plate(result)) = (&solution.recording, &solution.outcome) else {
-        return Err("no plate".to_owned());
-    };
+    let recording = &solution.recording;
+    let Some(result) = solution.outcome.plate() else { return Err("no plate".to_owned()) };
     let fault = |words: String| Err(format!("{words}; {:?}, {result:?}", solution.status));
     let numbers = [
         result.film_load.value,
@@ -421,9 +412,8 @@ fn motors_that_were_hard_to_reach_converge() {
     ];
     for (reason, shear, values) in motors {
         let pairs: Vec<(&str, f64)> = HARD.into_iter().zip(values).collect();
-        let mut scene = scene_with("fundamental", &pairs);
-        scene.set("film.slip", "second-order").unwrap();
-        scene.set("film.shear", shear).unwrap();
+        let choices = [("film.slip", "second-order"), ("film.shear", shear)];
+        let scene = scene_with("fundamental", &pairs).with(choices).unwrap();
         assert!(survives(&scene, Fidelity::Draft).is_ok_and(repeats), "{reason}");
     }
 }
@@ -435,8 +425,7 @@ fn a_motor_that_repeats_only_when_it_is_marched_converges() {
     let values =
         [12.8533, 27.0, 0.01, -6841.52, 87.3719, 0.201_634, 6.0, 3389.53, 0.192_838, 0.189_756, 0.1, 0.001_802_23, 9.9452e-9, 20.6243, 890.57, 18.4231, 228_940.0];
     let pairs: Vec<_> = HARD.into_iter().zip(values).chain([("stator.tangential_amplitude_um", 0.0)]).collect();
-    let mut scene = scene_with("fundamental", &pairs);
-    scene.set("film.slip", "none").unwrap();
+    let scene = scene_with("fundamental", &pairs).with([("film.slip", "none")]).unwrap();
     assert!(survives(&scene, Fidelity::Draft).is_ok_and(repeats));
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let found = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
@@ -815,7 +804,7 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
     // q = L/λ + A cos kx/C(k₁), which is nowhere negative: every tooth touches at all times, the gap is H_m everywhere.
     let scene = scene_with("fundamental", &[("motor.load_per_wave_n", 100.0)]);
     let problem = Problem::try_from(&scene).unwrap();
-    let motor = motor_of(&problem);
+    let motor = problem.scenario.motor().unwrap();
     let RotorCompliance::Beam { .. } = motor.rotor else { panic!("a beam") };
     let flat = 1e6 * motor.load * motor.compliances(1, &Cancel::new()).unwrap().harmonic(1) / motor.wavelength();
     // Nine tenths of what can be pressed flat; the grooves carry nothing, so the teeth need a little more.
@@ -883,8 +872,7 @@ fn the_cost_of_a_solve_is_flat() {
             .par_iter()
             .map(|spacing| {
                 // On the plan's own grids: how many more the accuracy asks for is another matter.
-                let mut scene = scene_with("fundamental", &changes(*spacing));
-                scene.set("numerics.time", "march").unwrap();
+                let scene = scene_with("fundamental", &changes(*spacing)).with([("numerics.time", "march")]).unwrap();
                 let problem = Problem::try_from(&scene).unwrap();
                 let unrefined = |plan: Plan| Plan { most_grids: plan.grids.len(), ..plan };
                 let (_, found) = periodic(&problem, Fidelity::Standard, unrefined);

@@ -20,8 +20,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn solved(preset: &str, changes: &[(&str, &str)]) -> (Problem, Solution) {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
+    let scene = presets::find(preset).unwrap().with(changes).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();

@@ -407,8 +407,7 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
         ("film.slip", "none"),
         ("plate.frequency_khz", "60.628"),
     ];
-    let mut scene = presets::find("plate-crossover").unwrap();
-    scene.set_all(set).unwrap();
+    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
     let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
     let found = solve(&plate, Fidelity::Draft);
     let compared = ExactComparison::of(&plate, &found.result, &found.recording);
@@ -418,8 +417,7 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
 
 /// A plate, changed from `plate-mems`, solved at a draft and at reference.
 fn draft_and_reference(changes: &[(&str, &str)]) -> [(ExactComparison, Periodic); 2] {
-    let mut scene = presets::find("plate-mems").unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
+    let scene = presets::find("plate-mems").unwrap().with(changes).unwrap();
     let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
     [Fidelity::Draft, Fidelity::Reference].map(|fidelity| {
         let found = solve(&plate, fidelity);

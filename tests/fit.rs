@@ -1,6 +1,9 @@
 //! Fits: values that are known are found again within the errors that are stated, and an optimum is that of a fine sweep.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, json, out, refused, run};
 use serde_json::Value as Json;
 use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Model, fit, optimise};
 use squeezefilm::analysis::quantity::Quantity;
@@ -13,7 +16,6 @@ use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solution::Outcome;
 use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::fmt::Write as _;
-use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 
 const STANDARD: Settings = Settings { fidelity: Fidelity::Standard, method: Method::Auto, record: Record::Numbers };
@@ -24,9 +26,7 @@ fn bounds(vary: &[&str]) -> Vec<Bounds> {
 }
 
 fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    scene
+    presets::find(preset).unwrap().with(changes).unwrap()
 }
 
 fn table(scene: &Scene, text: &str) -> Measured {
@@ -40,8 +40,7 @@ fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings
 
 /// The film load of a scene with changes.
 fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
-    let mut scene = scene.clone();
-    scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str()))).unwrap();
+    let scene = scene.with(changes).unwrap();
     match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
         Outcome::Motor(result) => result.film_load.value,
         Outcome::Plate(result) => result.film_load.value,
@@ -386,7 +385,7 @@ fn an_optimum_keeps_its_limits() {
     // Where it is kept nowhere, that is no optimum.
     let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
     let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft"]].concat());
-    let said = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
+    let said = [out(&output), err(&output)].concat();
     assert!(output.status.code() == Some(3) && said.contains("the limit alpha < 0.05 cannot be kept"), "{said}");
     // Without it the bound is reached, and said to be.
     let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
@@ -413,11 +412,6 @@ fn an_optimum_keeps_its_limits() {
     assert!(error.contains("maximise torque: no such number; allowed: alpha,"), "{error}");
 }
 
-fn run(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    command.args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
 #[test]
 fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
     let folder = tempfile::tempdir().unwrap();
@@ -427,9 +421,7 @@ fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
     let mut arguments =
         vec!["fit", "plate-crossover", "--data", data, "--out", out_text, "--json", "--fidelity", "draft"];
     arguments.extend(PLATE.iter().flat_map(|vary| ["--vary", vary]));
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Json = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&done(&arguments));
     assert_eq!(object["unknowns"][0]["key"], "plate.amplitude_um");
     assert_eq!(object["rows"].as_array().unwrap().len(), 8);
     assert_eq!(object["correlation"][0][0], 1.0);
@@ -441,9 +433,8 @@ fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
     let preset = Scene::load(&out.join("fitted.toml")).unwrap();
     let value = object["unknowns"][0]["value"].as_f64().unwrap();
     assert_eq!(preset.get("plate.amplitude_um").unwrap().as_number(), Some(value));
-    let missing = run(&["fit", "fundamental", "--data", "nowhere.csv", "--vary", "film.min_spacing_nm=100:200"]);
-    let said = String::from_utf8_lossy(&missing.stderr).into_owned();
-    assert!(missing.status.code() == Some(2) && said.contains("nowhere.csv: cannot be read"), "{said}");
+    let missing = ["fit", "fundamental", "--data", "nowhere.csv", "--vary", "film.min_spacing_nm=100:200"];
+    refused(&missing, 2, &["nowhere.csv: cannot be read"]);
 }
 
 #[test]

@@ -36,11 +36,8 @@ fn solved(scene: &Scene, fidelity: Fidelity) -> (Problem, Result<Solution, Solve
 fn found(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> (Plate, PlateResult, Solution) {
     let (problem, solution) = solved(&scene(preset, set), fidelity);
     let solution = solution.unwrap();
-    let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
-        panic!("a plate")
-    };
     assert_eq!(solution.status, Status::Converged, "{preset} {set:?}");
-    (plate, result, solution)
+    (problem.scenario.plate().unwrap().clone(), *solution.outcome.plate().unwrap(), solution)
 }
 
 fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> ExactComparison {
@@ -228,12 +225,8 @@ fn the_film_carries_the_load_at_the_gap_that_is_found() {
         assert!(off < error * floating.stiffness.value, "{preset}: {fine:?} {load}");
         // Stiffness as the difference of two given gaps.
         let at = |share: f64| {
-            let mut near = given.clone();
-            near.set("plate.mean_gap_um", &(gap * share * 1e6).to_string()).unwrap();
-            match solved(&near, Fidelity::Reference).1.unwrap().outcome {
-                Outcome::Plate(result) => result.film_load.value,
-                Outcome::Motor(_) => panic!("a plate"),
-            }
+            let near = given.with([("plate.mean_gap_um", (gap * share * 1e6).to_string())]).unwrap();
+            solved(&near, Fidelity::Reference).1.unwrap().outcome.plate().unwrap().film_load.value
         };
         let away = 0.02 * (gap - plate.amplitude) / gap;
         let stiffness = (at(1.0 - away) - at(1.0 + away)) / (2.0 * away * gap);
@@ -404,9 +397,8 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
     for row in &rows {
         let (gap, error) =
             (row.numbers.get(Quantity::MeanGap).unwrap(), row.numbers.get(Quantity::MeanGapError).unwrap());
-        let Scenario::Plate(plate) = Problem::try_from(&sweep.scene_at(row.point).unwrap()).unwrap().scenario else {
-            panic!("a plate")
-        };
+        let problem = Problem::try_from(&sweep.scene_at(row.point).unwrap()).unwrap();
+        let plate = problem.scenario.plate().unwrap();
         let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;
         assert!(
             row.numbers.get(Quantity::SlowDampingError).unwrap()

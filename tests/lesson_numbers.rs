@@ -11,7 +11,7 @@ use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
 use squeezefilm::problem::{Outline, Problem, Scenario};
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::{Outcome, Performance, PlateResult};
+use squeezefilm::solution::{Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 use std::collections::BTreeMap;
@@ -73,10 +73,13 @@ const CLAIMS: &[Claim] = &[
     (9, "below 2.3 µm", "floating-finger-pad", &["plate.amplitude_um=0.58"], "min_gap_nm", 2255.0, 0.005),
 ];
 
+fn problem(preset: &str, set: &[&str]) -> Problem {
+    let set = set.iter().map(|change| change.split_once('=').unwrap());
+    Problem::try_from(&presets::find(preset).unwrap().with(set).unwrap()).unwrap()
+}
+
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
+    let problem = problem(preset, set);
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
     Numbers::of(&problem, &solution)
@@ -159,15 +162,7 @@ fn states(lesson: usize, words: &str, computed: f64, stated: f64, within: f64) {
 
 #[test]
 fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
-    let problem = |preset: &str, set: &[&str]| {
-        let mut scene = presets::find(preset).unwrap();
-        scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
-        Problem::try_from(&scene).unwrap()
-    };
-    let plate = |set: &[&str]| match problem("plate-crossover", set).scenario {
-        Scenario::Plate(plate) => plate,
-        Scenario::Motor(_) => unreachable!("it is a plate"),
-    };
+    let plate = |set: &[&str]| problem("plate-crossover", set).scenario.plate().unwrap().clone();
     // Hold: how long the air takes.
     let leak = 1e6 * leak_time(&plate(&[]), 1e-6);
     states(1, "the air needs about 160 µs", leak, 160.0, 0.03);
@@ -201,22 +196,13 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     };
     let trapped: Vec<f64> = cycles("plate-trapped")
         .iter()
-        .map(|outcome| match outcome {
-            Outcome::Plate(result) => PlateResult::ratio(result.film_load.value, &plate(&[])),
-            Outcome::Motor(_) => unreachable!("it is a plate"),
-        })
+        .map(|outcome| PlateResult::ratio(outcome.plate().unwrap().film_load.value, &plate(&[])))
         .collect();
     states(4, "In the first cycle the mean load ratio is 0.17", trapped[0], 0.17, 0.01);
     states(4, "startup.mean_load_ratio about 0.33", *trapped.last().unwrap(), 0.33, 0.005);
     assert!(trapped.windows(2).all(|pair| pair[1] > pair[0] - 1e-4), "it pumps up: {trapped:?}");
     states(4, "about two hundred cycles", trapped.len() as f64, 200.0, 0.1);
-    let motor: Vec<f64> = cycles("fundamental")
-        .iter()
-        .map(|outcome| match outcome {
-            Outcome::Motor(result) => result.alpha.value,
-            Outcome::Plate(_) => unreachable!("it is a motor"),
-        })
-        .collect();
+    let motor: Vec<f64> = cycles("fundamental").iter().map(|outcome| outcome.motor().unwrap().alpha.value).collect();
     states(7, "In the first cycle the air carries only 0.15", motor[0], 0.15, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[1], 0.215, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[2], 0.24, 0.02);
@@ -243,9 +229,9 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
 
 /// Stiffness \[N/m\] and damping \[N s/m\] of the film of lesson 10, and its Knudsen number.
 fn sensor(set: &[&str]) -> [f64; 3] {
-    let mut scene = Scene::from_toml(BUILT_IN[9].presets[0].1, "accelerometer").unwrap();
-    scene.set_all(["plate.mean_gap_um=4.73"].iter().chain(set).map(|change| change.split_once('=').unwrap())).unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
+    let scene = Scene::from_toml(BUILT_IN[9].presets[0].1, "accelerometer").unwrap();
+    let set = ["plate.mean_gap_um=4.73"].iter().chain(set).map(|change| change.split_once('=').unwrap());
+    let problem = Problem::try_from(&scene.with(set).unwrap()).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = exact_of_runs::solved(plate, &PlateResult::default(), &solution.recording).unwrap();
@@ -269,17 +255,15 @@ fn what_lesson_9_says_of_a_plate_that_floats_is_right() {
     says(9, "About 3 kg");
     assert!(disc(&["plate.mass_g=3000"], "min_gap_nm") > 200.0);
     says(9, "At a little over 3 kg the roughness touches.");
-    let floats = |preset: &str, change: (&str, &str)| {
-        let mut scene = presets::find(preset).unwrap();
-        scene.set_all([change]).unwrap();
-        let problem = Problem::try_from(&scene).unwrap();
+    let floats = |preset: &str, change: &str| {
+        let problem = problem(preset, &[change]);
         solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).is_ok()
     };
-    assert!(!floats("floating-disc", ("plate.mass_g", "3300")));
+    assert!(!floats("floating-disc", "plate.mass_g=3300"));
     says(9, "The amplitude is reduced from 1.5 µm to 0.5 µm, a third of it");
-    assert!(!floats("floating-finger-pad", ("plate.amplitude_um", "0.5")));
+    assert!(!floats("floating-finger-pad", "plate.amplitude_um=0.5"));
     says(9, "Anything from 0.52 to 0.59 µm does.");
-    assert!(floats("floating-finger-pad", ("plate.amplitude_um", "0.52")));
+    assert!(floats("floating-finger-pad", "plate.amplitude_um=0.52"));
     assert!(number("floating-finger-pad", &["plate.amplitude_um=0.59"], "min_gap_nm") < 2300.0);
     let pad = number("floating-finger-pad", &[], "mean_gap_um") / 3.0;
     states(9, "In proportion to the amplitude the mean gap would be 2.4 µm.", pad, 2.4, 0.02);

@@ -2,18 +2,12 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, out, refused, run};
 use std::path::Path;
-use std::process::{Command, Output};
 
 const GOOD: &str = include_str!("lessons/good.md");
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 /// A folder with one lesson.
 fn folder(text: &str) -> tempfile::TempDir {
@@ -26,18 +20,18 @@ fn folder(text: &str) -> tempfile::TempDir {
 #[test]
 fn every_task_of_the_built_in_lessons_is_done_by_try_and_not_by_wrong() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
-    let out = run(&["lessons", "check", folder.to_str().unwrap()]);
-    let told = text(&out.stdout);
-    assert!(out.status.success() && !told.contains("error") && !told.contains("warning"), "{told}");
+    let output = run(&["lessons", "check", folder.to_str().unwrap()]);
+    let told = out(&output);
+    assert!(output.status.success() && !told.contains("error") && !told.contains("warning"), "{told}");
     assert_eq!(told.matches("all done by try, none by wrong").count(), squeezefilm::lessons::BUILT_IN.len(), "{told}");
 }
 
 #[test]
 fn a_check_that_cannot_fail_or_cannot_hold_is_told() {
     let good = folder(GOOD);
-    let out = run(&["lessons", "check", good.path().to_str().unwrap()]);
-    assert!(out.status.success(), "{}", text(&out.stdout));
-    assert!(text(&out.stdout).contains("mine: A lesson of my own, 1 steps, 1 tasks: all done by try, none by wrong"));
+    let output = run(&["lessons", "check", good.path().to_str().unwrap()]);
+    assert!(output.status.success(), "{}", out(&output));
+    assert!(out(&output).contains("mine: A lesson of my own, 1 steps, 1 tasks: all done by try, none by wrong"));
     let changes = [
         (
             "check = \"mean_load_ratio > 2 and mean_load_ratio > 100 * start.mean_load_ratio\"",
@@ -67,12 +61,12 @@ fn a_check_that_cannot_fail_or_cannot_hold_is_told() {
     for (from, to, status, words) in changes {
         assert_eq!(GOOD.matches(from).count(), 1, "{from}");
         let folder = folder(&GOOD.replacen(from, to, 1));
-        let out = run(&["lessons", "check", folder.path().to_str().unwrap()]);
-        let told = text(&out.stdout);
-        assert_eq!(out.status.code(), Some(status), "{to}: {told}");
+        let output = run(&["lessons", "check", folder.path().to_str().unwrap()]);
+        let told = out(&output);
+        assert_eq!(output.status.code(), Some(status), "{to}: {told}");
         assert!(told.contains(words), "{to}: {told}");
         if words.is_empty() {
-            assert!(text(&out.stderr).contains("task.chek is not known"));
+            assert!(err(&output).contains("task.chek is not known"));
         }
     }
 }
@@ -81,8 +75,7 @@ fn a_check_that_cannot_fail_or_cannot_hold_is_told() {
 fn lessons_are_printed_a_page_for_each() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("handouts");
-    let printed = run(&["lessons", "print", "--out", out.to_str().unwrap()]);
-    assert!(printed.status.success(), "{}", text(&printed.stderr));
+    done(&["lessons", "print", "--out", out.to_str().unwrap()]);
     let lessons = squeezefilm::lessons::BUILT_IN.len();
     for name in ["worksheets", "answers"] {
         let pdf = std::fs::read(out.join(name).with_extension("pdf")).unwrap();
@@ -110,10 +103,6 @@ fn lessons_are_printed_a_page_for_each() {
 
 #[test]
 fn a_place_that_is_not_there_and_a_step_without_a_lesson_are_refused() {
-    let out = run(&["gui", "--step", "4"]);
-    assert_eq!(out.status.code(), Some(2));
-    assert!(text(&out.stderr).contains("--lesson"), "{}", text(&out.stderr));
-    let out = run(&["lessons", "summary", "absent.csv"]);
-    assert_eq!(out.status.code(), Some(2));
-    assert!(text(&out.stderr).contains("absent.csv: cannot be read"), "{}", text(&out.stderr));
+    refused(&["gui", "--step", "4"], 2, &["--lesson"]);
+    refused(&["lessons", "summary", "absent.csv"], 2, &["absent.csv: cannot be read"]);
 }

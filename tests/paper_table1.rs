@@ -5,7 +5,7 @@ use squeezefilm::drive::Scaled;
 use squeezefilm::paper;
 use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario, Slip};
 use squeezefilm::scene::{presets, table1};
-use squeezefilm::solution::{MotorResult, Outcome, Solution, Status};
+use squeezefilm::solution::{MotorResult, Solution, Status};
 
 fn fundamental() -> Motor {
     Motor {
@@ -30,13 +30,9 @@ fn fundamental() -> Motor {
 }
 
 fn solve(motor: &Motor, numerics: &Numerics) -> (Solution, MotorResult) {
-    match paper::solve(motor, numerics, &mut (), &Cancel::new()) {
-        Ok(solution) => match solution.outcome {
-            Outcome::Motor(result) => (solution, result),
-            Outcome::Plate(_) => panic!("a motor's solution"),
-        },
-        Err(error) => panic!("{error}"),
-    }
+    let solution = paper::solve(motor, numerics, &mut (), &Cancel::new()).unwrap_or_else(|error| panic!("{error}"));
+    let result = *solution.outcome.motor().unwrap();
+    (solution, result)
 }
 
 fn assert_finite(result: &MotorResult) {

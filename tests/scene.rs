@@ -400,11 +400,9 @@ fn that_the_replaced_key_is_not_given_may_be_said() {
     for (key, value, replaced) in
         [("motor.load_n", "20", "motor.load_per_wave_n"), ("stator.tooth_share", "0.5", "stator.tooth_width_mm")]
     {
-        let (mut said, mut unsaid) = (Scene::motor(), Scene::motor());
-        said.set_all([(key, value), (replaced, "none")]).unwrap();
-        unsaid.set(key, value).unwrap();
-        assert_eq!(said, unsaid);
-        let alone = Scene::motor().set_all([(replaced, "none")]).unwrap_err().to_string();
+        let with = |pairs: &[(&str, &str)]| Scene::motor().with(pairs);
+        assert_eq!(with(&[(key, value), (replaced, "none")]).unwrap(), with(&[(key, value)]).unwrap());
+        let alone = with(&[(replaced, "none")]).unwrap_err().to_string();
         assert!(alone.contains("none is not a number"), "{alone}");
     }
 }
@@ -452,15 +450,12 @@ fn what_is_not_given_follows_from_measured_heights() {
         ("surface.flow_factors", "patir-cheng"),
         ("surface.model", "asperities"),
     ];
-    let mut other = Scene::motor();
-    other.set_all(pairs).unwrap();
+    let other = Scene::motor().with(pairs).unwrap();
     assert!(other.same_model(&scene));
-    let mut again = Scene::motor();
-    again.set_all(pairs.into_iter().rev()).unwrap();
-    assert_eq!(again, other);
+    assert_eq!(Scene::motor().with(pairs.into_iter().rev()).unwrap(), other);
     // Of a hard stop with flow factors only what those need.
-    let mut stop = Scene::motor();
-    stop.set_all([("surface.flow_factors", "patir-cheng"), ("surface.heights_csv", path)]).unwrap();
+    let flow = [("surface.flow_factors", "patir-cheng"), ("surface.heights_csv", path)];
+    let stop = Scene::motor().with(flow).unwrap();
     assert_eq!(stop.get("surface.lay"), scene.get("surface.lay"));
     assert_eq!(stop.get("surface.summit_density_per_mm2"), None);
 
@@ -578,8 +573,7 @@ fn a_section_is_read_in_either_notation_and_saved() {
     // No support is a value of its own, and a model that is chosen brings a section.
     set.set("rotor.support", "[]").unwrap();
     assert_eq!(read(&set.to_toml()).unwrap().get("rotor.support"), Some(Value::Records(Vec::new())));
-    let mut default = Scene::motor();
-    default.set_all([("rotor.model", "ring")]).unwrap();
+    let default = Scene::motor().with([("rotor.model", "ring")]).unwrap();
     assert!(presets::find("ring-rotor").unwrap().same_model(&default));
     assert_eq!(read(&default.to_toml()).unwrap(), default);
 }
@@ -588,9 +582,9 @@ fn a_section_is_read_in_either_notation_and_saved() {
 fn a_ring_that_is_chosen_suits_the_contact() {
     // Also where there is little room towards the axis.
     for (radius, width) in [("29", "0.3"), ("27", "1.8"), ("500", "10"), ("5.5", "10"), ("1", "0.01")] {
-        let mut scene = Scene::motor();
         let contact = [("motor.contact_radius_mm", radius), ("rotor.contact_width_mm", width)];
-        scene.set_all([[("rotor.model", "ring"), ("stator.tooth_share", "0.5")], contact].concat()).unwrap();
+        let ring = [("rotor.model", "ring"), ("stator.tooth_share", "0.5")];
+        let mut scene = Scene::motor().with([ring, contact].concat()).unwrap();
         let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
         let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
         let [(inner, outer)] = section.contact_faces()[..] else { panic!("one lining") };
@@ -609,10 +603,10 @@ fn a_ring_that_is_chosen_suits_the_contact() {
         }
     }
     // Parts that are given are the section, and so is what a file leaves out.
-    let mut scene = Scene::motor();
     let part =
         "[{name = \"web\", r_inner_mm = 26, r_outer_mm = 28, z_bottom_mm = 0, z_top_mm = 1, material = \"brass\"}]";
-    scene.set_all([("rotor.part", part), ("rotor.model", "ring"), ("motor.contact_radius_mm", "27")]).unwrap();
+    let set = [("rotor.part", part), ("rotor.model", "ring"), ("motor.contact_radius_mm", "27")];
+    let scene = Scene::motor().with(set).unwrap();
     assert_eq!(scene.get("rotor.part.web.r_outer_mm"), Some(Value::Number(28.0)));
     let file = read("schema = 1\n[motor]\ncontact_radius_mm = 27\n[rotor]\nmodel = \"ring\"\n").unwrap();
     assert_eq!(file.get("rotor.part"), Parameter::find("rotor.part").unwrap().default());
@@ -717,13 +711,10 @@ fn set_refuses_and_changes_nothing() {
 
 #[test]
 fn pairs_are_set_in_any_order() {
-    let mut scene = Scene::motor();
     // Twice the teeth leave no room for the tooth, until the tooth is narrower.
     let pairs = [("stator.teeth_per_wave", "18"), ("stator.tooth_width_mm", "1")];
-    scene.set_all(pairs).unwrap();
-    let mut other = Scene::motor();
-    other.set_all(pairs.into_iter().rev()).unwrap();
-    assert_eq!(scene, other);
+    let mut scene = Scene::motor().with(pairs).unwrap();
+    assert_eq!(scene, Scene::motor().with(pairs.into_iter().rev()).unwrap());
 
     let before = scene.clone();
     assert!(scene.set_all([("stator.tooth_width_mm", "2")]).is_err());
@@ -734,8 +725,8 @@ fn pairs_are_set_in_any_order() {
     let folder = tempfile::tempdir().unwrap();
     let csv = folder.path().join("r.csv");
     std::fs::write(&csv, "harmonic,compliance_m2_per_n\n1,2e-9\n").unwrap();
-    let mut table = Scene::motor();
-    table.set_all([("rotor.compliance_csv", csv.to_str().unwrap()), ("motor.waves", "6")]).unwrap();
+    let set = [("rotor.compliance_csv", csv.to_str().unwrap()), ("motor.waves", "6")];
+    let table = Scene::motor().with(set).unwrap();
     let Some(Value::Rows(compliance)) = table.get("rotor.compliance") else { panic!("a table") };
     assert!((compliance[0].0 - 6.0 / 29e-3).abs() < 1e-9, "{compliance:?}");
 }
@@ -810,8 +801,7 @@ fn an_unknown_preset_suggests_the_nearest() {
 
 #[test]
 fn the_fundamental_case_in_si() {
-    let mut scene = presets::find("fundamental").unwrap();
-    scene.set("motor.rotor_speed_rpm", "60").unwrap();
+    let scene = presets::find("fundamental").unwrap().with([("motor.rotor_speed_rpm", "60")]).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
     assert_eq!(problem.name, "Fundamental case");
@@ -886,8 +876,7 @@ fn saving_replaces_the_file_and_leaves_nothing_else() {
 fn a_saved_file_has_every_key() {
     let mut table = Scene::motor();
     table.set("rotor.compliance", "[[1, 1e-9]]").unwrap();
-    let mut ring = Scene::motor();
-    ring.set("rotor.model", "ring").unwrap();
+    let ring = Scene::motor().with([("rotor.model", "ring")]).unwrap();
     for scene in [Scene::motor(), Scene::plate(), table, ring] {
         let text = scene.to_toml();
         for parameter in scene.parameters().filter(|p| !matches!(p.kind, ParameterKind::CsvPath { .. })) {
@@ -1096,8 +1085,7 @@ fn fundamental_case_by_hand() {
 #[test]
 fn the_rotor_adds_to_the_sliding_speed_whichever_way_it_turns() {
     let of = |rpm: &str| {
-        let mut scene = Scene::motor();
-        scene.set("motor.rotor_speed_rpm", rpm).unwrap();
+        let scene = Scene::motor().with([("motor.rotor_speed_rpm", rpm)]).unwrap();
         Dimensionless::of(&Problem::try_from(&scene).unwrap()).bearing_number
     };
     assert!(of("300") > 2.0 * of("0"));
@@ -1107,8 +1095,7 @@ fn the_rotor_adds_to_the_sliding_speed_whichever_way_it_turns() {
 #[test]
 fn slip_thickens_the_layer() {
     let of = |slip: &str| {
-        let mut scene = Scene::plate();
-        scene.set("film.slip", slip).unwrap();
+        let scene = Scene::plate().with([("film.slip", slip)]).unwrap();
         Dimensionless::of(&Problem::try_from(&scene).unwrap()).boundary_layer
     };
     assert!(close((of("first-order") / of("none")).powi(2), 1.384));

@@ -2,6 +2,9 @@
 //! the command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, json, out};
 use serde_json::Value;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
@@ -12,7 +15,6 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solve::{Record, Settings, solve};
-use std::process::{Command, Output, Stdio};
 
 fn at(fidelity: Fidelity) -> Settings {
     Settings { fidelity, ..Settings::default() }
@@ -82,8 +84,8 @@ fn derivatives_are_as_exact_as_they_say() {
 
 #[test]
 fn a_trapped_plate_has_the_derivatives_of_its_formula() {
-    let mut scene = presets::find("plate-trapped").unwrap();
-    scene.set_all([("plate.length_mm", "1000"), ("plate.frequency_khz", "10000"), ("film.slip", "none")]).unwrap();
+    let set = [("plate.length_mm", "1000"), ("plate.frequency_khz", "10000"), ("film.slip", "none")];
+    let scene = presets::find("plate-trapped").unwrap().with(set).unwrap();
     let keys = ["plate.amplitude_um", "plate.mean_gap_um", "film.ambient_pressure_kpa", "plate.length_mm"];
     let found = sensitivity(&scene, &keys, Fidelity::Fine);
     let (amplitude, gap) = (number(&scene, keys[0]), number(&scene, keys[1]));
@@ -111,9 +113,9 @@ fn a_trapped_plate_has_the_derivatives_of_its_formula() {
 
 #[test]
 fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_under_its_load() {
-    let mut scene = presets::find("floating-disc").unwrap();
-    scene.set_all([("plate.frequency_khz", "10000"), ("plate.radius_mm", "100"), ("film.slip", "none")]).unwrap();
-    scene.set("plate.mass_g", "10000").unwrap();
+    let disc = [("plate.radius_mm", "100"), ("plate.mass_g", "10000")];
+    let set = disc.into_iter().chain([("plate.frequency_khz", "10000"), ("film.slip", "none")]);
+    let scene = presets::find("floating-disc").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.amplitude_um", "plate.mass_g"], Fidelity::Fine);
     // h = a √((s + 3/2)/(s − 1)), s = (1 + w)²: d ln h/d ln w = w (1 + w) [1/(s + 3/2) − 1/(s − 1)].
     let w = 10.0 * 9.80665 / (101_325.0 * std::f64::consts::PI * 0.01);
@@ -128,8 +130,7 @@ fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_un
 #[test]
 fn at_an_end_of_a_range_there_is_one_side() {
     let slope = |at: &str| {
-        let mut scene = presets::find("plate-crossover").unwrap();
-        scene.set("film.ambient_pressure_kpa", at).unwrap();
+        let scene = presets::find("plate-crossover").unwrap().with([("film.ambient_pressure_kpa", at)]).unwrap();
         let column = &sensitivity(&scene, &["film.ambient_pressure_kpa"], Fidelity::Standard).columns[0];
         (column.sides, column.slopes.as_ref().unwrap()[0])
     };
@@ -173,7 +174,6 @@ fn what_is_proportional_has_the_elasticity_one() {
 #[test]
 fn what_all_grids_have_alike_may_still_be_off() {
     // A rectangle so slow that its gas is not compressed: the damping by its width is known from a series, and every grid has the same nodes across.
-    let mut scene = presets::find("plate-crossover").unwrap();
     let set = [
         ("plate.shape", "rectangle"),
         ("plate.length_mm", "0.475"),
@@ -183,7 +183,7 @@ fn what_all_grids_have_alike_may_still_be_off() {
         ("plate.amplitude_um", "0.02563"),
         ("film.slip", "none"),
     ];
-    scene.set_all(set).unwrap();
+    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.width_mm"], Fidelity::Standard).elasticity(2, 0).unwrap();
     let exact = 1.076_008_2;
     assert!((found.value - exact).abs() <= found.error && found.error < 1e-2, "{found:?}");
@@ -269,15 +269,8 @@ fn threads_change_no_bit() {
 
 // ---- the command
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
 fn refused(arguments: &[&str], words: &str) {
-    let output = run(&[&["sensitivity"], arguments].concat());
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {said}");
-    assert!(said.contains(words), "{arguments:?}: {said}");
+    program::refused(&[&["sensitivity"], arguments].concat(), 2, &[words]);
 }
 
 #[test]
@@ -303,9 +296,8 @@ fn text_object_and_files_agree() {
     let words = ["--uncertainty", "film.min_spacing_nm=20%", "--monte-carlo", "20", "--fidelity", "draft"];
     let arguments =
         [&["sensitivity", "fundamental", "--keys", "motor.load_per_wave_n", "--json", "--out", path][..], &words];
-    let output = run(&arguments.concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = done(&arguments.concat());
+    let object = json(&output);
     let outputs = object["outputs"].as_array().unwrap();
     assert_eq!(object["whole_numbers"], serde_json::json!(["motor.waves", "stator.teeth_per_wave"]));
     assert_eq!(object["monte_carlo"], serde_json::json!({ "seed": 1, "solved": 20, "failed": 0, "redrawn": 0 }));
@@ -353,28 +345,25 @@ fn text_object_and_files_agree() {
     }
     assert_eq!(std::fs::read(folder.path().join("sensitivity.json")).unwrap(), output.stdout);
 
-    let text = run(&["sensitivity", "levitating", "--fidelity", "draft", "--keys", "motor.load_per_wave_n"]);
-    let text = String::from_utf8(text.stdout).unwrap();
+    let text = done(&["sensitivity", "levitating", "--fidelity", "draft", "--keys", "motor.load_per_wave_n"]);
     let cells: Vec<&str> =
-        text.lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
+        out(&text).lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
     assert_eq!(cells, ["motor.load_per_wave_n", "0", "none", "none"]);
 }
 
 #[test]
 fn two_ladders_that_agree_by_chance_are_no_proof() {
-    let mut scene = presets::find("plate-crossover").unwrap();
-    scene
-        .set_all([
-            ("plate.shape", "disc"),
-            ("plate.radius_mm", "0.7436"),
-            ("plate.frequency_khz", "279.1"),
-            ("plate.mean_gap_um", "6.5465"),
-            ("plate.amplitude_um", "0.52814"),
-            ("film.slip", "none"),
-            ("film.viscosity_upa_s", "24.08"),
-            ("film.ambient_pressure_kpa", "100.5"),
-        ])
-        .unwrap();
+    let set = [
+        ("plate.shape", "disc"),
+        ("plate.radius_mm", "0.7436"),
+        ("plate.frequency_khz", "279.1"),
+        ("plate.mean_gap_um", "6.5465"),
+        ("plate.amplitude_um", "0.52814"),
+        ("film.slip", "none"),
+        ("film.viscosity_upa_s", "24.08"),
+        ("film.ambient_pressure_kpa", "100.5"),
+    ];
+    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
     let found = sensitivity(&scene, &["plate.amplitude_um"], Fidelity::Standard);
     let slope = found.slope(2, 0).unwrap();
     // By solves to an accuracy of 10⁻⁶ on both sides.

@@ -1,17 +1,14 @@
 //! Maps of where a method solves, as the user sees them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use serde_json::Value;
+mod program;
+
+use program::{done, json, refused};
 use squeezefilm::analysis::stability::{self, Cell, MAPS, Verdict, survey};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::scene::Scene;
 use squeezefilm::solve::{Method, Settings};
-use std::process::{Command, Output, Stdio};
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
 
 #[test]
 fn a_survey_does_not_depend_on_threads_and_keeps_what_is_done_when_cancelled() {
@@ -42,9 +39,7 @@ fn a_map_by_both_methods_in_json_and_csv() {
     let mut arguments = vec!["stability", "--map=spacing-frequency", "--cells=2", "--fidelity=draft", "--json"];
     arguments.extend(meshes.iter().map(String::as_str));
     arguments.extend(["--out", path]);
-    let output = run(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&done(&arguments));
     let cells = object["cells"].as_array().unwrap();
     assert_eq!(cells.len(), 8);
     let mut reader = csv::Reader::from_path(folder.path().join("stability.csv")).unwrap();
@@ -72,8 +67,6 @@ fn what_cannot_be_mapped_has_status_2() {
         (&["stability", "--cells", "1"], "--cells"),
         (&["stability", "--set", "film.min_spacing_nm=3"], "5 to 10000 nm"),
     ] {
-        let output = run(arguments);
-        assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{arguments:?}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains(words), "{arguments:?}");
+        refused(arguments, 2, &[words]);
     }
 }

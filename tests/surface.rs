@@ -260,10 +260,8 @@ fn solved(preset: &str, changes: &[(&str, &str)]) -> (Scene, Solution, MotorResu
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let solution = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
     assert_eq!(solution.status, Status::Converged, "{changes:?}");
-    match solution.outcome {
-        Outcome::Motor(result) => (scene, solution, result),
-        Outcome::Plate(_) => panic!("a motor"),
-    }
+    let result = *solution.outcome.motor().unwrap();
+    (scene, solution, result)
 }
 
 #[test]

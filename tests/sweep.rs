@@ -1,6 +1,9 @@
 //! Sweeps: each row is the solve of its scene, whatever the number of threads and however often it was cancelled.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, json, out, refused, run, squeezefilm};
 use serde_json::Value;
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
@@ -16,7 +19,7 @@ use squeezefilm::scene::presets;
 use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -28,8 +31,7 @@ fn sweep(preset: &str, vary: &[&str]) -> Sweep {
 
 fn sweep_of(changes: &[(&str, &str)], preset: &str, vary: &[&str]) -> Sweep {
     let vary: Vec<Vary> = vary.iter().map(|text| text.parse().unwrap()).collect();
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
+    let scene = presets::find(preset).unwrap().with(changes).unwrap();
     Sweep::new(&scene, &vary, &DRAFT).unwrap()
 }
 
@@ -90,9 +92,8 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
 #[test]
 fn a_sweep_of_the_load_finds_the_motor_that_is_pressed_too_hard() {
     // From a contact on the crests alone to one all round the wave: the bound goes on rising, and the stall torque falls behind.
-    let mut scene = presets::find("fundamental").unwrap();
     let set = [("stator.frequency_khz", "40"), ("motor.contact_radius_mm", "60"), ("motor.waves", "9")];
-    scene.set_all(set).unwrap();
+    let scene = presets::find("fundamental").unwrap().with(set).unwrap();
     let sweep = Sweep::new(&scene, &["motor.load_per_wave_n=1.67:16.67:4".parse().unwrap()], &DRAFT).unwrap();
     let rows = with_threads(2, &sweep);
     let column = |quantity| rows.iter().map(|row| row.numbers.get(quantity).unwrap()).collect::<Vec<_>>();
@@ -135,13 +136,9 @@ fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
     assert!(sweep.run(&[], &cancel, &|_| ()).is_empty());
 }
 
-fn run(arguments: &[&str], out: Option<&Path>) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    command.args(arguments).stdin(Stdio::null());
-    if let Some(out) = out {
-        command.arg("--out").arg(out);
-    }
-    command.output().unwrap()
+/// The arguments with a folder for the files.
+fn into<'a>(arguments: &[&'a str], folder: &'a Path) -> Vec<&'a str> {
+    [arguments, &["--out", folder.to_str().unwrap()]].concat()
 }
 
 const COMMAND: [&str; 4] = ["sweep", "fundamental", "--fidelity=draft", "--vary=stator.frequency_khz=10:50:5"];
@@ -149,8 +146,8 @@ const COMMAND: [&str; 4] = ["sweep", "fundamental", "--fidelity=draft", "--vary=
 #[test]
 fn a_title_says_how_exactly_it_is_solved() {
     let title = |asked: &[&str]| {
-        let output = run(&[&["sweep", "levitating", "--vary", "stator.frequency_khz=30,40"], asked].concat(), None);
-        String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned()
+        let output = run(&[&["sweep", "levitating", "--vary", "stator.frequency_khz=30,40"], asked].concat());
+        out(&output).lines().next().unwrap_or_default().to_owned()
     };
     for (asked, words) in [
         (&["--fidelity", "draft"][..], "fidelity draft"),
@@ -166,9 +163,7 @@ fn a_title_says_how_exactly_it_is_solved() {
 fn files_and_json_agree_and_are_gone_on_with() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("out");
-    let output = run(&[&COMMAND[..], &["--json"]].concat(), Some(&folder));
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&done(&into(&[&COMMAND[..], &["--json"]].concat(), &folder)));
     assert_eq!(object, serde_json::from_slice::<Value>(&fs::read(folder.join("sweep.json")).unwrap()).unwrap());
     assert_eq!((&object["complete"], &object["axes"][0]["key"]), (&true.into(), &"stator.frequency_khz".into()));
     assert_eq!(object["published"].as_array().unwrap().len(), 7);
@@ -177,13 +172,12 @@ fn files_and_json_agree_and_are_gone_on_with() {
     let drawn = |folder: &Path| fs::read_to_string(folder.join("sweep.svg")).unwrap();
     assert!(drawn(&folder).contains("error of α up to 0.0"), "{}", drawn(&folder));
     let other = parent.path().join("other");
-    assert!(run(&[&COMMAND[..], &["--quantity", "stall_torque_nm"]].concat(), Some(&other)).status.success());
+    done(&into(&[&COMMAND[..], &["--quantity", "stall_torque_nm"]].concat(), &other));
     assert!(
         drawn(&other).contains("error of the stall torque up to 0.0") && !drawn(&other).contains("share of the load")
     );
-    let wrong = run(&[&COMMAND[..], &["--quantity", "torque"]].concat(), Some(&other));
-    let said = String::from_utf8_lossy(&wrong.stderr);
-    assert!(wrong.status.code() == Some(2) && said.contains("torque: no such number; allowed: alpha"), "{said}");
+    let wrong = [&COMMAND[..], &["--quantity", "torque"]].concat();
+    refused(&into(&wrong, &other), 2, &["torque: no such number; allowed: alpha"]);
 
     // The CSV by a reader of its own: columns by name.
     let text = fs::read_to_string(folder.join("sweep.csv")).unwrap();
@@ -221,9 +215,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(count, 5);
     // The first row, which starts cold, is what solve prints.
     let first = format!("--set=stator.frequency_khz={}", rows[0]["stator.frequency_khz"]);
-    let alone: Value =
-        serde_json::from_slice(&run(&["solve", "fundamental", "--fidelity=draft", "--json", &first], None).stdout)
-            .unwrap();
+    let alone = json(&done(&["solve", "fundamental", "--fidelity=draft", "--json", &first]));
     for name in ["alpha", "alpha_error", "stall_torque_nm", "stall_torque_error_nm", "max_torque_nm"] {
         assert_eq!(rows[0][name], alone[name], "{name}");
     }
@@ -238,27 +230,21 @@ fn files_and_json_agree_and_are_gone_on_with() {
     let ours = sweep("fundamental", &["stator.frequency_khz=10:50:5"]);
     let saved = saved_text(&ours, Part::WHOLE, &with_threads(2, &ours)[..2]);
     fs::write(&left, &saved).unwrap();
-    let output = run(&COMMAND, Some(&again));
-    assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("2 of 5 points were solved before"));
+    assert!(err(&done(&into(&COMMAND, &again))).contains("2 of 5 points were solved before"));
     assert_eq!(fs::read_to_string(again.join("sweep.csv")).unwrap(), text);
     assert!(!left.exists());
     // What belongs to another sweep is neither used nor lost.
     fs::write(&left, &saved).unwrap();
     let other = [&COMMAND[..], &["--set=motor.load_per_wave_n=2"]].concat();
-    let output = run(&other, Some(&again));
-    assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--restart") && left.exists());
-    assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
+    refused(&into(&other, &again), 2, &["--restart"]);
+    assert!(left.exists());
+    done(&into(&[&other[..], &["--restart"]].concat(), &again));
     assert!(!left.exists());
     // What somebody has changed is not taken for a result.
     let changed = saved.replacen(",accuracy,slip-law,0.", ",accuracy,slip-law,1.", 1);
     assert_ne!(changed, saved);
     fs::write(&left, &changed).unwrap();
-    let output = run(&COMMAND, Some(&again));
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("line 3: the row was changed after it was saved"), "{said}");
+    refused(&into(&COMMAND, &again), 2, &["line 3: the row was changed after it was saved"]);
     assert_eq!(fs::read_to_string(&left).unwrap(), changed);
 }
 
@@ -295,16 +281,8 @@ fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() 
     let long = ["sweep", "fundamental", "--fidelity=standard", "--threads=1", map[0], map[1]];
     let file = |part: &str| folder.join(format!("sweep.part-{part}.csv"));
     // Killed as soon as something is saved.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
-    child
-        .args(long)
-        .arg("--part=2/3")
-        .arg("--out")
-        .arg(&folder)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
-    let mut child = child.spawn().unwrap();
+    let mut command = squeezefilm(&into(&[&long[..], &["--part=2/3"]].concat(), &folder));
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     while !file("2-of-3").exists() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
@@ -312,10 +290,8 @@ fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() 
     child.wait().unwrap();
     let left = fs::read_to_string(file("2-of-3")).unwrap().lines().count() - 2;
     assert!((1..30_000).contains(&left), "{left}");
-    let unfinished = run(&["join", file("2-of-3").to_str().unwrap()], None);
-    let said = String::from_utf8_lossy(&unfinished.stderr);
-    assert_eq!(unfinished.status.code(), Some(2));
-    assert!(said.contains(&format!("{left} of the 30000 points of part 2/3 are solved")), "{said}");
+    let told = format!("{left} of the 30000 points of part 2/3 are solved");
+    refused(&["join", file("2-of-3").to_str().unwrap()], 2, &[told.as_str()]);
 
     // The same with fewer points, to its end: what was solved of its second part is not solved again.
     let folder = parent.path().join("few");
@@ -327,26 +303,22 @@ fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() 
     fs::create_dir(&folder).unwrap();
     fs::write(file("2-of-3"), saved_text(&ours, second, &rows[..1])).unwrap();
     for (part, told) in [("1/3", ""), ("2/3", "1 of 4 points were solved before"), ("3/3", "")] {
-        let output = run(&[&command[..], &["--part", part]].concat(), Some(&folder));
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{said}");
-        assert!(said.contains(told), "{said}");
+        let output = done(&into(&[&command[..], &["--part", part]].concat(), &folder));
+        assert!(err(&output).contains(told), "{}", err(&output));
     }
     // A part that is complete is not solved again.
-    let again = run(&[&command[..], &["--part=3/3"]].concat(), Some(&folder));
-    assert!(String::from_utf8_lossy(&again.stderr).contains("5 of 5 points were solved before"));
+    let again = done(&into(&[&command[..], &["--part=3/3"]].concat(), &folder));
+    assert!(err(&again).contains("5 of 5 points were solved before"));
     // Another sweep does not take it for its own.
-    let other = run(&["sweep", "fundamental", "--vary=stator.frequency_khz=10:50:13", "--part=3/3"], Some(&folder));
-    assert_eq!(other.status.code(), Some(2), "{}", String::from_utf8_lossy(&other.stderr));
+    let other = ["sweep", "fundamental", "--vary=stator.frequency_khz=10:50:13", "--part=3/3"];
+    refused(&into(&other, &folder), 2, &[]);
 
-    assert_eq!(run(&command, Some(&whole)).status.code(), Some(0));
+    done(&into(&command, &whole));
     let parts = ["3-of-3", "1-of-3", "2-of-3"].map(|part| file(part).to_str().unwrap().to_owned());
     let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
-    let missing = run(&[&["join"], &parts[..2]].concat(), None);
-    assert!(String::from_utf8_lossy(&missing.stderr).contains("parts are missing: 2/3"));
+    refused(&[&["join"], &parts[..2]].concat(), 2, &["parts are missing: 2/3"]);
     let out = parent.path().join("whole/joined");
-    let joined = run(&[&["join", "--json"], &parts[..]].concat(), Some(&out));
-    assert_eq!(joined.status.code(), Some(0), "{}", String::from_utf8_lossy(&joined.stderr));
+    done(&into(&[&["join", "--json"], &parts[..]].concat(), &out));
     for name in ["sweep.csv", "sweep.svg", "sweep.png", "scene.toml"] {
         assert_eq!(fs::read(out.join(name)).unwrap(), fs::read(whole.join(name)).unwrap(), "{name}");
     }
@@ -364,18 +336,12 @@ fn of_ten_million_points_a_part_is_solved_and_the_whole_is_refused() {
     let folder = parent.path().join("results");
     let map = ["--vary=film.min_spacing_nm=80:400:10000:log", "--vary=stator.frequency_khz=10:50:1000"];
     let command = ["sweep", "fundamental", "--fidelity=draft", map[0], map[1]];
-    let solved = run(&[&command[..], &["--part=50000/100000"]].concat(), Some(&folder));
-    assert_eq!(solved.status.code(), Some(0), "{}", String::from_utf8_lossy(&solved.stderr));
+    done(&into(&[&command[..], &["--part=50000/100000"]].concat(), &folder));
     let file = folder.join("sweep.part-50000-of-100000.csv");
     // 250 chunks a line, so 25 a part, of four points each.
     assert_eq!(fs::read_to_string(&file).unwrap().lines().count(), 2 + 100);
-    let refused = |arguments: &[&str], told: &str| {
-        let output = run(arguments, None);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && said.contains(told), "{said}");
-    };
-    refused(&command, "vary: 10000000 points: allowed up to 100000, or as many in each part");
-    refused(&["join", file.to_str().unwrap()], "10000000 points: joined are up to 100000");
+    refused(&command, 2, &["vary: 10000000 points: allowed up to 100000, or as many in each part"]);
+    refused(&["join", file.to_str().unwrap()], 2, &["10000000 points: joined are up to 100000"]);
 }
 
 #[test]
@@ -387,14 +353,11 @@ fn two_sweeps_into_one_folder_do_not_destroy_each_other() {
     let other = ["sweep", "fundamental", "--fidelity=draft", "--vary=motor.load_per_wave_n=1:2:2"];
     for command in [&COMMAND[..], &other, &["sweep", "fundamental", "--restart", "--vary=motor.load_per_wave_n=1:2:2"]]
     {
-        let output = run(command, Some(&folder));
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{said}");
-        assert!(said.contains("another sweep is being saved into this folder"), "{said}");
+        refused(&into(command, &folder), 2, &["another sweep is being saved into this folder"]);
     }
     // Without it the folder is free, and nothing of the lock is left.
     drop(lock);
-    assert_eq!(run(&[&other[..], &["--figures=none"]].concat(), Some(&folder)).status.code(), Some(0));
+    done(&into(&[&other[..], &["--figures=none"]].concat(), &folder));
     let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
     assert_eq!(names, ["scene.toml", "sweep.csv", "sweep.json"]);
@@ -407,18 +370,17 @@ fn what_does_not_converge_is_marked_and_the_rest_goes_on() {
     let mut arguments = vec!["sweep", "fundamental", "--method=paper", "--vary=film.min_spacing_nm=20:200:2"];
     arguments.extend(sets.iter().map(String::as_str));
     arguments.push("--json");
-    let output = run(&arguments, None);
-    assert_eq!(output.status.code(), Some(3), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(3), "{}", err(&output));
+    let object = json(&output);
     assert_eq!(object["rows"][0]["status"], "not converged");
     assert!(object["rows"][0]["residual"].as_f64() > object["rows"][0]["tolerance"].as_f64());
     assert_eq!(object["rows"][1]["status"], "converged");
     assert!(object["rows"][1][Quantity::Alpha.name()].is_number());
     // A solve says the same.
     let scene = ["fundamental", "--json", "--set=numerics.time=trapped", "--set=film.min_spacing_nm=5000"];
-    let swept = run(&[&["sweep", "--vary=motor.load_per_wave_n=2,3"], &scene[..]].concat(), None);
-    let solved = run(&[&["solve", "--set=motor.load_per_wave_n=2"], &scene[..]].concat(), None);
-    let [swept, solved]: [Value; 2] = [&swept, &solved].map(|output| serde_json::from_slice(&output.stdout).unwrap());
+    let swept = json(&run(&[&["sweep", "--vary=motor.load_per_wave_n=2,3"], &scene[..]].concat()));
+    let solved = json(&run(&[&["solve", "--set=motor.load_per_wave_n=2"], &scene[..]].concat()));
     assert_eq!(solved["status"], "not resolved");
     assert_eq!(swept["rows"][0]["status"], solved["status"]);
 }

@@ -11,9 +11,9 @@ use squeezefilm::export::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Motor, Numerics, Scenario};
+use squeezefilm::problem::{Motor, Numerics};
 use squeezefilm::recording::Recording;
-use squeezefilm::solution::{MotorResult, Outcome, Performance};
+use squeezefilm::solution::{MotorResult, Performance};
 use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::f64::consts::TAU;
 
@@ -29,9 +29,7 @@ fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Met
     let settings = Settings { fidelity, method, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     let merit = TorqueCurves::of(&problem, fidelity, &solution, &Cancel::new()).unwrap().unwrap();
-    let (Scenario::Motor(motor), Outcome::Motor(result)) = (problem.scenario, solution.outcome) else {
-        panic!("a motor")
-    };
+    let (motor, result) = (problem.scenario.motor().unwrap().clone(), *solution.outcome.motor().unwrap());
     Solved { motor, result, recording: solution.recording, merit }
 }
 

@@ -1,26 +1,22 @@
 //! Error against time as the user sees it. No time is asserted: a machine is as fast as it is.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on fails")]
 
+mod program;
+
+use program::{done, err, json, out, refused, run};
 use serde_json::Value;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::tradeoff::{Effort, candidates, measure};
 use squeezefilm::control::Cancel;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
-use std::process::{Command, Output, Stdio};
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
 
 #[test]
 fn table_and_files_of_a_plate_agree() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let wishes = ["--accuracy=50%", "--budget=10min", "--repeats=2"];
-    let output = run(&[&["tradeoff", "plate-crossover", "--json", "--out", path][..], &wishes].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = json(&done(&[&["tradeoff", "plate-crossover", "--json", "--out", path][..], &wishes].concat()));
     assert_eq!((&object["judged"], &object["schema"]), (&"film_load_n".into(), &1.into()));
     let settings = object["settings"].as_array().unwrap();
     let number = |setting: &Value, name: &str| setting[name].as_f64().unwrap();
@@ -57,12 +53,8 @@ fn table_and_files_of_a_plate_agree() {
 fn solve_again(words: &str) -> String {
     let words: Vec<&str> = words.split_whitespace().chain(["--json"]).collect();
     let output = run(&words);
-    assert!(
-        [Some(0), Some(3)].contains(&output.status.code()),
-        "{words:?}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8(output.stdout).unwrap()
+    assert!([Some(0), Some(3)].contains(&output.status.code()), "{words:?}: {}", err(&output));
+    out(&output).to_owned()
 }
 
 /// A number as it is written, which is with the digits that read back to the same bits (serde_json's own reader rounds).
@@ -79,8 +71,7 @@ fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
         ("doubled-mesh", &[("film.min_spacing_nm", "150"), ("numerics.steps_per_cycle", "72")]),
         ("plate-viscous", &[("numerics.film_nodes_across", "9")]),
     ] {
-        let mut scene = presets::find(preset).unwrap();
-        scene.set_all(changes.iter().copied()).unwrap();
+        let scene = presets::find(preset).unwrap().with(changes).unwrap();
         let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);
         // What takes seconds each is one of its family.
@@ -124,7 +115,7 @@ fn settings_share_the_time_equally() {
 fn the_command_that_is_recommended_gives_what_the_table_shows() {
     let set = ["--set", "film.slip=second-order", "--set", "numerics.film_nodes_along=21"];
     let output = run(&[&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=0.2%"][..], &set].concat());
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = out(&output);
     let command = text.lines().find_map(|line| line.strip_prefix("  squeezefilm ")).unwrap();
     assert!(set.iter().all(|word| command.contains(word)), "{command}");
     let (_, chosen) = text.split_once("at most 0.20 %: ").unwrap();
@@ -140,13 +131,11 @@ fn a_wish_that_is_none_has_status_2_and_one_that_nothing_fulfils_1() {
     for (wish, words) in
         [("--accuracy=-1%", "0.0001% to 50%"), ("--budget=16", "20ms, 1.5s"), ("--repeats=0", "--repeats")]
     {
-        let output = run(&["tradeoff", "plate-crossover", wish]);
-        assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{wish}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains(words), "{wish}");
+        refused(&["tradeoff", "plate-crossover", wish], 2, &[words]);
     }
     let output = run(&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=0.0001%"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("none of these"));
+    assert!(out(&output).contains("none of these"));
 }
 
 #[cfg(feature = "gui")]

@@ -14,18 +14,17 @@ use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solution::{MotorResult, Outcome, Solution};
 use squeezefilm::solve::{Settings, solve};
 
-fn of(mut scene: Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
-    scene.set_all(changes.iter().copied()).unwrap();
-    outside(&Problem::try_from(&scene).unwrap(), None)
+fn of(scene: &Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
+    outside(&Problem::try_from(&scene.with(changes).unwrap()).unwrap(), None)
 }
 
 /// 1 mm long, 1 µm ± 0.5 µm, 30 kHz, unless changed.
 fn plate(changes: &[(&str, &str)]) -> Vec<Excess> {
-    of(Scene::plate(), changes)
+    of(&Scene::plate(), changes)
 }
 
 fn motor(changes: &[(&str, &str)]) -> Vec<Excess> {
-    of(Scene::motor(), changes)
+    of(&Scene::motor(), changes)
 }
 
 #[track_caller]
@@ -68,8 +67,7 @@ fn density_heat_and_sound_are_those_of_the_gas() {
         ("motor.rotor_speed_rpm", "3000"),
     ];
     let motor = |gas| {
-        let mut scene = Scene::motor();
-        scene.set_all(fast.into_iter().chain([("film.gas", gas)])).unwrap();
+        let scene = Scene::motor().with(fast.into_iter().chain([("film.gas", gas)])).unwrap();
         match Problem::try_from(&scene).unwrap().scenario {
             Scenario::Motor(motor) => mach(&motor),
             Scenario::Plate(_) => f64::NAN,
@@ -210,8 +208,7 @@ fn a_gas_that_is_no_longer_ideal() {
     };
     assert!(!names(&with(4.9e6)).contains(&"dense-gas"));
     check(&with(20e6), "dense-gas", 20.0, 5.0);
-    let mut scene = presets::find("plate-trapped").unwrap();
-    scene.set("plate.amplitude_um", "0.999").unwrap();
+    let scene = presets::find("plate-trapped").unwrap().with([("plate.amplitude_um", "0.999")]).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
     assert!(names(&outside(&problem, Some(&solve_draft(&problem)))).contains(&"dense-gas"));
 }
@@ -232,9 +229,8 @@ fn contact_against_yield() {
     assert_eq!(found.last().map(|excess| excess.unit), Some("MPa"));
     // Summits 50 µm round of faces 100 nm rough: E*/H √(σ/R) = 54/0.773 √0.002; as many of 0.5 mm that are 10 nm high stay elastic.
     let rough = |rms: &str, radius: &str| {
-        let mut scene = presets::find("asperities").unwrap();
-        scene.set_all([("surface.rms_nm", rms), ("surface.summit_radius_um", radius)]).unwrap();
-        let problem = Problem::try_from(&scene).unwrap();
+        let set = [("surface.rms_nm", rms), ("surface.summit_radius_um", radius)];
+        let problem = Problem::try_from(&presets::find("asperities").unwrap().with(set).unwrap()).unwrap();
         let mut solution = solution(2e-7);
         let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
         result.max_contact = 1.0;
@@ -243,8 +239,7 @@ fn contact_against_yield() {
     check(&rough("100", "50"), "contact-stress", 3.125, 1.0);
     assert!(!names(&rough("10", "500")).contains(&"contact-stress"));
     // Of a ring it is what its lowest part is made of.
-    let mut scene = Scene::motor();
-    scene.set("rotor.model", "ring").unwrap();
+    let scene = Scene::motor().with([("rotor.model", "ring")]).unwrap();
     let mut solution = solution(2e-7);
     let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
     result.max_contact = 120e3;

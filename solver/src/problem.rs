@@ -424,6 +424,18 @@ pub enum Scenario {
     Plate(Plate),
 }
 
+impl Scenario {
+    /// The motor; `None` of a plate.
+    pub fn motor(&self) -> Option<&Motor> {
+        if let Self::Motor(motor) = self { Some(motor) } else { None }
+    }
+
+    /// The plate; `None` of a motor.
+    pub fn plate(&self) -> Option<&Plate> {
+        if let Self::Plate(plate) = self { Some(plate) } else { None }
+    }
+}
+
 /// A scene, checked and in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {

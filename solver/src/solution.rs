@@ -204,6 +204,18 @@ pub enum Outcome {
     Plate(PlateResult),
 }
 
+impl Outcome {
+    /// The result of a motor; `None` of a plate.
+    pub fn motor(&self) -> Option<&MotorResult> {
+        if let Self::Motor(result) = self { Some(result) } else { None }
+    }
+
+    /// The result of a plate; `None` of a motor.
+    pub fn plate(&self) -> Option<&PlateResult> {
+        if let Self::Plate(result) = self { Some(result) } else { None }
+    }
+}
+
 /// The problem as it was solved: a plate under a load is at the mean gap that was found for it.
 pub fn settled<'a>(problem: &'a Problem, outcome: &Outcome) -> Cow<'a, Problem> {
     match (&problem.scenario, outcome) {

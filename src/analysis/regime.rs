@@ -141,8 +141,7 @@ mod tests {
     use crate::scene::Scene;
 
     fn words(alpha: f64, alpha_error: f64, changes: &[(&str, &str)]) -> String {
-        let mut scene = Scene::motor();
-        scene.set_all(changes.iter().copied()).unwrap();
+        let scene = Scene::motor().with(changes).unwrap();
         let result = MotorResult { alpha: Estimate { value: alpha, error: alpha_error }, ..MotorResult::default() };
         weight(&Problem::try_from(&scene).unwrap(), &Outcome::Motor(result))
     }
@@ -167,10 +166,8 @@ mod tests {
 
     #[test]
     fn words_follow_what_leaks() {
-        let said = |scene: &Scene, key, value| {
-            let mut scene = scene.clone();
-            scene.set(key, value).unwrap();
-            let problem = Problem::try_from(&scene).unwrap();
+        let said = |scene: &Scene, key: &str, value: &str| {
+            let problem = Problem::try_from(&scene.with([(key, value)]).unwrap()).unwrap();
             let outcome = match &problem.scenario {
                 Scenario::Motor(_) => Outcome::Motor(MotorResult::default()),
                 Scenario::Plate(_) => Outcome::Plate(PlateResult::default()),
@@ -198,8 +195,7 @@ mod tests {
         // A plate that nearly touches is a damper only while it is away.
         let words = said(&strip, "plate.amplitude_um", "0.4999");
         assert!(words.ends_with("the film is a spring") && !words.contains("closest"), "{words}");
-        let mut slow = Scene::plate();
-        slow.set_all([("plate.frequency_khz", "0.003"), ("plate.amplitude_um", "0.99")]).unwrap();
+        let slow = Scene::plate().with([("plate.frequency_khz", "0.003"), ("plate.amplitude_um", "0.99")]).unwrap();
         let words = said(&slow, "plate.length_mm", "1");
         assert!(words.contains("a damper; where it is closest, gas leaks within"), "{words}");
         // A narrow rectangle leaks along its length.

@@ -48,10 +48,7 @@ pub struct Both {
 impl Both {
     /// The numbers of one of its solves.
     pub fn result(solved: &Result<Solution, String>) -> Option<&MotorResult> {
-        match &solved.as_ref().ok()?.outcome {
-            Outcome::Motor(result) => Some(result),
-            Outcome::Plate(_) => None,
-        }
+        solved.as_ref().ok()?.outcome.motor()
     }
 }
 
@@ -122,13 +119,13 @@ pub fn reproduce(
     let paper = Settings { method: Method::Paper, ..*settings };
     let fundamental = presets::find("fundamental")?;
     let mut scenes = published().iter().map(|row| presets::find(&row.preset)).collect::<Result<Vec<_>, _>>()?;
-    let mut no_sliding = fundamental.clone();
-    no_sliding.set("film.shear", "false")?;
-    let mut softer = fundamental.clone();
-    for key in ["rotor.point_compliance_um_per_n", "rotor.local_compliance_m2_per_n"] {
-        let stiff = softer.get(key).and_then(|value| value.as_number()).unwrap_or(1.0);
-        softer.set(key, &format!("{}", SOFTER * stiff))?;
-    }
+    let no_sliding = fundamental.with([("film.shear", "false")])?;
+    let softer = |key: &'static str| {
+        let stiff = fundamental.get(key).and_then(|value| value.as_number()).unwrap_or(1.0);
+        (key, (SOFTER * stiff).to_string())
+    };
+    let softer =
+        fundamental.with(["rotor.point_compliance_um_per_n", "rotor.local_compliance_m2_per_n"].map(softer))?;
     scenes.extend([no_sliding.clone(), softer.clone()]);
     // What is solved: by the paper's method or ours, and what of it is kept.
     let mut work: Vec<(Problem, Settings)> = Vec::new();
@@ -143,8 +140,7 @@ pub fn reproduce(
     let (from, to, count) = FREQUENCIES;
     for i in 0..count {
         let frequency: f64 = from * (to / from).powf(i as f64 / (count - 1) as f64);
-        let mut scene = fundamental.clone();
-        scene.set("stator.frequency_khz", &format!("{frequency}"))?;
+        let scene = fundamental.with([("stator.frequency_khz", frequency.to_string())])?;
         frequencies.push(frequency);
         work.push((Problem::try_from(&scene)?, Settings { record: Record::Numbers, ..ours }));
     }

@@ -2,7 +2,7 @@
 
 use crate::budget;
 use crate::control::Cancel;
-use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
+use crate::problem::{Motor, Problem, RotorCompliance};
 use crate::recording::LineLoads;
 use crate::rotor::ring::{Deflection, Mesh, Section};
 use crate::rotor::{self, Compliances, RotorError};
@@ -96,12 +96,8 @@ impl RotorCurves {
 
 /// The rotor of a motor with every key at its default but for the model.
 fn reference(model: &str) -> Option<RotorCompliance> {
-    let mut scene = Scene::motor();
-    scene.set("rotor.model", model).ok()?;
-    match Problem::try_from(&scene).ok()?.scenario {
-        Scenario::Motor(motor) => Some(motor.rotor),
-        Scenario::Plate(_) => None,
-    }
+    let scene = Scene::motor().with([("rotor.model", model)]).ok()?;
+    Some(Problem::try_from(&scene).ok()?.scenario.motor()?.rotor.clone())
 }
 
 fn curve(name: &'static str, rotor: &Compliances) -> Curve {
@@ -153,6 +149,7 @@ fn harmonic(loads: &LineLoads, frame: usize, n: usize) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::Scenario;
 
     #[test]
     fn a_greens_function_is_the_beams() {

@@ -352,10 +352,7 @@ fn solvable(scene: &Scene, axes: &[Axis], values: &[f64], settings: &Settings) -
 
 /// The scene with the varied keys at these values.
 fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneError> {
-    let mut scene = scene.clone();
-    let texts: Vec<String> = axes.iter().zip(values).map(|(axis, value)| axis.text(*value)).collect();
-    scene.set_all(axes.iter().zip(&texts).map(|(axis, text)| (axis.parameter.key, text.as_str())))?;
-    Ok(scene)
+    scene.with(axes.iter().zip(values).map(|(axis, value)| (axis.parameter.key, axis.text(*value))))
 }
 
 /// Hash of the texts as sixteen hexadecimal digits, the same on every machine and with every compiler version.

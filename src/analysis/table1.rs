@@ -8,7 +8,7 @@ use crate::control::Cancel;
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::{PublishedRow, published};
 use crate::scene::{Scene, SceneError, Value, presets};
-use crate::solution::{MotorResult, Outcome};
+use crate::solution::MotorResult;
 use crate::solve::{Method, Settings};
 
 /// One row: what was published, and what came of it here.
@@ -23,11 +23,7 @@ pub struct Table1Row {
 impl Table1Row {
     /// The numbers; `None` if it was not computed.
     pub fn result(&self) -> Option<&MotorResult> {
-        match &self.run.solved.as_ref().ok()?.outcome {
-            Outcome::Motor(result) => Some(result),
-            // Every row is a motor, and no change makes it a plate.
-            Outcome::Plate(_) => None,
-        }
+        self.run.solved.as_ref().ok()?.outcome.motor()
     }
 
     /// By how much the computed film load exceeds the published one \[%\].

@@ -55,9 +55,7 @@ impl TorqueCurves {
         solution: &Solution,
         cancel: &Cancel,
     ) -> Result<Option<Self>, MotorError> {
-        let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else {
-            return Ok(None);
-        };
+        let Some((motor, result)) = problem.scenario.motor().zip(solution.outcome.motor()) else { return Ok(None) };
         let Accuracy { stated, stopped_by, .. } = solution.accuracy;
         let reached = Fidelity::ALL.into_iter().rfind(|level| level.accuracy() >= stated).unwrap_or(Fidelity::Draft);
         let fidelity = if stopped_by == StoppedBy::Budget { fidelity.min(reached) } else { fidelity };

@@ -53,10 +53,7 @@ pub fn beside_headline(exceeded: &[Excess]) -> Option<String> {
 }
 
 fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
-    let result = outcome.and_then(|outcome| match outcome {
-        Outcome::Motor(result) => Some(result),
-        Outcome::Plate(_) => None,
-    });
+    let result = outcome.and_then(Outcome::motor);
     let closed =
         result.map(|result| result.min_film_thickness.value).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
     let contact = result.map_or(0.0, |result| result.max_contact);

@@ -15,6 +15,13 @@ impl Columns {
         Self(table)
     }
 
+    /// One row, which names the columns.
+    pub(super) fn headed<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
+        let mut columns = Self::new();
+        columns.row(names);
+        columns
+    }
+
     pub(super) fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.0.add_row(cells.into_iter().map(|cell| escaped(&cell.into())).collect::<Vec<_>>());
     }
@@ -52,16 +59,14 @@ mod tests {
 
     #[test]
     fn columns_are_aligned() {
-        let mut columns = Columns::new();
-        columns.row(["α", "1.5", "x"]);
+        let mut columns = Columns::headed(["α", "1.5", "x"]);
         columns.row(["load", "10.25", ""]);
         assert_eq!(columns.text(&[1]), "  α       1.5  x\n  load  10.25\n");
     }
 
     #[test]
     fn names_of_any_script_keep_the_columns_and_escape_what_cannot_be_seen() {
-        let mut columns = Columns::new();
-        columns.row(["超音波", "1"]);
+        let mut columns = Columns::headed(["超音波", "1"]);
         columns.row(["a\u{202e}\nb", "2"]);
         assert_eq!(columns.text(&[]), "  超音波        1\n  a\\u{202e}\\nb  2\n");
     }

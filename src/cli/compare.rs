@@ -7,7 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::compare::{ComparedRun, runs};
 use crate::analysis::decision::effort;
-use crate::digits::duration;
+use crate::digits::{counted, duration};
 use crate::export::animation::Options;
 use crate::export::compare::{frames, mark, object, parameter_rows, result_texts};
 use crate::export::files::{self, Control, ExportError};
@@ -65,20 +65,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if cancel.is_cancelled() {
         return Err(ExportError::Cancelled.into());
     }
-    for run in &runs {
-        match &run.solved {
-            Err(reason) => terminal::error(&format!("{}: {reason}", run.label)),
-            Ok(solution) => solution.warnings.iter().for_each(|warning| {
-                terminal::warning(&format!("{}: {warning}", run.label));
-            }),
-        }
-    }
+    runs.iter().for_each(|run| terminal::warnings(&run.label, &run.solved));
     let told = || json::document(&object(&runs, &settings), command);
     terminal::result(arguments.common.output.json, told, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
-    let presets = if runs.len() == 1 { "preset" } else { "presets" };
-    terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
+    terminal::note(&format!("{} in {}", counted(runs.len(), "preset", "presets"), duration(wall_s)));
     if let Some(folder) = &folder {
         let bar = Bar::points(frames(&runs, Options::default().frames), 0);
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
@@ -105,9 +97,8 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     }
     text.push_str(&columns.text(&[]));
 
-    let mut columns = Columns::new();
     let letters = |first: &str| std::iter::once(first.to_owned()).chain((0..runs.len()).map(letter));
-    columns.row(letters("parameter"));
+    let mut columns = Columns::headed(letters("parameter"));
     let mut listed = 0;
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         listed += 1;
@@ -122,9 +113,8 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
         text.push_str(&columns.text(&right));
     }
 
-    let mut columns = Columns::new();
     let pair = |i: usize| if i == 0 { vec![letter(i)] } else { vec![letter(i), format!("{} − A", letter(i))] };
-    columns.row(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
+    let mut columns = Columns::headed(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
     for (_, name, texts) in result_texts(runs) {
         // The first has no difference.
         let texts = texts.into_iter().enumerate().flat_map(|(i, texts)| texts.into_iter().take(1 + usize::from(i > 0)));

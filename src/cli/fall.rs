@@ -82,8 +82,7 @@ fn text(
     };
     let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();
     let mut text = heading(&format!("{}, dropped on its vibration: {how}{beside}", show_text(&scene.name)));
-    let mut columns = Columns::new();
-    columns.row(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
+    let mut columns = Columns::headed(["cycle", "t, µs", "height, µm", "mean speed, mm/s"]);
     let every = cycles.len().div_ceil(SHOWN).max(1);
     for cycle in cycles {
         if cycle.number % every != 0 && cycle.number + 1 != cycles.len() {

@@ -177,8 +177,7 @@ fn at_bound(at: Option<Bound>) -> &'static str {
 fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     let title = format!("{}, fitted to {}", show_text(&scene.name), measured.name);
     let mut text = heading(&title);
-    let mut columns = Columns::new();
-    columns.row(["key", "value ± standard error", "start", "bounds", ""]);
+    let mut columns = Columns::headed(["key", "value ± standard error", "start", "bounds", ""]);
     for found in &fitted.unknowns {
         let parameter = found.unknown.parameter;
         columns.row([
@@ -204,8 +203,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     text.push('\n');
     text.push_str(&paragraph(&summary(fitted, measured), "", ""));
     text.push('\n');
-    let mut columns = Columns::new();
-    columns.row(["row", "measured", "", "computed", "difference", "residual"]);
+    let mut columns = Columns::headed(["row", "measured", "", "computed", "difference", "residual"]);
     for (one, row) in measured.measurements.iter().zip(&fitted.rows) {
         let (computed, difference) = match &row.computed {
             Ok(found) => (found.to_string(), percent(found.value / one.value - 1.0)),
@@ -273,8 +271,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     }
     text.push_str(&columns.text(&[]));
     text.push('\n');
-    let mut columns = Columns::new();
-    columns.row([
+    let mut columns = Columns::headed([
         "key".to_owned(),
         "value".to_owned(),
         "bounds".to_owned(),

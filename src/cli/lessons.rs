@@ -5,6 +5,7 @@ use super::options::cancel_on_interrupt;
 use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};
+use crate::digits::counted;
 use crate::export::figure::{Piece, sheets_to_pdf};
 use crate::export::files::ExportError;
 use crate::gui::state::lessons::window_names;
@@ -87,8 +88,7 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
         let tasks = lesson.steps.iter().filter(|step| step.task.is_some()).count();
         let words = match errors {
             0 => "all done by try, none by wrong".to_owned(),
-            1 => "1 error".to_owned(),
-            errors => format!("{errors} errors"),
+            errors => counted(errors, "error", "errors"),
         };
         terminal::text(&format!(
             "{}: {}, {} steps, {tasks} tasks: {words}\n",

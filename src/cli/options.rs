@@ -47,8 +47,7 @@ impl SceneOptions {
     /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
-        let mut scene = original.clone();
-        scene.set_all(&self.changes)?;
+        let mut scene = original.with(&self.changes)?;
         let changed = |key| scene.get(key) != original.get(key);
         if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
             warn_of_given_path(&scene);

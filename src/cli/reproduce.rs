@@ -95,8 +95,7 @@ fn write(folder: &Folder<'_>, all: &Reproduction, cancel: &Cancel) -> Result<Vec
 /// Table I for people.
 fn text(all: &Reproduction) -> String {
     let mut text = heading("Table I of Maeno and Bogy (1992): film share α of the load");
-    let mut columns = Columns::new();
-    columns.row(["row", "published", "paper's algorithm", "converged"]);
+    let mut columns = Columns::headed(["row", "published", "paper's algorithm", "converged"]);
     let share = |solved| Both::result(solved).map_or_else(|| "failed".to_owned(), |result| result.alpha.to_string());
     for ReproducedRow { published, both } in &all.rows {
         columns.row([

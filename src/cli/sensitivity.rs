@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{capitalised, duration, percent, significant, with_error};
+use crate::digits::{capitalised, counted, duration, percent, significant, with_error};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::SensitivityStudy;
@@ -14,6 +14,7 @@ use crate::problem::Problem;
 use crate::scene::show_text;
 use crate::solve::{Method, check};
 use clap::Args;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -95,13 +96,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 
     let started = Instant::now();
     let bar = Bar::solve("");
-    let counted = std::sync::atomic::AtomicUsize::new(0);
+    let count = AtomicUsize::new(0);
     let told = |all: usize, what: &str| {
-        let done = counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+        let done = count.fetch_add(1, Ordering::Relaxed) + 1;
         bar.share_done(done as f64 / all.max(1) as f64, what);
     };
     let sensitivity = Sensitivity::of(&scene, &keys, &settings, &cancel, &|all| told(all, "derivatives"))?;
-    counted.store(0, std::sync::atomic::Ordering::Relaxed);
+    count.store(0, Ordering::Relaxed);
     let carlo = sensitivity.as_ref().filter(|_| draws > 0).map(|sensitivity| {
         sensitivity.monte_carlo(&uncertainties, draws, arguments.seed, &cancel, &|| told(draws, "random scenes"))
     });
@@ -136,14 +137,8 @@ fn warning(carlo: &MonteCarlo) -> Option<String> {
         )
     });
     let redrawn = (carlo.redrawn > 0).then(|| {
-        format!(
-            "{} outside of what is allowed and drawn again, which makes the spread smaller",
-            if carlo.redrawn == 1 {
-                "1 random scene was".to_owned()
-            } else {
-                format!("{} random scenes were", carlo.redrawn)
-            }
-        )
+        let scenes = counted(carlo.redrawn, "random scene was", "random scenes were");
+        format!("{scenes} outside of what is allowed and drawn again, which makes the spread smaller")
     });
     let all: Vec<String> = failed.into_iter().chain(redrawn).collect();
     (!all.is_empty()).then(|| all.join("; "))
@@ -159,8 +154,8 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     let name = show_text(&sensitivity.scene().name);
     let mut text =
         heading(&format!("{name}: change of each result, in per cent, for a 1 % increase of each parameter"));
-    let mut columns = Columns::new();
-    columns.row(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
+    let mut columns =
+        Columns::headed(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
     let values = sensitivity
         .values
         .iter()
@@ -227,12 +222,11 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
     let given: Vec<String> = given.collect();
     let mut text = paragraph(&format!("Uncertain parameters (standard deviation): {}", given.join(", ")), "\n", "");
     text.push('\n');
-    let mut columns = Columns::new();
     let mut head = vec!["", "value", "std. dev. from parameters", "numerical error", "largest contribution"];
     if found.carlo.is_some() {
         head.extend(["Monte Carlo (std. dev.)", "5 % … 95 %"]);
     }
-    columns.row(head);
+    let mut columns = Columns::headed(head);
     let (mut beyond, mut bent) = (Vec::new(), Vec::new());
     for (i, output) in sensitivity.outputs.iter().enumerate() {
         let value = sensitivity.values[i];

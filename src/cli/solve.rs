@@ -151,9 +151,7 @@ fn one(
     let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
     result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
-    for warning in &result.warnings {
-        terminal::warning(warning);
-    }
+    result.warnings.iter().for_each(|warning| terminal::warning(warning));
     arguments.common.solve.tell_if_late("the solve", wall_s);
     if !arguments.common.output.json {
         terminal::text(&summary::text(scene, &result));

@@ -109,8 +109,7 @@ fn text(
         exactness(&fidelity.to_string())
     );
     let mut text = heading(&title);
-    let mut columns = Columns::new();
-    columns.row(["map", "method", "cells"].into_iter().chain(VERDICTS));
+    let mut columns = Columns::headed(["map", "method", "cells"].into_iter().chain(VERDICTS));
     for map in maps {
         for method in methods {
             let of = |cell: &&Cell| cell.map.name == map.name && cell.method == *method;

@@ -136,9 +136,8 @@ fn text(
     let mut text = heading(&format!("{}, start-up from rest: {how}{beside}", show_text(&scene.name)));
     let motor = scene.scene() == "motor";
     let unit = force_unit(problem);
-    let mut columns = Columns::new();
     let main = if motor { "film share α" } else { "load ratio" };
-    columns.row([
+    let mut columns = Columns::headed([
         "cycle",
         "t, µs",
         main,

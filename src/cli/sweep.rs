@@ -298,14 +298,13 @@ fn text(sweep: &Sweep, rows: &[SweepRow]) -> String {
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
     let mut text = heading(&title);
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
-    let mut columns = Columns::new();
     let labels = |quantities: &[Quantity]| {
         let keys = keys.iter().map(ToString::to_string);
         keys.chain(quantities.iter().map(|quantity| quantity.label(sweep.problem()))).collect::<Vec<_>>()
     };
     // Limits of the model that are exceeded; empty if none.
     let limits = if rows.iter().any(|row| !row.outside.is_empty()) { LIMITS } else { "" };
-    columns.row(labels(&shown).into_iter().chain([limits.to_owned()]));
+    let mut columns = Columns::headed(labels(&shown).into_iter().chain([limits.to_owned()]));
     for row in rows {
         let mut cells: Vec<String> =
             sweep.axes().iter().zip(&row.values).map(|(axis, value)| axis.text(*value)).collect();
@@ -323,8 +322,7 @@ fn text(sweep: &Sweep, rows: &[SweepRow]) -> String {
     let published = sweep.published();
     if !published.is_empty() {
         text.push_str("\nPublished there (Table I):\n\n");
-        let mut columns = Columns::new();
-        columns.row(labels(&[Quantity::Alpha, Quantity::FilmLoad]));
+        let mut columns = Columns::headed(labels(&[Quantity::Alpha, Quantity::FilmLoad]));
         for point in &published {
             let mut cells: Vec<String> = point.values.iter().map(f64::to_string).collect();
             cells.extend([format!("{:.3}", point.alpha), format!("{:.3}", point.film_load), point.row.clone()]);

@@ -73,14 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::note(&format!("cancelled; reached was\n\n{human}"));
         return Ok(exit);
     }
-    for Table1Row { published, run } in &rows {
-        match &run.solved {
-            Err(error) => terminal::error(&format!("{}: {error}", published.row)),
-            Ok(solution) => solution.warnings.iter().for_each(|warning| {
-                terminal::warning(&format!("{}: {warning}", published.row));
-            }),
-        }
-    }
+    rows.iter().for_each(|row| terminal::warnings(&row.published.row, &row.run.solved));
     let objects: Vec<_> = rows.iter().map(|row| object(row, &settings)).collect();
     terminal::result(arguments.json, || json_text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
@@ -126,8 +119,7 @@ fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -
         text.push_str(&format!("changed in every row: {key} = {value}\n"));
     }
     text.push('\n');
-    let mut columns = Columns::new();
-    columns.row(["", "film load, N", "", "film share α", "", "", ""]);
+    let mut columns = Columns::headed(["", "film load, N", "", "film share α", "", "", ""]);
     columns.row(["row", "published", "computed", "published", "computed", "difference", ""]);
     for row in rows {
         let published = &row.published;
@@ -173,41 +165,23 @@ fn estimated(found: Estimate) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::compare::ComparedRun;
-    use crate::problem::Problem;
-    use crate::scene::Scene;
-    use crate::solution::{MotorResult, Outcome, Solution, Status};
+    use crate::control::Cancel;
+    use crate::solution::{Outcome, Status};
     use std::sync::Arc;
-
-    fn rows_that_ended(statuses: &[Status]) -> Vec<Table1Row> {
-        let run = |status: &Status| {
-            let alpha = Estimate { value: 0.25, error: f64::INFINITY };
-            let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
-            let solution = Solution {
-                status: *status,
-                outcome: Outcome::Motor(result),
-                performance: None,
-                recording: Default::default(),
-                stats: Default::default(),
-                accuracy: Default::default(),
-                model: Default::default(),
-                warnings: Vec::new(),
-            };
-            let scene = Scene::motor();
-            let problem = Problem::try_from(&scene).unwrap();
-            ComparedRun::new(String::new(), scene, problem, Ok(Arc::new(solution)))
-        };
-        published()
-            .into_iter()
-            .zip(statuses)
-            .map(|(published, status)| Table1Row { published, run: run(status) })
-            .collect()
-    }
 
     #[test]
     fn a_row_that_did_not_converge_is_marked() {
         let limit = Status::NotConverged { residual: 1e-3, tolerance: 1e-6 };
-        let rows = rows_that_ended(&[Status::Converged, limit, Status::Cancelled]);
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+        let mut rows = rows(&[], &settings, &Cancel::new(), &|_| ()).unwrap();
+        rows.truncate(3);
+        for (row, status) in rows.iter_mut().zip([Status::Converged, limit, Status::Cancelled]) {
+            let solution = Arc::make_mut(row.run.solved.as_mut().unwrap());
+            let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
+            result.alpha = Estimate { value: 0.25, error: f64::INFINITY };
+            result.film_load = Estimate::exact(0.6);
+            solution.status = status;
+        }
         let shown = text(&rows, &Settings::default(), &[]);
         assert!(shown.lines().any(|line| line.contains("doubled_mesh") && line.ends_with("NOT CONVERGED")), "{shown}");
         // One mesh has no error estimate: the value stands alone.

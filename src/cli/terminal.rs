@@ -2,10 +2,11 @@
 
 use super::exit::CliError;
 use crate::scene::escaped;
+use crate::solution::Solution;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// `--quiet` was given.
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -88,4 +89,12 @@ pub(super) fn error(text: &str) {
 /// Writes a warning to standard error, marked.
 pub(super) fn warning(text: &str) {
     say(&format!("warning: {text}"));
+}
+
+/// Says why the run `label` has no solution, or what its solution warns of.
+pub(super) fn warnings(label: &str, solved: &Result<Arc<Solution>, String>) {
+    match solved {
+        Err(reason) => error(&format!("{label}: {reason}")),
+        Ok(solution) => solution.warnings.iter().for_each(|words| warning(&format!("{label}: {words}"))),
+    }
 }

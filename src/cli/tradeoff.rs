@@ -126,8 +126,7 @@ fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     let judged = tradeoff.judged.label(problem);
     let mut text =
         heading(&format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)));
-    let mut columns = Columns::new();
-    columns.row([
+    let mut columns = Columns::headed([
         "setting",
         "time",
         "quartiles",

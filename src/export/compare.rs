@@ -22,7 +22,7 @@ use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene;
-use crate::solution::{Outcome, Performance, Status, StoppedBy};
+use crate::solution::{Performance, Status, StoppedBy};
 use crate::solve::{Method, Settings};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -148,19 +148,15 @@ fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&
 }
 
 fn motors_and_plates(runs: &[ComparedRun]) -> (Vec<MotorRun<'_>>, Vec<PlateRun<'_>>) {
-    let motors = runs_of(runs, |scenario| if let Scenario::Motor(motor) = scenario { Some(motor) } else { None });
-    let plates = runs_of(runs, |scenario| if let Scenario::Plate(plate) = scenario { Some(plate) } else { None });
-    (motors, plates)
+    (runs_of(runs, Scenario::motor), runs_of(runs, Scenario::plate))
 }
 
 /// Torque and power of the motors that have fields.
 fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
     let performance = |run: &ComparedRun| {
         let solution = run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?;
-        match (&run.problem.scenario, &solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => Some(with_film(motor, result, &solution.recording)),
-            _ => None,
-        }
+        let (motor, result) = run.problem.scenario.motor().zip(solution.outcome.motor())?;
+        Some(with_film(motor, result, &solution.recording))
     };
     runs.iter().filter_map(performance).collect()
 }

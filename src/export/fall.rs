@@ -79,8 +79,7 @@ pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
 
 /// The panel as a figure of its own.
 pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<Estimate>) -> Figure {
-    let mut figure = Figure::new("dropped on the vibration").panel(panel(cycles, floats));
-    figure.caption = "Height of the plate, the gap without the vibration, from where it is dropped.".to_owned();
-    figure.provenance = Provenance::named(&problem.name);
-    figure
+    let caption = "Height of the plate, the gap without the vibration, from where it is dropped.";
+    let figure = Figure { provenance: Provenance::named(&problem.name), ..Figure::new("dropped on the vibration") };
+    figure.panel(panel(cycles, floats)).caption(caption)
 }

@@ -228,18 +228,14 @@ impl Summary {
     /// command line, kept as they are.
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
         let problem = &*settled(problem, &solution.outcome);
+        let plate = problem.scenario.plate().zip(solution.outcome.plate());
         let mut summary = Self {
             outcome: solution.outcome,
             status: solution.status,
             accuracy: solution.accuracy,
             numbers: Numbers::of(problem, solution),
             torque: None,
-            exact: match (&problem.scenario, &solution.outcome) {
-                (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                    Some(ExactComparison::of(plate, result, &solution.recording))
-                }
-                _ => None,
-            },
+            exact: plate.map(|(plate, result)| ExactComparison::of(plate, result, &solution.recording)),
             wall_s,
             stats: solution.stats,
             model: solution.model.clone(),

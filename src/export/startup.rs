@@ -189,14 +189,9 @@ pub fn figure<'a>(
         let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;
         loads.iter().enumerate().map(move |(step, load)| [at(step), *load])
     });
-    let film = Panel::new("", Axis::new("t/T", ""), Axis::new("film load", force_unit(problem))).layer(Line::new(
-        "",
-        instants,
-        Style::solid(Colour::FILM),
-    ));
-    let mut figure = Figure::new("start-up from rest").panel(means).panel(film);
-    figure.caption =
-        "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.".to_owned();
-    figure.provenance = Provenance::named(&problem.name);
-    figure
+    let every = Line::new("", instants, Style::solid(Colour::FILM));
+    let film = Panel::new("", Axis::new("t/T", ""), Axis::new("film load", force_unit(problem))).layer(every);
+    let caption = "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.";
+    let figure = Figure { provenance: Provenance::named(&problem.name), ..Figure::new("start-up from rest") };
+    figure.panel(means).panel(film).caption(caption)
 }

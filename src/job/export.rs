@@ -135,37 +135,31 @@ impl Work for Files {
 /// Writes the files of `content` into a folder, or to the file `path`. Returns the paths of what was written.
 fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
     let figure = |drawn: &Figure| figure::write(drawn, path).map(|()| vec![path.to_owned()]);
+    let out = folder(path, BESIDE_DATA);
     Ok(match content {
         Content::Run(what, run) => of_run(what, path, &run, control)?,
         Content::Runs(OfRuns::Report, runs) => files::html(path, &runs, &coarsest(&runs), control)?,
         Content::Runs(OfRuns::Comparison { all }, runs) => {
-            files::comparison(&folder(path, BESIDE_DATA), &runs, &coarsest(&runs), all, control)?
+            files::comparison(&out, &runs, &coarsest(&runs), all, control)?
         }
-        Content::Sweep(OfSweep::Data, sweep, rows) => {
-            files::swept(&folder(path, BESIDE_DATA), &sweep, &rows, primary(&sweep))?
-        }
+        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(&out, &sweep, &rows, primary(&sweep))?,
         Content::Sweep(OfSweep::Table, sweep, rows) => files::alone(path, |out| write_csv(&sweep, &rows, out))?,
         Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => figure(&swept::figure(&sweep, &rows, quantity))?,
         Content::Sensitivity(sensitivity, uncertainties, carlo) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
             let found = sensitivity::SensitivityStudy { sensitivity: &sensitivity, uncertainties, carlo };
-            files::sensitivity(&folder(path, BESIDE_DATA), &found)?
+            files::sensitivity(&out, &found)?
         }
         Content::Startup(posed, settings, ended, cycles) => {
-            let (out, scene) = (folder(path, BESIDE_DATA), (&posed.scene, &posed.problem));
-            files::startup(&out, scene, &settings, (&ended, &cycles), f64::NAN)?
+            files::startup(&out, (&posed.scene, &posed.problem), &settings, (&ended, &cycles), f64::NAN)?
         }
         Content::Fall(posed, fidelity, ended, cycles) => {
-            let (out, scene) = (folder(path, BESIDE_DATA), (&posed.scene, &posed.problem));
-            files::fall(&out, scene, fidelity, (&ended, &cycles), f64::NAN)?
+            files::fall(&out, (&posed.scene, &posed.problem), fidelity, (&ended, &cycles), f64::NAN)?
         }
-        Content::Fit(name, posed, found) => {
-            let (out, preset, problem) = (folder(path, BESIDE_DATA), name.as_str(), &posed.problem);
-            match &*found {
-                fit::FitResult::Fit(measured, fitted) => files::fitted(&out, problem, preset, fitted, measured)?,
-                fit::FitResult::Optimum(found) => files::optimum(&out, problem, preset, found)?,
-            }
-        }
+        Content::Fit(name, posed, found) => match &*found {
+            fit::FitResult::Fit(measured, fitted) => files::fitted(&out, &posed.problem, &name, fitted, measured)?,
+            fit::FitResult::Optimum(found) => files::optimum(&out, &posed.problem, &name, found)?,
+        },
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
             files::alone(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?
         }

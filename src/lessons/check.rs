@@ -97,8 +97,7 @@ mod tests {
 
     fn unmet(source: &str, set: &[(&str, &str)], alpha: f64) -> Option<String> {
         let start = Scene::motor();
-        let mut now = start.clone();
-        now.set_all(set.iter().copied()).unwrap();
+        let now = start.with(set).unwrap();
         let numbers = |alpha: f64| {
             let mut numbers = Numbers::default();
             numbers.set(Quantity::Alpha, alpha);
@@ -114,60 +113,44 @@ mod tests {
 
     #[test]
     fn comparisons_hold_or_say_why_not() {
-        let halved = [("film.min_spacing_nm", "100")];
+        let (halved, words) = ([("film.min_spacing_nm", "100")], [("film.slip", "none"), ("film.shear", "false")]);
         let source = "alpha > 1.5 * start.alpha and film.min_spacing_nm <= start.film.min_spacing_nm / 2";
-        assert_eq!(unmet(source, &halved, 0.5), None);
-        assert_eq!(
-            unmet(source, &halved, 0.3),
-            Some("Film share of the load α is 0.3, and should be above 0.375".to_owned())
-        );
-        assert_eq!(
-            unmet(source, &[("film.min_spacing_nm", "150")], 0.5),
-            Some("Minimum spacing H_m is 150 nm, and should be at most 100 nm".to_owned())
-        );
-        assert_eq!(unmet("alpha about 0.5", &[], 0.51), None);
-        assert_ne!(unmet("alpha about 0.5", &[], 0.53), None);
-        assert_eq!(unmet("alpha about 0.5 within 0.1", &[], 0.53), None);
-        assert_eq!(
-            unmet("alpha about 0.5 within 0.02", &[], 0.53),
-            Some("Film share of the load α is 0.53, and should be about 0.5 to 2 %".to_owned())
-        );
-        // As many digits as tell them apart.
-        assert_eq!(
-            unmet("alpha < 0.5", &[], 0.500_04),
-            Some("Film share of the load α is 0.50004, and should be below 0.5".to_owned())
-        );
-        assert_eq!(unmet("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05), None);
-        assert_ne!(unmet("film_load_n > 1", &[], 0.5), None, "what is not there holds nothing");
-        assert_ne!(unmet("alpha / (motor.waves - 7) > 0", &[], 0.5), None);
-        assert_eq!(unmet("startup.cycles >= 5", &[], 0.5), None);
-        assert_eq!(
-            unmet("startup.cycles > 5", &[], 0.5),
-            Some("Cycles since rest is 5, and should be above 5".to_owned())
-        );
-        assert_eq!(
-            unmet("torque.stall_nm > 0", &[], 0.5),
-            Some("Stall torque is not known yet: see the tab Torque".to_owned())
-        );
-        assert_eq!(
-            unmet(
-                "film.slip = \"none\" and film.shear = false",
-                &[("film.slip", "none"), ("film.shear", "false")],
-                0.5
+        let rough = [("film.min_spacing_nm", "150")];
+        for (source, set, alpha, told) in [
+            (source, &halved[..], 0.5, ""),
+            (source, &halved, 0.3, "Film share of the load α is 0.3, and should be above 0.375"),
+            (source, &rough, 0.5, "Minimum spacing H_m is 150 nm, and should be at most 100 nm"),
+            ("alpha about 0.5", &[], 0.51, ""),
+            ("alpha about 0.5", &[], 0.53, "Film share of the load α is 0.53, and should be about 0.5"),
+            ("alpha about 0.5 within 0.1", &[], 0.53, ""),
+            (
+                "alpha about 0.5 within 0.02",
+                &[],
+                0.53,
+                "Film share of the load α is 0.53, and should be about 0.5 to 2 %",
             ),
-            None
-        );
-        let told = "Slip at the walls is first-order, and should be none";
-        assert_eq!(unmet("film.slip = \"none\"", &[], 0.5), Some(told.to_owned()));
-        assert_eq!(unmet("stator.tooth_radius_m = \"none\"", &[], 0.5), None);
+            // As many digits as tell them apart.
+            ("alpha < 0.5", &[], 0.500_04, "Film share of the load α is 0.50004, and should be below 0.5"),
+            ("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05, ""),
+            // What is not there holds nothing.
+            ("film_load_n > 1", &[], 0.5, "Film load is not known for this scene"),
+            ("alpha / (motor.waves - 7) > 0", &[], 0.5, "alpha / ( motor.waves - 7 ) is not known for this scene"),
+            ("startup.cycles >= 5", &[], 0.5, ""),
+            ("startup.cycles > 5", &[], 0.5, "Cycles since rest is 5, and should be above 5"),
+            ("torque.stall_nm > 0", &[], 0.5, "Stall torque is not known yet: see the tab Torque"),
+            ("film.slip = \"none\" and film.shear = false", &words, 0.5, ""),
+            ("film.slip = \"none\"", &[], 0.5, "Slip at the walls is first-order, and should be none"),
+            ("stator.tooth_radius_m = \"none\"", &[], 0.5, ""),
+        ] {
+            assert_eq!(unmet(source, set, alpha).unwrap_or_default(), told, "{source}");
+        }
         assert_ne!(unmet("stator.tooth_radius_m = \"none\"", &[("stator.tooth_radius_m", "3")], 0.5), None);
     }
 
     #[test]
     fn numbers_that_a_text_quotes_are_those_of_the_run() {
         let start = Scene::motor();
-        let mut scene = start.clone();
-        scene.set("film.min_spacing_nm", "100").unwrap();
+        let scene = start.with([("film.min_spacing_nm", "100")]).unwrap();
         let (mut before, mut after) = (Numbers::default(), Numbers::default());
         before.set(Quantity::Alpha, 0.25);
         after.set(Quantity::Alpha, 0.5);

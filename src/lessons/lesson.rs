@@ -231,10 +231,7 @@ impl Step {
 
     /// The scene that the step begins with, with these changes; `None` if there are none, or if they are not allowed.
     pub fn changed(&self, changes: &BTreeMap<String, String>) -> Option<Scene> {
-        let mut scene = self.scene.clone();
-        let pairs = changes.iter().map(|(key, value)| (key.as_str(), value.as_str()));
-        let set = scene.set_all(pairs).is_ok();
-        (set && !changes.is_empty()).then_some(scene)
+        self.scene.with(changes).ok().filter(|_| !changes.is_empty())
     }
 }
 

@@ -232,8 +232,7 @@ fn act(
     wanted: &[Live],
     cancel: &Cancel,
 ) -> Result<Outcome, String> {
-    let mut scene = step.scene.clone();
-    scene.set_all(&doing.changes).map_err(|error| error.to_string())?;
+    let scene = step.scene.with(&doing.changes).map_err(|error| error.to_string())?;
     let run = Tried::of(&scene, wanted, cancel)?;
     let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
     look.at(&run.live);

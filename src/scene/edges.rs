@@ -69,8 +69,7 @@ mod tests {
 
     #[test]
     fn a_shared_edge_moves_in_both_parts_and_no_other() {
-        let mut scene = Scene::motor();
-        scene.set("rotor.model", "ring").unwrap();
+        let scene = Scene::motor().with([("rotor.model", "ring")]).unwrap();
         let Some(Value::Records(parts)) = scene.get("rotor.part") else { panic!("no parts") };
         let moved = |edge, to| -> Vec<(usize, usize)> {
             let edited = with_edge(&parts, edge, to);

@@ -6,7 +6,7 @@ use super::parameter::{Parameter, ParameterKind};
 use super::parse;
 use super::value::{Value, show_text};
 use super::values::Scene;
-use crate::digits::rounded;
+use crate::digits::{counted, rounded};
 use std::borrow::Borrow;
 use std::path::Path;
 
@@ -84,6 +84,18 @@ impl Scene {
         &mut self,
         pairs: impl IntoIterator<Item: Borrow<(K, V)>>,
     ) -> Result<(), SceneError> {
+        *self = self.with(pairs)?;
+        Ok(())
+    }
+
+    /// The scene with `key=value` pairs applied as [`Scene::set_all`] does.
+    ///
+    /// # Errors
+    /// The faults of all pairs.
+    pub fn with<K: AsRef<str>, V: AsRef<str>>(
+        &self,
+        pairs: impl IntoIterator<Item: Borrow<(K, V)>>,
+    ) -> Result<Self, SceneError> {
         let pairs: Vec<_> = pairs.into_iter().collect();
         let mut pairs: Vec<_> =
             pairs.iter().map(Borrow::borrow).map(|(key, text)| (key.as_ref(), text.as_ref())).collect();
@@ -109,8 +121,7 @@ impl Scene {
         }
         faults.map(|fault| changed.narrowed(fault)).or(())?;
         changed.check()?;
-        *self = changed;
-        Ok(())
+        Ok(changed)
     }
 
     /// The parameter of a key that can be set. A table can be set on a rotor of another model: it then replaces that model.
@@ -152,7 +163,7 @@ impl Scene {
     pub fn title(&self, original: &Self) -> String {
         match self.changed(original).count() {
             keys if keys > 0 && self.name == original.name => {
-                let keys = format!("{keys} {}", if keys == 1 { "key" } else { "keys" });
+                let keys = counted(keys, "key", "keys");
                 match self.unchanged_name() {
                     name if name != self.name => format!("{name}, changed again: {keys}"),
                     name => format!("{name}, changed: {keys}"),
@@ -258,8 +269,7 @@ mod tests {
 
     #[test]
     fn every_value_of_every_key_reaches_the_problem() {
-        let mut helium = Scene::plate();
-        helium.set_all([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
+        let helium = Scene::plate().with([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
         for base in [Scene::motor(), table(), Scene::plate(), helium] {
             let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
             for parameter in keys {

@@ -3,7 +3,6 @@
 //!
 //! The command line and the window ask the same questions. A question without an answer has a value that is assumed, or is required.
 
-use super::error::SceneError;
 use super::parameter::Parameter;
 use super::quantity_text;
 use super::value::{Value, show_number, show_text};
@@ -346,9 +345,7 @@ impl NewMotor {
         let words = |assumption: &Assumption| Parameter::find(assumption.key).map(Parameter::words);
         let assumed: Vec<String> = draft.assumed.iter().filter_map(words).collect();
         draft.pairs.push(("about", format!("From a data sheet. Assumed: {}.", assumed.join(", "))));
-        let mut scene = Scene::motor();
-        let fault = |error: SceneError| error.to_string();
-        scene.set_all(&draft.pairs).map_err(fault)?;
+        let scene = Scene::motor().with(&draft.pairs).map_err(|error| error.to_string())?;
         Ok(Self { scene, assumed: draft.assumed })
     }
 

@@ -206,12 +206,12 @@ mod tests {
             let set = tried.set_value("stator.tooth_width_mm", Value::Number(value));
             let one = set.and_then(|()| tried.check()).unwrap_err().to_string();
             let pair = ("stator.tooth_width_mm", value.to_string());
-            let all = scene.clone().set_all([pair]).unwrap_err().to_string();
+            let all = scene.with([pair]).unwrap_err().to_string();
             assert!(one.contains("allowed 0.0289226 to 2.89225 mm, 1 % to 100 %") && one == all, "{one}\n{all}");
         }
         // The other keys that are set along with it count.
         let pairs = [("stator.tooth_width_mm", "1e99"), ("stator.teeth_per_wave", "18")];
-        let all = scene.clone().set_all(pairs).unwrap_err().to_string();
+        let all = scene.with(pairs).unwrap_err().to_string();
         assert!(all.contains("7 waves / 18 teeth"), "{all}");
     }
 

@@ -1,14 +1,12 @@
 //! Presets with changes, which the tests of the solver solve.
 #![allow(dead_code, reason = "no file of tests uses all of it")]
 
-use squeezefilm::problem::{Motor, Plate, Problem, Scenario};
+use squeezefilm::problem::{Motor, Plate, Problem};
 use squeezefilm::scene::{Scene, presets};
 
 /// The built-in preset of this name, with these keys changed.
 pub(crate) fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    scene
+    presets::find(preset).unwrap().with(changes).unwrap()
 }
 
 /// The problem of such a scene.
@@ -18,16 +16,10 @@ pub(crate) fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
 
 /// The motor of such a scene.
 pub(crate) fn motor(preset: &str, changes: &[(&str, &str)]) -> Motor {
-    match problem(preset, changes).scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
+    problem(preset, changes).scenario.motor().unwrap().clone()
 }
 
 /// The plate of such a scene.
 pub(crate) fn plate(preset: &str, changes: &[(&str, &str)]) -> Plate {
-    match problem(preset, changes).scenario {
-        Scenario::Plate(plate) => plate,
-        Scenario::Motor(_) => panic!("a plate"),
-    }
+    problem(preset, changes).scenario.plate().unwrap().clone()
 }

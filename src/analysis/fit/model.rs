@@ -91,12 +91,10 @@ impl<'a> Model<'a> {
             }
         }
         let condition = |(i, changes): (usize, &Vec<(String, String)>)| -> Result<Condition, AnalysisError> {
-            let mut scene = self.scene.clone();
             let first = measured.measurements.iter().find(|one| one.condition == i);
             let place = first.map_or_else(String::new, |one| format!(", {}", one.label));
-            scene
-                .set_all(changes)
-                .map_err(|error| AnalysisError::Input(format!("{}{place}: {error}", measured.name)))?;
+            let scene = self.scene.with(changes);
+            let scene = scene.map_err(|error| AnalysisError::Input(format!("{}{place}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
             Ok(Condition { scene, chosen })
         };

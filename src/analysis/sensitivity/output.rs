@@ -4,7 +4,7 @@ use crate::analysis::exact::{Harmonic, solved, units};
 use crate::analysis::quantity::{Numbers, Quantity, labelled};
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
-use crate::solution::{Outcome, Solution, settled};
+use crate::solution::{Solution, settled};
 
 /// A result whose sensitivity is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,9 +73,7 @@ impl Output {
     /// Its value in a solution, whose lines are kept, with its stated numerical error; not finite where it has none.
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
         let harmonic = |part: fn(&Harmonic<Estimate>) -> Estimate, unit: fn(&Harmonic<f64>) -> f64| {
-            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
-                return None;
-            };
+            let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate())?;
             Some(part(&solved(plate, result, &solution.recording)?) * unit(&Harmonic::unit(plate)))
         };
         let found = match self {

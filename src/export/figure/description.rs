@@ -35,6 +35,13 @@ impl Figure {
         self.panels.push(panel);
         self
     }
+
+    /// With this caption.
+    #[must_use]
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
 }
 
 /// Width of a figure on paper.

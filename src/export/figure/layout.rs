@@ -207,9 +207,7 @@ impl Placed {
             right: panel.right.as_ref().zip(right).map(|(axis, range)| upright(axis, range, height)),
             x_labels,
             bar,
-            legend: Vec::new(),
-            legend_box: None,
-            title: None,
+            ..Self::default()
         }
     }
 

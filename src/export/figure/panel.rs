@@ -86,12 +86,7 @@ pub(crate) fn names(
         rect: Rect { x: 0.0, y: 0.0, width, height },
         x: ruler(&panel.x, ends[0]),
         y: ruler(&panel.y, ends[1]),
-        right: None,
-        x_labels: false,
-        bar: None,
-        legend: Vec::new(),
-        legend_box: None,
-        title: None,
+        ..Placed::default()
     };
     let on = On { placed: &placed, panel };
     on.named_places(words).into_iter().map(|(name, place)| (name.text.clone(), [place.x, place.y])).collect()

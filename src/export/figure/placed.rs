@@ -33,7 +33,7 @@ const SAMPLE: f64 = 17.0;
 pub(super) const SPACE: f64 = 3.5;
 
 /// The scale along an axis or a colour bar: range, ticks and label.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Ruler {
     pub(super) range: Scaled,
     pub(super) ticks: Ticks,
@@ -62,7 +62,7 @@ pub(super) struct Bar {
 }
 
 /// A panel's place.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Placed {
     pub(super) rect: Rect,
     pub(super) x: Ruler,

@@ -14,7 +14,7 @@ const PLAIN: f64 = 1e4;
 const FARTHEST: f64 = 1e300;
 
 /// A range of values spread over 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Scaled {
     pub(super) from: f64,
     pub(super) to: f64,

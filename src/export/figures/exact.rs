@@ -15,16 +15,16 @@ const WHOLE: f64 = 2.0;
 
 /// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
 pub fn exact(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Figure {
-    let mut figure = Figure::new("computed and exact")
-        .panel(coefficients(plate, found).height(42.0))
-        .panel(cycle(plate, found, recording).height(38.0));
-    figure.caption = format!(
+    let caption = format!(
         "Spring and damping of the film, parts of the load in phase with the approach and with its speed over p_a · area · ε, for \
          small amplitudes over the squeeze number (a) with those of this solve as points, ε = {}; load over one cycle with \
          those of gas that cannot leave (Boyle) and of gas that is not compressed (b).",
         crate::digits::significant(plate.amplitude / plate.mean_gap, 3)
     );
-    figure
+    Figure::new("computed and exact")
+        .panel(coefficients(plate, found).height(42.0))
+        .panel(cycle(plate, found, recording).height(38.0))
+        .caption(caption)
 }
 
 fn coefficients(plate: &Plate, found: &ExactComparison) -> Panel {
@@ -85,21 +85,17 @@ mod tests {
     use super::*;
     use crate::control::Cancel;
     use crate::export::figure::Range;
-    use crate::problem::{Problem, Scenario};
+    use crate::problem::Problem;
     use crate::scene::presets;
-    use crate::solution::Outcome;
     use crate::solve::{Settings, solve};
 
     #[test]
     fn the_present_squeeze_number_is_well_inside_the_curves() {
         for khz in ["0.001", "1", "10000"] {
-            let mut scene = presets::find("plate-crossover").unwrap();
-            scene.set("plate.frequency_khz", khz).unwrap();
+            let scene = presets::find("plate-crossover").unwrap().with([("plate.frequency_khz", khz)]).unwrap();
             let problem = Problem::try_from(&scene).unwrap();
             let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
-            let (Scenario::Plate(plate), Outcome::Plate(result)) = (&problem.scenario, &solution.outcome) else {
-                panic!("a plate")
-            };
+            let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate()).unwrap();
             let found = ExactComparison::of(plate, result, &solution.recording);
             let panel = coefficients(plate, &found);
             let (present, Range::Fixed(from, to)) = (found.effective_squeeze_number, &panel.x.range) else {

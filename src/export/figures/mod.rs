@@ -103,10 +103,8 @@ pub fn convergence(history: &[Progress]) -> Figure {
     });
     let y = Axis::new("relative change in a round", "").log().including(tolerances.clone());
     let panel = Panel::new("", Axis::new("round", "").whole(), y).layers(allowed).layers(changes);
-    let mut figure = Figure::new("convergence").panel(panel);
     let last = all.fold(f64::INFINITY, f64::min);
-    figure.caption = format!(
+    Figure::new("convergence").panel(panel).caption(format!(
         "Relative change in every round of the outer iteration on each of {grids} grids; the least was {last:.1e}."
-    );
-    figure
+    ))
 }

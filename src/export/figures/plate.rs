@@ -19,9 +19,9 @@ pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
         .layer(rest(ambient * scale, "ambient"))
         .layers(quarters);
-    let mut figure = Figure::new("pressure along the plate").panel(panel);
-    figure.caption = "Pressure along the plate at four instants; the gap is greatest at t/T = 0.".to_owned();
-    figure
+    Figure::new("pressure along the plate")
+        .panel(panel)
+        .caption("Pressure along the plate at four instants; the gap is greatest at t/T = 0.")
 }
 
 fn pressure_at_the_middle(plate: &Plate) -> &'static str {
@@ -71,30 +71,24 @@ pub fn loads(plate: &Plate, recording: &Recording) -> Figure {
     let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));
     let (unit, scale) = prefixed(greatest, force(plate));
     let (length, gaps) = prefixed(plate.mean_gap + plate.amplitude, "m");
-    let mut gap = Line::new(
-        "gap",
-        over_cycle(&recording.min_film_thickness, gaps),
-        Style::solid(Colour::ROTOR).dash(Dash::Dashed),
-    );
-    gap.right = true;
+    let style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
+    let gap = Line { right: true, ..Line::new("gap", over_cycle(&recording.min_film_thickness, gaps), style) };
     let mut panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("film load", unit))
         .layer(rest(0.0, ""))
         .layer(Line::new("film load", over_cycle(&recording.film_load, scale), Style::solid(Colour::FILM)))
         .layer(gap);
     panel.right = Some(Axis::new("gap", length));
-    let mut figure = Figure::new("load over the cycle").panel(panel);
-    figure.caption = "Load of the film above ambient, and the gap, over one cycle.".to_owned();
-    figure
+    Figure::new("load over the cycle")
+        .panel(panel)
+        .caption("Load of the film above ambient, and the gap, over one cycle.")
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.
 pub fn pressure_gap_loop(plate: &Plate, recording: &Recording) -> Figure {
-    let mut figure = Figure::new("pressure against gap").panel(loop_panel(plate, recording, 0, "t = 0"));
-    figure.caption =
+    Figure::new("pressure against gap").panel(loop_panel(plate, recording, 0, "t = 0")).caption(
         "Mean gauge pressure of the film against the gap, once round the cycle. The area of the loop is what \
-                      the film takes from the plate in a cycle, for each unit of area."
-            .to_owned();
-    figure
+         the film takes from the plate in a cycle, for each unit of area.",
+    )
 }
 
 /// The loop, with a point at a frame.

@@ -1,7 +1,7 @@
 //! A measured face: its heights and their autocorrelation.
 
 use super::unit::prefixed;
-use crate::export::figure::{Axis, Colour, Figure, Grid, Line, Map, Mark, Panel, Provenance, Range, Style, Width};
+use crate::export::figure::{Axis, Colour, Figure, Grid, Line, Map, Mark, Panel, Provenance, Style};
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::Texture;
 
@@ -21,7 +21,6 @@ pub fn figure(name: &str, map: &HeightMap, texture: &Texture) -> Figure {
             label: "height".to_owned(),
             unit: height_unit,
             grid: Grid { x: place(0), y: place(1), values },
-            range: Range::Auto,
             ..Map::default()
         };
         Panel::new(
@@ -46,9 +45,7 @@ pub fn figure(name: &str, map: &HeightMap, texture: &Texture) -> Figure {
     let correlation = Panel::new("(b) autocorrelation", Axis::new("lag", lag_unit), Axis::new("autocorrelation", ""))
         .layer(Mark::horizontal(0.5, "½: correlation length"))
         .layers(curves);
-    let mut figure = Figure::new(name).panel(heights).panel(correlation);
-    figure.width = Width::Column;
-    figure.provenance = Provenance::named(name);
-    figure.caption = format!("Levelled heights of {name}, and their autocorrelation along both axes.");
-    figure
+    let caption = format!("Levelled heights of {name}, and their autocorrelation along both axes.");
+    let figure = Figure { provenance: Provenance::named(name), caption, ..Figure::new(name) };
+    figure.panel(heights).panel(correlation)
 }

@@ -49,14 +49,13 @@ fn green(both: &Both) -> Option<Figure> {
     .layer(Line::new("beam on an elastic foundation", points, Style::solid(Colour::FILM)))
     .height(44.0)
     .legend(Legend::Above);
-    let mut figure = Figure::new("Fig. 3: deflection of the rotor under a unit point load").panel(panel);
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = "The paper took this Green's function from a finite element model of the rotor (2162 elements) and shows it as a curve, \
-                      which is not known to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
-                      compliance, spread over one contact spacing."
-        .to_owned();
-    figure.provenance = Provenance::named(&both.problem.name);
-    Some(figure)
+    let (width, provenance) = (Width::Millimetres(110.0), Provenance::named(&both.problem.name));
+    let title = "Fig. 3: deflection of the rotor under a unit point load";
+    Some(Figure { width, provenance, ..Figure::new(title) }.panel(panel).caption(
+        "The paper took this Green's function from a finite element model of the rotor (2162 elements) and shows it as a curve, \
+         which is not known to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
+         compliance, spread over one contact spacing.",
+    ))
 }
 
 const PAPER: &str = "paper's algorithm";
@@ -122,11 +121,10 @@ fn frequencies(all: &Reproduction) -> Figure {
         .layer(Points::new("published", published, Colour::CONTACT, square))
         .layer(Points::new(PAPER, paper, Colour::BLACK, Marker { size: 2.6, ..Marker::solid(Shape::Circle) }))
         .height(52.0);
-    let mut figure = Figure::new("Fig. 10: effect of the stator vibrating frequency").panel(panel);
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = "The ratio α over the frequency, all else as in the fundamental case. Published: the rows of Table I, whose points \
-                      Fig. 10 shows. The stated error is narrower than the line nearly everywhere."
-        .to_owned();
-    figure.provenance = Provenance::named("Fundamental case");
-    figure
+    let (width, provenance) = (Width::Millimetres(110.0), Provenance::named("Fundamental case"));
+    let title = "Fig. 10: effect of the stator vibrating frequency";
+    Figure { width, provenance, ..Figure::new(title) }.panel(panel).caption(
+        "The ratio α over the frequency, all else as in the fundamental case. Published: the rows of Table I, whose points \
+         Fig. 10 shows. The stated error is narrower than the line nearly everywhere.",
+    )
 }

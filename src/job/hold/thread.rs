@@ -127,16 +127,13 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
 mod tests {
     use super::super::follower::slowed;
     use super::*;
-    use crate::problem::{Problem, Scenario};
+    use crate::problem::Problem;
     use crate::scene::Scene;
     use std::sync::atomic::AtomicUsize;
     use std::time::Duration;
 
     fn plate() -> Plate {
-        match Problem::try_from(&Scene::plate()).unwrap().scenario {
-            Scenario::Plate(plate) => plate,
-            Scenario::Motor(_) => panic!("a plate"),
-        }
+        Problem::try_from(&Scene::plate()).unwrap().scenario.plate().unwrap().clone()
     }
 
     fn until(what: &str, ready: impl Fn() -> bool) {

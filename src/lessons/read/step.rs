@@ -226,8 +226,7 @@ impl Reader<'_> {
                 _ => doing.changes.push((name, value)),
             }
         }
-        let mut changed = scene.clone();
-        if let Err(error) = changed.set_all(&doing.changes) {
+        if let Err(error) = scene.with(&doing.changes) {
             self.key_fault(table.line_of(key), TASK, key, format!(": {error}"));
         }
         doing
