@@ -238,7 +238,7 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
     let to = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let vary = ["--fidelity=draft", "--vary=plate.frequency_khz=10:20:2", "--figures=none"];
     for (changes, column) in [(&[][..], "film_load_min_n_per_m"), (&["--set=plate.width_mm=1"], "film_load_min_n")] {
-        let output = done(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
+        done(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
         let text = fs::read_to_string(folder.path().join(column).join("sweep.csv")).unwrap();
         assert!(text.lines().next().unwrap().split(',').any(|name| name == column), "{text}");
     }
