@@ -31,7 +31,7 @@ fn fundamental() -> Motor {
 
 fn solve(motor: &Motor, numerics: &Numerics) -> (Solution, MotorResult) {
     let solution = paper::solve(motor, numerics, &mut (), &Cancel::new()).unwrap_or_else(|error| panic!("{error}"));
-    let result = *solution.outcome.motor().unwrap();
+    let Some(&result) = solution.outcome.motor() else { panic!("a motor's solution") };
     (solution, result)
 }
 

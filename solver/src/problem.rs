@@ -275,6 +275,15 @@ impl Plate {
         0.5 * self.length
     }
 
+    /// From where to where the plate is along x, through its middle \[m\]: a ring is on either side of its hole.
+    pub fn spans(&self) -> Vec<[f64; 2]> {
+        let half = self.radius();
+        match self.hole.filter(|hole| *hole > 0.0) {
+            Some(hole) => vec![[-half, -hole], [hole, half]],
+            None => vec![[-half, half]],
+        }
+    }
+
     /// Length \[m\] from one edge to the opposite one, along which the film is solved: a diameter of a disc, a radial section of a ring.
     pub fn section(&self) -> f64 {
         self.hole.filter(|hole| *hole > 0.0).map_or(self.length, |hole| self.radius() - hole)

@@ -113,17 +113,20 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     let highest = plate.mean_gap + plate.amplitude;
     let (length, gaps) = prefixed(highest, "m");
     let gap = recording.min_film_thickness.get(frame).copied().unwrap_or(0.0) * gaps;
-    let body = |low: f64, high: f64| [-half, half].map(|x| [x, low, high]);
+    let body = |ends: [f64; 2], low: f64, high: f64| ends.map(|x| [x, low, high]);
     let solid = |points: [[f64; 3]; 2], colour: Colour| Band { opacity: 0.6, ..Band::new("", points, colour) };
     let (floor, roof) = (-0.12 * highest * gaps, 1.35 * highest * gaps);
-    let surfaces = Panel::new(
+    let mut surfaces = Panel::new(
         "(a) plate above the wall",
         Axis::new("x", "mm").fixed(-half, half),
         Axis::new("gap", length).fixed(floor, roof),
     )
-    .layer(solid(body(floor, 0.0), Colour::STATOR))
-    .layer(solid(body(gap, gap + 0.3 * highest * gaps), Colour::ROTOR))
-    .layer(Band::new("", body(0.0, gap), Colour::FILM));
+    .layer(solid(body([-half, half], floor, 0.0), Colour::STATOR));
+    for ends in plate.spans().into_iter().map(|ends| ends.map(|x| x * 1e3)) {
+        surfaces = surfaces
+            .layer(solid(body(ends, gap, gap + 0.3 * highest * gaps), Colour::ROTOR))
+            .layer(Band::new("", body(ends, 0.0, gap), Colour::FILM));
+    }
     let ambient = plate.gas.ambient_pressure;
     let [low, high] = span(recording.pressure.iter().copied(), ambient);
     let (unit, scale) = pressure_unit(high);

@@ -153,7 +153,7 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
     let (wall, under) = (axes.py(0.0), axes.py(gap));
     film(inside, &axes, [under, wall], hold);
     let thickness = PLATE * rect.height();
-    wall_and_plate(inside, rect, [wall, under], thickness);
+    wall_and_plate(inside, &axes, &hold.plate, [wall, under], thickness);
     // Where it was before it was taken.
     let mean = axes.py(hold.plate.mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
@@ -166,7 +166,11 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
 /// The film, coloured by the pressure at mid-width.
 fn film(style: &PlotStyle, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
     let colour = colour_between(hold.pressure_range);
-    style.shaded(profile_points(hold).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
+    let points: Vec<_> = profile_points(hold).collect();
+    for [left, right] in hold.plate.spans() {
+        let there = points.iter().filter(|(x, _)| (left..=right).contains(x));
+        style.shaded(there.map(|(x, pressure)| (axes.px(*x), top, bottom, colour(*pressure))));
+    }
 }
 
 /// (x, absolute pressure) at mid-width, from end to end.
@@ -174,7 +178,8 @@ fn profile_points(hold: &HoldState) -> impl Iterator<Item = (f64, f64)> {
     let now = hold.shown();
     let across = now.y.len().max(1);
     let half = move |i: usize| (now.x[i], now.pressure[i * across]);
-    let mirrored = (1..now.x.len()).rev().map(move |i| (-half(i).0, half(i).1));
+    // A ring has no node in the middle.
+    let mirrored = (0..now.x.len()).rev().filter(|i| now.x[*i] > 0.0).map(move |i| (-half(i).0, half(i).1));
     mirrored.chain((0..now.x.len()).map(half))
 }
 

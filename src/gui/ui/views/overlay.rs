@@ -378,7 +378,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let name = "Plates along their length: point to read values";
     // Of round ones the length is the diameter.
     let round = runs.iter().all(|run| run.recording.radial);
-    let (below, lengths) = if round { ("x/diameter", "diameters") } else { ("x/length", "lengths") };
+    let (below, lengths) = if round { ("x/D", "diameters") } else { ("x/length", "lengths") };
     let below = Some(if along.alike { "x, mm" } else { below });
     let charted = Inset { name, rect: chart, bounds, below }.show(ui, &style, |plot| {
         for run in runs {

@@ -14,8 +14,9 @@ use crate::gui::ui::plot::{dots, level, line, under_pointer};
 use crate::problem::Plate;
 use crate::recording::Recording;
 use crate::recording::sample;
-use eframe::egui::{self, Color32, CursorIcon, Rect, Sense, Stroke, pos2};
+use eframe::egui::{self, Color32, CursorIcon, Rangef, Rect, Sense, Stroke, pos2};
 use egui_plot::{LineStyle, PlotResponse};
+use std::ops::RangeInclusive;
 
 const LOOP_SAMPLES: u32 = 180;
 
@@ -107,20 +108,25 @@ fn draw_gap(style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
 
     let style = &style.within(rect);
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
-    let film = Rect::from_x_y_ranges(rect.x_range(), plate..=wall);
-    style.painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
-    wall_and_plate(style, rect, [wall, plate], 0.8 * above as f32 * rect.height());
+    for [left, right] in shown.of.spans().into_iter().map(|ends| ends.map(|x| axes.px(x))) {
+        let film = Rect::from_x_y_ranges(left..=right, plate..=wall);
+        style.painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
+    }
+    wall_and_plate(style, &axes, shown.of, [wall, plate], 0.8 * above as f32 * rect.height());
     axes.cursor(style, shown.view.cursor_x);
     axes
 }
 
 /// The wall up to one height, and from another one on the plate, which keeps its thickness and moves.
-pub(super) fn wall_and_plate(style: &PlotStyle, rect: Rect, [wall, under]: [f32; 2], thickness: f32) {
-    let parts =
-        [(wall, wall..=rect.bottom(), style.palette.stator), (under, under - thickness..=under, style.palette.rotor)];
-    for (face, heights, colour) in parts {
-        style.painter.rect_filled(Rect::from_x_y_ranges(rect.x_range(), heights), 0.0, style.solid(colour));
-        style.painter.hline(rect.x_range(), face, Stroke::new(1.5, colour));
+pub(super) fn wall_and_plate(style: &PlotStyle, axes: &Axes, of: &Plate, [wall, under]: [f32; 2], thickness: f32) {
+    let part = |x: Rangef, face: f32, heights: RangeInclusive<f32>, colour: Color32| {
+        style.painter.rect_filled(Rect::from_x_y_ranges(x, heights), 0.0, style.solid(colour));
+        style.painter.hline(x, face, Stroke::new(1.5, colour));
+    };
+    part(axes.rect.x_range(), wall, wall..=axes.rect.bottom(), style.palette.stator);
+    for ends in of.spans() {
+        let [left, right] = ends.map(|x| axes.px(x));
+        part(Rangef::new(left, right), under, under - thickness..=under, style.palette.rotor);
     }
 }
 
