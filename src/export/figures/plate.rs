@@ -123,9 +123,11 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     )
     .layer(solid(body([-half, half], floor, 0.0), Colour::STATOR));
     for ends in plate.spans().into_iter().map(|ends| ends.map(|x| x * 1e3)) {
-        surfaces = surfaces
-            .layer(solid(body(ends, gap, gap + 0.3 * highest * gaps), Colour::ROTOR))
-            .layer(Band::new("", body(ends, 0.0, gap), Colour::FILM));
+        surfaces = surfaces.layer(solid(body(ends, gap, gap + 0.3 * highest * gaps), Colour::ROTOR)).layer(Band::new(
+            "",
+            body(ends, 0.0, gap),
+            Colour::FILM,
+        ));
     }
     let ambient = plate.gas.ambient_pressure;
     let [low, high] = span(recording.pressure.iter().copied(), ambient);
