@@ -208,10 +208,7 @@ fn small_amplitudes_have_the_linear_spring_and_damping() {
                 let plate = plate(sigma, 1e-4, m, aspect);
                 let found = solve(&plate, fidelity);
                 let (spring, damping) = first_harmonic(&plate, &found);
-                let exact = match aspect {
-                    None => exact::linear_strip(sigma, m),
-                    Some(aspect) => exact::linear_rectangle(sigma, m, aspect),
-                };
+                let exact = exact::linear_load(sigma, m, plate.outline());
                 let size = exact.0.hypot(exact.1);
                 let error = (spring - exact.0).hypot(damping - exact.1) / size;
                 println!("linear, aspect {aspect:?}, m = {m}, σ = {sigma}: {error:.1e}");

@@ -314,12 +314,11 @@ fn what_lessons_compute_by_hand_is_right() {
     assert!((101_325.0 * 1e-4 / 1e-6 * 1e-6 - 10.1f64).abs() < 0.05);
     // Lesson 3: where damping is greatest, and where spring and damper are equal.
     says(3, "There $D$ is at its greatest, too");
-    let (spring, damper) = exact::linear_strip(10.0, 0.0);
+    let strip = |sigma: f64| exact::linear_load(sigma, 0.0, Outline::Strip);
+    let (spring, damper) = strip(10.0);
     assert!((spring / damper - 1.0).abs() < 0.02, "{spring} {damper}");
-    let greatest = (1..2000).map(|i| f64::from(i) * 0.1).max_by(|a, b| {
-        let damping = |sigma: f64| exact::linear_strip(sigma, 0.0).1.abs();
-        damping(*a).total_cmp(&damping(*b))
-    });
+    let greatest = (1..2000).map(|i| f64::from(i) * 0.1);
+    let greatest = greatest.max_by(|a, b| strip(*a).1.abs().total_cmp(&strip(*b).1.abs()));
     assert!((greatest.unwrap() - 10.0).abs() < 0.5, "{greatest:?}");
     // Lesson 4: the trapped limit.
     says(4, "answer = 0.354");

@@ -11,7 +11,7 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::film::exact::{linear_disc, linear_rectangle, linear_ring, linear_strip, viscous_force};
+use crate::film::exact::{linear_load, viscous_force};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
 use crate::plate::first_harmonic;
@@ -149,12 +149,7 @@ pub fn crossover(outline: Outline) -> f64 {
 
 /// Spring and damping for ε → 0 at σ/Q.
 pub fn linear(effective_squeeze_number: f64, outline: Outline) -> Harmonic<f64> {
-    let (real, imaginary) = match outline {
-        Outline::Strip => linear_strip(effective_squeeze_number, 0.0),
-        Outline::Rectangle { aspect } => linear_rectangle(effective_squeeze_number, 0.0, aspect),
-        Outline::Disc => linear_disc(effective_squeeze_number, 0.0),
-        Outline::Ring { hole } => linear_ring(effective_squeeze_number, 0.0, hole),
-    };
+    let (real, imaginary) = linear_load(effective_squeeze_number, 0.0, outline);
     Harmonic { spring: -real, damping: -imaginary }
 }
 

@@ -36,15 +36,30 @@ pub fn trapped_mean_pressure(excursion: f64, knudsen: f64) -> f64 {
     psi / (1.0 - excursion * excursion).sqrt()
 }
 
-/// Amplitude of the net load of a strip of width 1 for ε → 0, divided by p_a·area·ε: tanh(κ/2)/(κ/2) − 1,
-/// κ² = iσ/(1+6m). Returns (real, imaginary): the real part is the spring, negative if it restores; the imaginary part is
-/// minus the damping, negative if it dissipates.
-pub fn linear_strip(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
-    let load = strip(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)));
+/// Amplitude of a plate's net load for ε → 0, divided by p_a·area·ε: the load at κ² = iσ/(1+6m), σ based on [`Plate::squeezed_length`]. Returns
+/// (real, imaginary): the real part is the spring, negative if it restores; the imaginary part is minus the damping, negative if it
+/// dissipates.
+pub fn linear_load(squeeze_number: f64, knudsen: f64, outline: Outline) -> (f64, f64) {
+    let square = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen));
+    let load = match outline {
+        Outline::Ring { hole } => vibrating_ring(square, hole),
+        _ => linear_response(square, outline),
+    };
     (load.re, load.im)
 }
 
-/// Load of a strip at κ², as in [`linear_strip`].
+/// The same for any κ², that of a plate which moves as e^(st) being s·σ/ω: what a film at rest answers to motion that swings, grows
+/// or dies out.
+pub fn linear_response(square: Complex<f64>, outline: Outline) -> Complex<f64> {
+    match outline {
+        Outline::Strip => strip(square),
+        Outline::Rectangle { aspect } => rectangle(square, aspect),
+        Outline::Disc => disc(square),
+        Outline::Ring { hole } => ring(square, hole),
+    }
+}
+
+/// Load of a strip at κ²: tanh(κ/2)/(κ/2) − 1.
 fn strip(square: Complex<f64>) -> Complex<f64> {
     let half = square.sqrt() * 0.5;
     tanh(half) / half - 1.0
@@ -55,17 +70,12 @@ fn tanh(z: Complex<f64>) -> Complex<f64> {
     if z.re > 20.0 { Complex::new(1.0, 0.0) } else { z.tanh() }
 }
 
-/// The same for a rectangle of length 1 along x (σ is based on it) and width `aspect` along y, by Blech's double series
-/// (ASME J. Lubrication Technology 105, 1983), summed over the index across in closed form.
-pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64, f64) {
-    // Linearised: iσ'(P₁ + 1) = ∇²P₁, P₁ = 0 on the edge, σ' = σ/(1+6m). Expand in sin nπx, n odd:
-    // P₁ = Σ (4/nπ) f_n(y) sin nπx, f_n'' − (n²π² + iσ') f_n = iσ'. Mean of f_n over y ∈ (−a/2, a/2):
-    // −iσ'/q² [1 − tanh(qa/2)/(qa/2)], q² = n²π² + iσ'. Load = Σ 8/(n²π²) ⟨f_n⟩.
-    let load = rectangle(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)), aspect);
-    (load.re, load.im)
-}
-
-/// Load of a rectangle at κ², iσ' in [`linear_rectangle`].
+/// Load of a rectangle of length 1 along x and width `aspect` along y, by Blech's double series (ASME J. Lubrication Technology 105,
+/// 1983), summed over the index across in closed form.
+///
+/// Linearised: κ²(P₁ + 1) = ∇²P₁, P₁ = 0 on the edge. Expanded in sin nπx, n odd: P₁ = Σ (4/nπ) f_n(y) sin nπx,
+/// f_n'' − (n²π² + κ²) f_n = κ². Mean of f_n over y ∈ (−a/2, a/2): −κ²/q² (1 − tanh(qa/2)/(qa/2)), q² = n²π² + κ². The load is
+/// Σ 8/(n²π²) ⟨f_n⟩.
 fn rectangle(square: Complex<f64>, aspect: f64) -> Complex<f64> {
     let mut load = Complex::new(0.0, 0.0);
     for n in (1..MOST_TERMS).step_by(2) {
@@ -83,24 +93,18 @@ fn rectangle(square: Complex<f64>, aspect: f64) -> Complex<f64> {
     load
 }
 
-/// The same for a disc, σ based on its radius: 2 I₁(κ)/(κ I₀(κ)) − 1.
-pub fn linear_disc(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
-    let load = disc(Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)));
-    (load.re, load.im)
-}
-
-/// Load of a disc at κ².
+/// Load of a disc of radius 1 at κ²: 2 I₁(κ)/(κ I₀(κ)) − 1.
 fn disc(square: Complex<f64>) -> Complex<f64> {
     let kappa = square.sqrt();
     let Bessel { i, .. } = bessel::scaled(kappa);
     i[1] / (kappa * i[0]) * 2.0 - 1.0
 }
 
-/// The same for a ring whose inner radius is `hole` times the outer one, σ based on the difference of the radii.
-pub fn linear_ring(squeeze_number: f64, knudsen: f64, hole: f64) -> (f64, f64) {
+/// Load at an imaginary κ² of a ring whose inner radius is `hole` times the outer one, and which is 1 wide.
+fn vibrating_ring(square: Complex<f64>, hole: f64) -> Complex<f64> {
     // P₁ + 1 = a I₀(κr) + b K₀(κr), 1 at both radii, whose difference is 1. ∫ r I₀ = r I₁/κ, ∫ r K₀ = −r K₁/κ; I is taken times
     // exp(−κ r_o), K times exp(κ r_i).
-    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
+    let kappa = square.sqrt();
     let radii = [hole / (1.0 - hole), 1.0 / (1.0 - hole)];
     let [inner, outer] = radii.map(|r| bessel::scaled(kappa * r));
     let across = (-kappa).exp();
@@ -109,19 +113,7 @@ pub fn linear_ring(squeeze_number: f64, knudsen: f64, hole: f64) -> (f64, f64) {
     let (a, b) = ((k[0] - k[1]) / determinant, (i[1] - i[0]) / determinant);
     let of_i = (outer.i[1] * radii[1] - inner.i[1] * across * radii[0]) / kappa;
     let of_k = (inner.k[1] * radii[0] - outer.k[1] * across * radii[1]) / kappa;
-    let load = (a * of_i + b * of_k) * 2.0 / (radii[1] * radii[1] - radii[0] * radii[0]) - 1.0;
-    (load.re, load.im)
-}
-
-/// The same for any outline and any κ², that of a plate which moves as e^(st) being s·σ/ω: what a film at rest answers to motion that swings, grows
-/// or dies out.
-pub fn linear_response(square: Complex<f64>, outline: Outline) -> Complex<f64> {
-    match outline {
-        Outline::Strip => strip(square),
-        Outline::Rectangle { aspect } => rectangle(square, aspect),
-        Outline::Disc => disc(square),
-        Outline::Ring { hole } => ring(square, hole),
-    }
+    (a * of_i + b * of_k) * 2.0 / (radii[1] * radii[1] - radii[0] * radii[0]) - 1.0
 }
 
 /// Load of a ring at κ², also where K₀ is of no use, by finite volumes in the radius: (r u')' = κ² r u, 1 at both edges.
@@ -216,7 +208,7 @@ mod tests {
         assert!((force(1.0, 1e6) / (1e6 * viscous_strip_force(2.0, 1.0, 0.3, 0.7, 0.01)) - 1.0).abs() < 1e-5);
         for aspect in [0.2, 1.0, 7.0] {
             let slow = 1e-4;
-            let damping = -linear_rectangle(slow, 0.0, aspect).1;
+            let damping = -linear_load(slow, 0.0, Outline::Rectangle { aspect }).1;
             assert!((damping / (slow / 12.0 * rectangle_to_strip(aspect)) - 1.0).abs() < 1e-6, "{aspect}");
         }
     }
@@ -225,7 +217,8 @@ mod tests {
     fn round_films_have_the_viscous_and_the_trapped_limit() {
         let near = |(a, b): (f64, f64), within: f64| (a / b - 1.0).abs() < within;
         for hole in [0.0, 0.05, 0.3, 0.9] {
-            let load = |sigma: f64| if hole == 0.0 { linear_disc(sigma, 0.0) } else { linear_ring(sigma, 0.0, hole) };
+            let outline = if hole == 0.0 { Outline::Disc } else { Outline::Ring { hole } };
+            let load = |sigma: f64| linear_load(sigma, 0.0, outline);
             let across = 1.0 / (1.0 - hole);
             // σ → 0: damping is that of the incompressible film, σ × force for 12 μ ω = 1, h = 1 over the area.
             let area = PI * across * across * (1.0 - hole * hole);
@@ -240,14 +233,15 @@ mod tests {
             );
         }
         // A thin ring is a strip.
-        let (ring, strip) = (linear_ring(20.0, 0.1, 0.999), linear_strip(20.0, 0.1));
+        let [ring, strip] =
+            [Outline::Ring { hole: 0.999 }, Outline::Strip].map(|outline| linear_load(20.0, 0.1, outline));
         assert!((ring.0 - strip.0).abs() < 1e-6 && (ring.1 - strip.1).abs() < 1e-6, "{ring:?} {strip:?}");
     }
 
     #[test]
     fn a_strip_at_any_squeeze_number_has_its_limit() {
         for sigma in [1e5, 1e7, 1e13] {
-            let (load, layer) = (linear_strip(sigma, 0.0), (2.0 / sigma).sqrt());
+            let (load, layer) = (linear_load(sigma, 0.0, Outline::Strip), (2.0 / sigma).sqrt());
             assert!((load.0 + 1.0 - layer).abs() < 1e-6 * layer && (load.1 + layer).abs() < 1e-6 * layer, "{load:?}");
         }
     }
@@ -255,13 +249,11 @@ mod tests {
     #[test]
     fn the_response_to_any_motion_is_that_to_a_vibration_and_to_a_decay() {
         for sigma in [0.3, 20.0, 900.0] {
-            let vibrating = |outline: Outline| linear_response(Complex::new(0.0, sigma), outline);
             for hole in [0.02, 0.4, 0.97] {
-                let (exact, found) = (linear_ring(sigma, 0.0, hole), vibrating(Outline::Ring { hole }));
-                assert!((found - Complex::new(exact.0, exact.1)).norm() < 2e-4 * found.norm(), "{found} {exact:?}");
+                let square = Complex::new(0.0, sigma);
+                let (exact, found) = (vibrating_ring(square, hole), ring(square, hole));
+                assert!((found - exact).norm() < 2e-4 * found.norm(), "{found} {exact}");
             }
-            let (exact, found) = (linear_disc(sigma, 0.0), vibrating(Outline::Disc));
-            assert_eq!((found.re, found.im), exact);
         }
         // Dying out, a strip's pressure is a cosine, tan(q/2)/(q/2) in the mean; so is a thin ring's and a long rectangle's.
         for q in [0.5f64, 2.0, 3.0] {
@@ -283,8 +275,8 @@ mod tests {
     #[test]
     fn a_very_wide_rectangle_is_a_strip() {
         for sigma in [0.1, 10.0, 1000.0] {
-            let strip = linear_strip(sigma, 0.0);
-            let wide = linear_rectangle(sigma, 0.0, 1e7);
+            let [strip, wide] =
+                [Outline::Strip, Outline::Rectangle { aspect: 1e7 }].map(|outline| linear_load(sigma, 0.0, outline));
             assert!((strip.0 - wide.0).abs() < 1e-6 && (strip.1 - wide.1).abs() < 1e-6, "{strip:?} {wide:?}");
         }
     }
@@ -292,7 +284,8 @@ mod tests {
     #[test]
     fn a_rectangle_looks_the_same_from_both_sides() {
         // Swapping length and width rescales σ by aspect².
-        let (a, b) = (linear_rectangle(20.0, 0.1, 0.4), linear_rectangle(20.0 * 0.16, 0.1, 2.5));
+        let load = |sigma: f64, aspect: f64| linear_load(sigma, 0.1, Outline::Rectangle { aspect });
+        let (a, b) = (load(20.0, 0.4), load(20.0 * 0.16, 2.5));
         assert!((a.0 - b.0).abs() < 1e-6 && (a.1 - b.1).abs() < 1e-6, "{a:?} {b:?}");
     }
 }
