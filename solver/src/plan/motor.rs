@@ -1,7 +1,7 @@
 //! The plan of a motor.
 
 use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
-use super::reduction::{flow, time, wedge};
+use super::reduction::{crown, flow, time, wedge};
 use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, most_harmonics, name};
 use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
@@ -96,8 +96,7 @@ impl Plan {
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
         let sharp = 1.0 / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));
-        let crown = motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width.powi(2) / (8.0 * radius));
-        let crowned = crown / (crown + 0.1 * motor.min_spacing);
+        let crowned = crown(motor) / (crown(motor) + 0.1 * motor.min_spacing);
         let ample = (motor.normal_amplitude / motor.min_spacing / AMPLE[0]).ln() / (AMPLE[1] / AMPLE[0]).ln();
         let irregular = 1.0
             + (IRREGULAR - 1.0) * if rotor.dips() { 1.0 } else { sharp }

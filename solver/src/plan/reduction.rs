@@ -61,11 +61,7 @@ pub(super) fn wedge(
     }
     Reduction {
         choices: [Wedge::On, Wedge::Off].map(Choice::Wedge),
-        asked: match numerics.wedge {
-            Wedge::Auto => None,
-            Wedge::On => Some(false),
-            Wedge::Off => Some(true),
-        },
+        asked: (numerics.wedge != Wedge::Auto).then_some(numerics.wedge == Wedge::Off),
         effect: wedge_effect(numbers, motor, rotor),
         unresolved: upwinding(numbers, motor, along),
         number: numbers.bearing_to_squeeze,
@@ -85,11 +81,7 @@ pub(super) fn time(
     let rough = if motor.surface.flow.is_some() { 1.0 } else { 0.0 };
     Reduction {
         choices: [Time::March, Time::Trapped].map(Choice::Time),
-        asked: match numerics.time {
-            Time::Auto => None,
-            Time::March => Some(false),
-            Time::Trapped => Some(true),
-        },
+        asked: (numerics.time != Time::Auto).then_some(numerics.time == Time::Trapped),
         effect: leaks(motor, layer, active_length(motor))
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
@@ -121,11 +113,7 @@ pub(super) fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, 
     };
     Reduction {
         choices: [Flow::Plane, if along { Flow::Along } else { Flow::Across }].map(Choice::Flow),
-        asked: match numerics.flow {
-            Flow::Auto => None,
-            Flow::Plane => Some(false),
-            Flow::Across | Flow::Along => Some(true),
-        },
+        asked: (numerics.flow != Flow::Auto).then_some(numerics.flow != Flow::Plane),
         effect: if along { sides } else { ends },
         unresolved: 0.0,
         number: layer / if along { motor.contact_width } else { motor.tooth_width },
@@ -229,7 +217,7 @@ fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
 }
 
 /// Height of a tooth's crown above its ends \[m\].
-fn crown(motor: &Motor) -> f64 {
+pub(super) fn crown(motor: &Motor) -> f64 {
     motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width * motor.tooth_width / (8.0 * radius))
 }
 
