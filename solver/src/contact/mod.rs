@@ -368,18 +368,14 @@ impl Contact {
         };
         // Where the rotor would just touch, and a step to either side that is doubled until it brackets.
         let touch = base.iter().fold(f64::NEG_INFINITY, |top, b| top.max(-b));
-        let mut reach = self.min_spacing;
-        let mut low = touch - reach;
-        while force(low) < self.load && reach < 1e3 {
-            reach *= 2.0;
-            low = touch - reach;
-        }
-        reach = self.min_spacing;
-        let mut high = touch + reach;
-        while force(high) > self.load && reach < 1e3 {
-            reach *= 2.0;
-            high = touch + reach;
-        }
+        let end = |side: f64| {
+            let mut reach = side * self.min_spacing;
+            while side * force(touch + reach) > side * self.load && reach.abs() < 1e3 {
+                reach *= 2.0;
+            }
+            touch + reach
+        };
+        let (mut low, mut high) = (end(-1.0), end(1.0));
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
             if middle == low || middle == high {
