@@ -237,8 +237,8 @@ impl Lines {
     /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced from one
     /// tooth's edge to the next one's, the last ones beyond the wavelength.
     ///
-    /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the harmonics of contact and film. z₀ is
-    /// what is left at the edges of the two teeth, where the whole height is known.
+    /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the
+    /// harmonics of contact and film. z₀ is what is left at the edges of the two teeth, where the whole height is known.
     pub fn grooves(&self, recording: &Recording, points: usize) -> Vec<Vec<[f64; 2]>> {
         let (teeth, length) = (recording.teeth, recording.length);
         let Some(reach) = recording.x.last().copied().filter(|_| length > 0.0) else { return vec![Vec::new(); teeth] };
@@ -247,17 +247,7 @@ impl Lines {
         let local = rotor.beyond(HARMONICS);
         let load = |k: usize| self.contact[k] + self.film[k];
         let at = |tooth: usize, i: usize| tooth as f64 * recording.pitch + recording.x[i];
-        // Amplitudes of cosines and sines, each harmonic's angle turned on from the one before.
-        let mut harmonics = vec![[0.0; 2]; HARMONICS];
-        for tooth in 0..teeth {
-            for (i, k) in self.of(tooth).enumerate().filter(|(_, k)| load(*k) != 0.0) {
-                let force = load(k) * recording.node_length[i] * 2.0 / length;
-                turned(wave * at(tooth, i), &mut harmonics, |[a, b], cos, sin| {
-                    *a += force * cos;
-                    *b += force * sin;
-                });
-            }
-        }
+        let mut harmonics = recording.harmonics(HARMONICS, |tooth, i| load(self.of(tooth).start + i));
         for (n, amplitude) in harmonics.iter_mut().enumerate() {
             let smooth = rotor.harmonic(n + 1) - local;
             *amplitude = amplitude.map(|q| smooth * q);
@@ -297,24 +287,31 @@ fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64
 }
 
 impl Recording {
+    /// Amplitudes of cosine and sine of the first `count` harmonics of a line load, in its unit, given at each node of each tooth.
+    fn harmonics(&self, count: usize, load: impl Fn(usize, usize) -> f64) -> Vec<[f64; 2]> {
+        let mut harmonics = vec![[0.0; 2]; count];
+        for (tooth, i) in (0..self.teeth).flat_map(|tooth| (0..self.x.len()).map(move |i| (tooth, i))) {
+            let force = load(tooth, i) * self.node_length[i] * 2.0 / self.length;
+            turned(TAU / self.length * (tooth as f64 * self.pitch + self.x[i]), &mut harmonics, |[a, b], cos, sin| {
+                *a += force * cos;
+                *b += force * sin;
+            });
+        }
+        harmonics
+    }
+
     /// Adds to the errors of the least film thickness what the rotor is deflected by in harmonics of the load from the one `first` on, which
     /// were left out: those of up to twice that, and up to half a pitch.
     pub fn judge_short_waves(&mut self, first: usize) {
         let last = 2 * first.max(self.teeth);
-        let (wave, limit) = (TAU / self.length, self.rotor.beyond(last));
+        let limit = self.rotor.beyond(last);
         let smooth = |n: usize| if n < first { 0.0 } else { self.rotor.harmonic(n) - limit };
         let smooth: Vec<f64> = (1..=last).map(smooth).collect();
-        let nodes = self.x.len();
         for frame in 0..self.frames.min(self.min_film_thickness_error.len()) {
-            let mut harmonics = vec![[0.0; 2]; last];
-            for (tooth, i) in (0..self.teeth).flat_map(|tooth| (0..nodes).map(move |i| (tooth, i))) {
+            let harmonics = self.harmonics(last, |tooth, i| {
                 let k = self.line_offset(tooth, frame) + i;
-                let force = (self.contact[k] + self.film[k]) * self.node_length[i] * 2.0 / self.length;
-                turned(wave * (tooth as f64 * self.pitch + self.x[i]), &mut harmonics, |[a, b], cos, sin| {
-                    *a += force * cos;
-                    *b += force * sin;
-                });
-            }
+                self.contact[k] + self.film[k]
+            });
             let deflections = harmonics.iter().zip(&smooth).map(|([a, b], smooth)| smooth.abs() * a.hypot(*b));
             self.min_film_thickness_error[frame] += deflections.sum::<f64>();
         }
