@@ -35,6 +35,12 @@ pub(super) enum Stop {
     Failed(MotorError),
 }
 
+impl From<MotorError> for Stop {
+    fn from(error: MotorError) -> Self {
+        Self::Failed(error)
+    }
+}
+
 impl From<Interrupted> for Stop {
     fn from(interrupted: Interrupted) -> Self {
         match interrupted {

@@ -256,15 +256,18 @@ impl MotorLevel {
                     }
                 }
             }
-            let stator = &self.stator[s * nodes..(s + 1) * nodes];
-            let iterations = self
-                .contact
-                .solve(stator, &gathered, &mut self.shapes[s], &mut fields)
-                .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
-            stats.contact_solves += 1;
-            stats.contact_iterations += u64::from(iterations);
-            self.keep(s, &fields);
+            self.meet(s, &gathered, &mut fields, stats)?;
         }
+        Ok(())
+    }
+
+    /// Solves the contact problem of instant `s` with the gas ζ at the nodes, and keeps what it finds.
+    fn meet(&mut self, s: usize, gas: &[f64], fields: &mut Instant, stats: &mut Stats) -> Result<(), Stop> {
+        let stator = &self.stator[s * gas.len()..(s + 1) * gas.len()];
+        let solved = self.contact.solve(stator, gas, &mut self.shapes[s], fields);
+        stats.contact_iterations += u64::from(solved.map_err(|source| MotorError::Contact { instant: s, source })?);
+        stats.contact_solves += 1;
+        self.keep(s, fields);
         Ok(())
     }
 
@@ -288,7 +291,7 @@ impl MotorLevel {
             }
             contact
                 .solve(&self.stator[s * nodes..(s + 1) * nodes], &nothing, &mut shape, &mut fields)
-                .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
+                .map_err(|source| MotorError::Contact { instant: s, source })?;
             self.keep(s, &fields);
         }
         Ok(())
@@ -300,8 +303,7 @@ impl MotorLevel {
         let (nx, size) = (self.nx, self.steps * self.nx);
         let lines = self.film_thickness.chunks_exact(size).zip(self.line.chunks_exact_mut(size));
         for ((gaps, lines), (film, state)) in lines.zip(self.films.iter_mut().zip(&mut self.states)) {
-            let failed = |source| Stop::Failed(MotorError::Film { step: 0, source });
-            let trapped = trapped_film.solve(gaps).map_err(failed)?;
+            let trapped = trapped_film.solve(gaps).map_err(|source| MotorError::Film { step: 0, source })?;
             stats.film_solves += 1;
             state.trapped.copy_from_slice(trapped);
             state.carried.copy_from_slice(trapped);

@@ -211,15 +211,11 @@ impl GridSolver for Search<'_> {
         let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
         let mut level = MotorLevel::new(motor, plan, grid);
         if self.marching {
-            let started = match start {
-                Some(other) => {
-                    level.march_on_from(other);
-                    Ok(())
-                }
-                None => level.rest().map_err(Stop::Failed),
-            };
-            let cancel = self.cancel.within_budget();
-            let settled = started.and_then(|()| level.settle(plan, self.stats, &mut report, &cancel));
+            match start {
+                Some(other) => level.march_on_from(other),
+                None => level.rest()?,
+            }
+            let settled = level.settle(plan, self.stats, &mut report, &self.cancel.within_budget());
             return Ok((unless_cancelled(settled)?.unwrap_or(Status::Cancelled), level));
         }
         match start {

@@ -152,15 +152,8 @@ impl MotorLevel {
             for (i, x) in inside.iter().zip(&x) {
                 present[*i] = x.exp();
             }
-            let stator = &self.stator[m * nodes..(m + 1) * nodes];
-            let iterations = self
-                .contact
-                .solve(stator, &present, &mut self.shapes[m], &mut fields)
-                .map_err(|source| Stop::Failed(MotorError::Contact { instant: m, source }))?;
-            stats.contact_solves += 1;
-            stats.contact_iterations += u64::from(iterations);
+            self.meet(m, &present, &mut fields, stats)?;
             stats.coupling_iterations += 1;
-            self.keep(m, &fields);
             for tooth in 0..teeth {
                 let here = line(tooth, m)..line(tooth, m) + nx;
                 let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
@@ -168,7 +161,7 @@ impl MotorLevel {
                 let speed = self.speed.as_ref().map(|u| &u[here.clone()]);
                 *stats += self.films[tooth]
                     .advance(m, gap, speed, self.dt, &mut self.states[tooth], &mut self.line[here])
-                    .map_err(|source| Stop::Failed(MotorError::Film { step: m, source }))?;
+                    .map_err(|source| MotorError::Film { step: m, source })?;
             }
             for (i, image) in inside.iter().zip(&mut image) {
                 *image = self.line[line(i / nx, m) + i % nx].ln();
