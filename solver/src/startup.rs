@@ -2,7 +2,8 @@
 //!
 //! At t = 0 the wave stands still at its full amplitude, pressed against the rotor, and the gas is at ambient pressure; then it
 //! travels. Every tooth is marched and nothing is accelerated, because the way is the result. A plate is at rest at its mean gap and
-//! moves away from the wall first; its first cycle begins a quarter of a period later, where the gap is widest. It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
+//! moves away from the wall first; its first cycle begins a quarter of a period later, where the gap is widest. It ends where the periodic
+//! solve, which is made first, says: `tests/startup.rs` compares the two.
 //!
 //! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next. How exact a
 //! start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The way is marched to its end on the grids
@@ -202,19 +203,16 @@ struct Way<'a> {
     problem: &'a Problem,
     settings: &'a Settings,
     each: &'a mut dyn FnMut(Cycle),
-    steady: Option<Estimate>,
+    /// What is known of it so far.
+    found: Startup,
     /// Reference for relative errors, α or N: the greatest headline of any cycle, that of the periodic state included.
     unit: f64,
     /// Reference from the periodic state alone; 0 if it is not known.
     steady_unit: f64,
     /// Stated error of each cycle's headline, absolute, and what of it finer grids would leave.
     errors: Vec<(f64, f64)>,
-    status: Status,
-    outcome: Outcome,
-    remaining: f64,
     /// Largest residual of a step that did not settle, and what was allowed.
     unsettled: Option<(f64, f64)>,
-    stats: Stats,
 }
 
 impl<'a> Way<'a> {
@@ -224,9 +222,9 @@ impl<'a> Way<'a> {
         periodic: Option<&Solution>,
         each: &'a mut dyn FnMut(Cycle),
     ) -> Self {
-        let nothing = match problem.scenario {
-            Scenario::Motor(_) => Outcome::Motor(Default::default()),
-            Scenario::Plate(_) => Outcome::Plate(Default::default()),
+        let (nothing, warnings) = match &problem.scenario {
+            Scenario::Motor(motor) => (Outcome::Motor(Default::default()), motor.compliance_not_covered()),
+            Scenario::Plate(_) => (Outcome::Plate(Default::default()), None),
         };
         let unit = match periodic.map_or(nothing, |periodic| periodic.outcome) {
             Outcome::Motor(result) => motor::unit(result.alpha.value),
@@ -235,26 +233,21 @@ impl<'a> Way<'a> {
             }
         };
         let converged = periodic.filter(|periodic| periodic.status == Status::Converged);
-        Self {
-            problem,
-            settings,
-            each,
-            steady: converged.map(|periodic| headline(&periodic.outcome)),
-            unit,
-            steady_unit: if periodic.is_some() { unit } else { 0.0 },
-            errors: Vec::new(),
+        let found = Startup {
             status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
             outcome: nothing,
-            remaining: f64::INFINITY,
-            unsettled: None,
-            stats: Stats::default(),
-        }
+            steady: converged.map(|periodic| headline(&periodic.outcome)),
+            warnings: warnings.into_iter().collect(),
+            ..Startup::cancelled()
+        };
+        let steady_unit = if periodic.is_some() { unit } else { 0.0 };
+        Self { problem, settings, each, found, unit, steady_unit, errors: Vec::new(), unsettled: None }
     }
 
     /// Marches from rest by `plan`: to the end, or so many cycles `again`. Whether it was cut short.
     fn march(&mut self, plan: &Plan, again: Option<usize>, cancel: &Cancel) -> Result<bool, SolveError> {
         let _taken = memory::take(need(self.problem, plan, self.settings.kept), cancel)?;
-        let mut stats = self.stats;
+        let mut stats = self.found.stats;
         let mut transient = SceneTransient::at_rest(self.problem, plan, self.unit, &mut stats, cancel)?;
         if again.is_none() {
             self.errors.clear();
@@ -265,7 +258,7 @@ impl<'a> Way<'a> {
         let again = again.filter(|cycles| *cycles < self.errors.len());
         for number in 1..=again.unwrap_or(self.settings.cycles) {
             let turned = transient.cycle(&mut stats, cancel)?;
-            self.stats = stats;
+            self.found.stats = stats;
             let Some(TransientCycle { outcome, recording, change, elsewhere, unsettled }) = turned else {
                 return Ok(true);
             };
@@ -283,7 +276,7 @@ impl<'a> Way<'a> {
             } else {
                 f64::INFINITY
             };
-            let towards = self.steady.filter(|_| number > 1).map_or(0.0, |steady| {
+            let towards = self.found.steady.filter(|_| number > 1).map_or(0.0, |steady| {
                 let (moving, left) = (value - before, steady.value - value);
                 // A motor may have two states, and come to rest in the other one.
                 let motor = matches!(self.problem.scenario, Scenario::Motor(_));
@@ -301,8 +294,8 @@ impl<'a> Way<'a> {
                 self.errors[number - 1] = error;
             }
             if number == self.errors.len() {
-                (self.outcome, self.remaining) = (outcome, remaining);
-                self.status = Status::NotConverged { residual: remaining, tolerance };
+                (self.found.outcome, self.found.remaining) = (outcome, remaining);
+                self.found.status = Status::NotConverged { residual: remaining, tolerance };
             }
             let recording = Recording { transient: true, ..recording };
             (self.each)(Cycle { number, outcome, change, remaining, recording });
@@ -310,8 +303,8 @@ impl<'a> Way<'a> {
                 break;
             }
         }
-        if self.remaining < tolerance {
-            self.status = Status::Converged;
+        if self.found.remaining < tolerance {
+            self.found.status = Status::Converged;
         }
         Ok(false)
     }
@@ -329,21 +322,12 @@ impl<'a> Way<'a> {
     fn end(self, plan: &Plan, stopped: bool, cancel: &Cancel) -> Startup {
         let worst = if self.errors.is_empty() { f64::INFINITY } else { self.worst() };
         let unsettled = self.unsettled.map(|(residual, tolerance)| Status::NotConverged { residual, tolerance });
-        let status = if stopped { Status::Cancelled } else { unsettled.unwrap_or(self.status) };
-        let warnings = match &self.problem.scenario {
-            Scenario::Motor(motor) => motor.compliance_not_covered().into_iter().collect(),
-            Scenario::Plate(_) => Vec::new(),
-        };
         Startup {
-            status,
+            status: if stopped { Status::Cancelled } else { unsettled.unwrap_or(self.found.status) },
             cycles: self.errors.len(),
-            outcome: self.outcome,
-            remaining: self.remaining,
             accuracy: accuracy(plan, worst, self.unit, cancel),
-            steady: self.steady,
-            stats: self.stats,
             decisions: plan.decisions.clone(),
-            warnings,
+            ..self.found
         }
     }
 }
