@@ -20,6 +20,7 @@ use crate::estimate::extrapolate;
 use crate::film::grid::FilmGrid;
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::stepper::{Film, FilmError, FilmState};
+use crate::numerics::bessel::ZERO_OF_J0;
 use crate::plan::{Grid, Plan};
 use crate::plate::film_grid;
 use crate::problem::{GRAVITY, Outline, Plate};
@@ -42,8 +43,6 @@ const STEPS_IN_CYCLE: f64 = 96.0;
 const SHARE_OF_BOUNCE: f64 = 0.1;
 /// Cycles within which the vibration comes up, or ends.
 const RAMP: f64 = 4.0;
-/// First zero of the Bessel function J₀.
-const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
 
 /// Instantaneous state of a held plate, as shown to the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -15,6 +15,9 @@ pub struct Bessel {
     pub k: [Complex<f64>; 2],
 }
 
+/// First zero of the Bessel function J₀.
+pub const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
+
 /// Largest |z| of the series.
 const SMALL: f64 = 25.0;
 /// Step of the trapezoidal rule, and the exponent beyond which its integrand is nothing.

@@ -22,6 +22,7 @@ use crate::estimate::Estimate;
 use crate::film::exact::{linear_response, viscous_force};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
+use crate::numerics::bessel::ZERO_OF_J0;
 use crate::problem::{GRAVITY, Outline, Plate};
 use crate::solution::{Floating, SlowMotion};
 use nalgebra::Complex;
@@ -29,8 +30,6 @@ use std::f64::consts::{PI, TAU};
 
 /// Samples of a cycle.
 const SAMPLES: usize = 256;
-/// First zero of the Bessel function J₀.
-const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
 /// Share of S (1 − S) of what the two dampings differ by that is error.
 const MIXED: f64 = 0.5;
 /// Least share of a push that creeps back slowly enough to be told.
