@@ -18,21 +18,17 @@ struct Table {
 const STEP: f64 = 1.0 / 64.0;
 const LAST: f64 = 38.0;
 
-static ONE: LazyLock<Table> = LazyLock::new(|| Table::new(2));
-static THREE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(3));
-static FIVE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(5));
+/// One for each [`Order`].
+static TABLES: [LazyLock<Table>; 3] =
+    [LazyLock::new(|| Table::new(2)), LazyLock::new(|| Table::new(3)), LazyLock::new(|| Table::new(5))];
 
 fn moment(order: Order, u: f64) -> (f64, f64) {
-    match order {
-        Order::One => ONE.at(u),
-        Order::ThreeHalves => THREE_HALVES.at(u),
-        Order::FiveHalves => FIVE_HALVES.at(u),
-    }
+    TABLES[order as usize].at(u)
 }
 
 /// F₁(u) and its derivative, u ≥ 0: what the mean gap exceeds the separation by.
 pub(super) fn mean_excess(u: f64) -> (f64, f64) {
-    let (log, slope) = ONE.at(u);
+    let (log, slope) = moment(Order::One, u);
     let value = log.exp();
     (value, value * slope)
 }
