@@ -162,9 +162,26 @@ fn radio(window: &mut Window, choice: &lessons::Choice) {
     window.run_steps(3);
 }
 
-/// Goes to the next step, whatever is still to be done in this one.
-fn go_on(window: &mut Window) {
-    window.press(Key::PageDown);
+/// Goes on by so many steps, whatever is still to be done in them.
+fn go_on(window: &mut Window, steps: usize) {
+    for _ in 0..steps {
+        window.press(Key::PageDown);
+    }
+}
+
+/// The step on screen, once its scene is solved and its question answered.
+fn predicted(window: &mut Window) -> Step {
+    let (_, step) = step(window);
+    solved(window);
+    predict(window, &step);
+    step
+}
+
+/// The window of whoever closes it and opens it again.
+fn restarted(mut window: Window) -> Window {
+    let memory = left(&mut window);
+    drop(window);
+    window_with(memory)
 }
 
 /// Asks for all hints, and then to be shown how.
@@ -366,7 +383,7 @@ fn what_is_lit_is_seen_and_its_group_opens() {
     assert!(window.query_by_role_and_label(Role::ComboBox, "Slip at the walls").is_none(), "the group is closed");
     open(&mut window, "Thin gaps and slip");
     for _ in 0..2 {
-        go_on(&mut window);
+        go_on(&mut window, 1);
         window.run_steps(20);
     }
     window.get_by_role_and_label(Role::ComboBox, "Slip at the walls");
@@ -395,7 +412,7 @@ fn leaving_brings_the_students_scene_back_with_its_history() {
     assert_ne!(window.known().document.scene(), &own);
     window.type_into("Frequency in kHz", "3");
     assert!(!window.known().document.is_dirty(), "what a lesson lends is never unsaved");
-    go_on(&mut window);
+    go_on(&mut window, 1);
     window.click_on("Leave");
     assert_eq!(window.known().document.scene(), &own);
     assert!(window.known().document.is_dirty());
@@ -433,8 +450,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     window.click_on("Skip the tour");
     window.type_into("Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    go_on(&mut window);
-    go_on(&mut window);
+    go_on(&mut window, 2);
     let progress = window.known().lessons.progress_text();
     let memory = left(&mut window);
     assert_eq!(memory.0["unsaved"], "true");
@@ -483,10 +499,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     assert!(window.known().lessons.tour.is_none());
     assert_eq!((window.known().lessons.running.as_ref().unwrap().lesson, step(&window).0), (0, 0));
     window.click_on("Leave");
-    let memory = left(&mut window);
-    drop(window);
-
-    let mut window = window_with(memory);
+    let mut window = restarted(window);
     window.run_steps(3);
     assert!(titles.iter().all(|title| window.query_by_label(title).is_none()), "only once");
     // Where the callout stands depends on what is there to be shown.
@@ -508,9 +521,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
 fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
     let mut window = window("fundamental");
     open(&mut window, "Why the mean force");
-    for _ in 0..5 {
-        go_on(&mut window);
-    }
+    go_on(&mut window, 5);
     let (_, step) = step(&window);
     assert!(step.task.as_ref().unwrap().too_far.is_some());
     solved(&mut window);
@@ -539,9 +550,7 @@ fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
 fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
     let mut window = window("fundamental");
     open(&mut window, "A travelling wave");
-    for _ in 0..4 {
-        go_on(&mut window);
-    }
+    go_on(&mut window, 4);
     solved(&mut window);
     let compared = |window: &Window| {
         let state = window.known();
@@ -554,7 +563,7 @@ fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
     assert_eq!(compared(&window), Some(first));
     assert!(window.shows("About: at first"));
     // The next step begins anew.
-    go_on(&mut window);
+    go_on(&mut window, 1);
     solved(&mut window);
     assert_eq!(compared(&window), None);
 }
@@ -571,29 +580,21 @@ fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
     window.click_on("Skip");
     let lessons_state = &window.known().lessons;
     assert!(lessons_state.running.as_ref().unwrap().work[0].is_skipped(&first));
-    for _ in 0..5 {
-        go_on(&mut window);
-    }
+    go_on(&mut window, 5);
     assert!(window.shows("What you found") && window.shows("4 steps were skipped"));
     assert!(window.shows("1 of 10 points"));
-    let memory = left(&mut window);
-    drop(window);
-    let mut window = window_with(memory);
+    let mut window = restarted(window);
     window.run_steps(2);
     window.click_on("Lessons");
     window.get_by_label_contains("2 of 6 done");
     window.click_part("Pushing on trapped air");
     assert!(work(&window).committed && !work(&window).fulfilled && window.shows("Prediction made"));
     // Once more from the start, with nothing answered.
-    for _ in 0..6 {
-        go_on(&mut window);
-    }
+    go_on(&mut window, 6);
     window.click_on("Take it again");
     assert_eq!((step(&window).0, work(&window)), (0, StepWork::default()));
     // The next lesson is what is lit at the end.
-    for _ in 0..6 {
-        go_on(&mut window);
-    }
+    go_on(&mut window, 6);
     window.press(Key::Enter);
     assert_eq!(window.known().lessons.running.as_ref().unwrap().lesson, 1);
 }
@@ -636,28 +637,25 @@ fn the_keyboard_alone_walks_the_first_lesson() {
     let mut window = window::preset("fundamental", 1700.0, Platform { now: slow_clock, ..platform() });
     window.state_mut().updater.follow(Link::Lesson { lesson: 1, step: 1 });
     solved(&mut window);
-    let press = |window: &mut Window, key: Key| {
-        window.press(key);
-    };
     let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
     while window.known().lessons.step().is_some() {
         let (number, step) = step(&window);
         solved(&mut window);
         if let Some(question) = &step.question {
             match &question.answer {
-                lessons::Answer::Choice { right, .. } => press(&mut window, keys[*right]),
+                lessons::Answer::Choice { right, .. } => window.press(keys[*right]),
                 lessons::Answer::Number { value, .. } => {
-                    press(&mut window, Key::Enter);
+                    window.press(Key::Enter);
                     window.run_steps(20);
                     // While it is typed into, it is a text field.
                     let field = window.get_by_label("Your number");
                     assert!(field.is_focused());
                     field.type_text(&value.to_string());
                     window.step();
-                    press(&mut window, Key::Enter);
+                    window.press(Key::Enter);
                 }
             }
-            press(&mut window, Key::Enter);
+            window.press(Key::Enter);
             assert!(work(&window).committed, "{}", step.title);
         }
         if let Some(task) = &step.task {
@@ -669,13 +667,13 @@ fn the_keyboard_alone_walks_the_first_lesson() {
                     }
                 }
                 [(_, value), ..] => {
-                    press(&mut window, Key::Enter);
+                    window.press(Key::Enter);
                     window.run_steps(20);
                     let field = labels::field_name(step.light[0]);
                     assert!(window.get_by_role_and_label(Role::TextInput, &field).is_focused(), "{field}");
                     window.get_by_role_and_label(Role::TextInput, &field).type_text(value);
                     window.step();
-                    press(&mut window, Key::Enter);
+                    window.press(Key::Enter);
                 }
             }
             until(&mut window, &step.title, |app| {
@@ -687,14 +685,14 @@ fn the_keyboard_alone_walks_the_first_lesson() {
             else {
                 continue;
             };
-            press(&mut window, keys[*right]);
+            window.press(keys[*right]);
             // Whoever presses Enter after every answer reads what is told all the same.
-            press(&mut window, Key::Enter);
+            window.press(Key::Enter);
             assert_eq!(window.known().lessons.running.as_ref().unwrap().step, number, "{}", step.title);
             SKIPPED.fetch_add(1000, Relaxed);
         }
         assert_eq!(stage(&window), Stage::Told, "{}", step.title);
-        press(&mut window, Key::Enter);
+        window.press(Key::Enter);
         window.run_steps(5);
     }
     let running = window.known().lessons.running.as_ref().unwrap();
@@ -708,9 +706,7 @@ fn enter_leads_to_a_list_and_to_a_button_that_are_marked() {
     {
         let mut window = window("fundamental");
         window.state_mut().updater.follow(Link::Lesson { lesson, step: number });
-        solved(&mut window);
-        let (_, step) = step(&window);
-        predict(&mut window, &step);
+        let step = predicted(&mut window);
         window.press(Key::Enter);
         window.run_steps(20);
         assert!(window.get_by_role_and_label(role, name).is_focused(), "{}", step.title);
@@ -753,21 +749,20 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     window.state_mut().updater.follow(Link::Lesson { lesson: place + 1, step: 2 });
     window.run_steps(4);
     assert!(window.shows("As it was."));
-    write(folder.path(), "mine", &two.replace("As it was.", "As it is."));
-    window.key_press(Key::F5);
-    window.run_steps(6);
+    let read_again = |window: &mut Window, words: &str| {
+        write(folder.path(), "mine", &two.replace("As it was.", words));
+        window.key_press(Key::F5);
+        window.run_steps(6);
+    };
+    read_again(&mut window, "As it is.");
     assert!(step(&window).0 == 1 && window.shows("As it is."));
     // A picture beside the text, and one that is not there.
     let mut encoder = png::Encoder::new(std::fs::File::create(folder.path().join("mine/a.png")).unwrap(), 3, 2);
     encoder.set_color(png::ColorType::Rgb);
     encoder.write_header().unwrap().write_image_data(&[99; 18]).unwrap();
-    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](a.png)"));
-    window.key_press(Key::F5);
-    window.run_steps(6);
+    read_again(&mut window, "![A grey square](a.png)");
     assert!(window.query_by_role_and_label(Role::Image, "A grey square").is_some());
-    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](b.png)"));
-    window.key_press(Key::F5);
-    window.run_steps(6);
+    read_again(&mut window, "![A grey square](b.png)");
     window.get_by_label_contains("picture b.png: there is no such file beside lesson.md");
     window.click_on("Close");
     // A place that is not there is named.
@@ -795,9 +790,6 @@ fn the_glossary_is_searched() {
 
 #[test]
 fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
-    let escape = |window: &mut Window| {
-        window.press(Key::Escape);
-    };
     let mut window = window("plate-crossover");
     solved(&mut window);
     let glossary = |window: &mut Window| {
@@ -809,7 +801,7 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     glossary(&mut window);
     window.get_by_role_and_label(Role::TextInput, "Search").type_text("spring");
     window.run_steps(3);
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.known().lessons.glossary.is_none());
 
     // A text that is being typed elsewhere goes first, and so does a menu.
@@ -818,13 +810,13 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     window.run_steps(2);
     window.get_by_role_and_label(Role::TextInput, "Frequency in kHz").type_text("7");
     window.run_steps(2);
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.known().lessons.glossary.is_some());
     for (menu, entry) in [("Lessons", "Open a folder of lessons"), ("Presets", "Plate, viscous")] {
         window.click_on(menu);
         window.run_steps(5);
         assert!(window.shows(entry), "{menu}");
-        escape(&mut window);
+        window.press(Key::Escape);
         window.run_steps(10);
         assert!(!window.shows(entry), "{menu}");
         assert!(window.known().lessons.glossary.is_some(), "{menu}");
@@ -835,19 +827,19 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     window.click_part("Take the tour");
     window.press(Key::F1);
     window.get_by_label("Keyboard shortcuts");
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
     assert!(window.known().lessons.tour.is_some());
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.known().lessons.tour.is_none() && window.known().lessons.glossary.is_some());
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.known().lessons.glossary.is_none());
 
     // A question, an error, a path to type.
     window.click_on("File");
     window.click_part("Open or save by path");
     window.get_by_role_and_label(Role::TextInput, "Path");
-    escape(&mut window);
+    window.press(Key::Escape);
     assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
 }
 
@@ -896,9 +888,7 @@ fn the_example_of_the_documentation_is_a_lesson_that_works() {
     assert_eq!(example, GOOD);
     let mut window = window("fundamental");
     open_own(&mut window, GOOD, "A lesson of my own");
-    let (_, step) = step(&window);
-    solved(&mut window);
-    predict(&mut window, &step);
+    predicted(&mut window);
     show_me(&mut window);
     solved(&mut window);
     assert!(work(&window).fulfilled);
@@ -917,9 +907,7 @@ fn open_own(window: &mut Window, text: &str, title: &str) {
 fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
     let mut window = window("fundamental");
     open_own(&mut window, GOOD, "A lesson of my own");
-    let (_, step) = step(&window);
-    solved(&mut window);
-    predict(&mut window, &step);
+    predicted(&mut window);
     show_me(&mut window);
     until(&mut window, "the finest run", |app| {
         let done = |run: &SolvedScene| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
@@ -936,11 +924,8 @@ fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not(
     let told = |window: &Window| work(window).readings["max_pressure_kpa"];
     let mut window = window("fundamental");
     open(&mut window, "Pushing on trapped air");
-    go_on(&mut window);
-    go_on(&mut window);
-    let (_, step) = step(&window);
-    solved(&mut window);
-    predict(&mut window, &step);
+    go_on(&mut window, 2);
+    let step = predicted(&mut window);
     change(&mut window, "plate.amplitude_um", "0.52");
     solved(&mut window);
     let first = told(&window);
@@ -957,9 +942,7 @@ fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not(
     solved(&mut window);
     assert!(told(&window) == kept && window.shows(ANOTHER));
     // Opened again, it is the one that did the task.
-    let memory = left(&mut window);
-    drop(window);
-    let mut window = window_with(memory);
+    let mut window = restarted(window);
     open(&mut window, "Pushing on trapped air");
     until(&mut window, "the run that did the task", |app| {
         app.state().document.scene().get("plate.amplitude_um") == Some(Value::Number(0.5))
@@ -974,7 +957,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
     let amplitude = |app: &App| app.state().document.scene().get(KEY);
     let mut window = window("fundamental");
     open(&mut window, "Why the mean force");
-    go_on(&mut window);
+    go_on(&mut window, 1);
     let (_, step) = step(&window);
     assert!(step.tab.is_none(), "the step before has set one");
     solved(&mut window);
@@ -982,7 +965,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
     change(&mut window, KEY, "0.5");
     solved(&mut window);
     assert!(work(&window).fulfilled);
-    go_on(&mut window);
+    go_on(&mut window, 1);
     window.click_on("Leave");
     // Then from the step before.
     window.ctrl(Key::Num9);
@@ -1009,9 +992,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
 fn the_highest_pressure_of_a_push_is_kept() {
     let mut window = window("fundamental");
     open(&mut window, "Pushing on trapped air");
-    let (_, step) = step(&window);
-    solved(&mut window);
-    predict(&mut window, &step);
+    predicted(&mut window);
     let live =
         |window: &Window, live: Live| window.known().lessons.running.as_ref().unwrap().tabs.now.get(live).unwrap();
     let highest = |window: &Window| {
@@ -1195,7 +1176,7 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     let mut window = window("fundamental");
     window.type_into("Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    go_on(&mut window);
+    go_on(&mut window, 1);
     solved(&mut window);
     window.type_into("Frequency in kHz", "0.5");
     let lent = window.known().document.scene().clone();
@@ -1233,13 +1214,9 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
 fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     let mut window = window("fundamental");
     open(&mut window, "Why the mean force");
-    for _ in 0..3 {
-        go_on(&mut window);
-    }
-    let (_, step) = step(&window);
+    go_on(&mut window, 3);
     assert_eq!(window.known().view.tab, Tab::Startup);
-    solved(&mut window);
-    predict(&mut window, &step);
+    predicted(&mut window);
     // In another tab, too.
     window.click_on("Motion");
     show_me(&mut window);
@@ -1250,16 +1227,14 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     });
     // A start-up of before does not count when the step begins again.
     window.click_on("Back");
-    go_on(&mut window);
+    go_on(&mut window, 1);
     assert!(window.known().startup.as_ref().is_none());
     window.click_on("Leave");
     assert_eq!(window.known().view.tab, Tab::Motion);
 
     open(&mut window, "Pushing on trapped air");
-    let (_, step) = self::step(&window);
     assert_eq!(window.known().view.tab, Tab::Hold);
-    solved(&mut window);
-    predict(&mut window, &step);
+    predicted(&mut window);
     window.click_on("Motion");
     show_me(&mut window);
     until(&mut window, "the plate is pushed", |app| app.state().lessons.running.as_ref().unwrap().work[0].fulfilled);
