@@ -23,7 +23,7 @@ use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::{Outcome, StoppedBy};
 use std::time::Duration;
-use window::{Memory, User, Window, answer, await_path, drop_file, left, open, reopen, solved, until};
+use window::{Memory, User, Window, answer, await_path, drop_file, left, once_solved, open, reopen, solved, until};
 
 fn window(preset: &str) -> Window {
     window_asking(preset, |_, _| Answer::Cancelled)
@@ -51,8 +51,7 @@ fn spacing(app: &App) -> Value {
 
 #[test]
 fn it_opens_solved_and_moving() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     assert!((alpha(window.known().run.as_deref()) - 0.24586).abs() < 1e-4);
     let before = window.known().view.phase;
     for _ in 0..3 {
@@ -64,8 +63,7 @@ fn it_opens_solved_and_moving() {
 
 #[test]
 fn play_step_and_scrub_by_key_and_button() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.click_on("Pause");
     assert!(!window.known().view.playing);
     let frames = window.known().run.as_deref().unwrap().solution.recording.frames;
@@ -98,8 +96,7 @@ fn play_step_and_scrub_by_key_and_button() {
 
 #[test]
 fn motion_is_smooth_between_recorded_frames() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     let mut between = 0;
     for _ in 0..10 {
         std::thread::sleep(Duration::from_millis(5));
@@ -230,8 +227,7 @@ fn a_refusal_goes_with_its_cause() {
 
 #[test]
 fn escape_closes_a_menu_and_leaves_the_solver_alone() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.click_on("Presets");
     window.get_by_label_contains("Levitating");
     window.press(Key::Escape);
@@ -240,8 +236,7 @@ fn escape_closes_a_menu_and_leaves_the_solver_alone() {
 
 #[test]
 fn the_views_can_have_the_whole_window() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     let label = "Minimum spacing H_m";
     assert!(window.query_all_by_label(label).next().is_some());
     for key in [Key::F2, Key::F3] {
@@ -256,8 +251,7 @@ fn the_views_can_have_the_whole_window() {
 
 #[test]
 fn a_preset_of_the_menu_is_opened_and_solved() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.click_on("Presets");
     let name = presets::find("levitating").unwrap().name;
     window.click_part(&name);
@@ -275,8 +269,7 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
 
 #[test]
 fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.click_on("File");
     window.run_steps(5);
     window.click_part("New motor…");
@@ -398,8 +391,7 @@ fn show(window: &mut Window, tab: Tab) {
 
 #[test]
 fn an_edit_is_solved_again_and_the_headline_follows() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.get_by_label_contains("0.2458");
     edit_spacing(&mut window, "100");
     solved(&mut window);
@@ -414,8 +406,7 @@ fn an_edit_is_solved_again_and_the_headline_follows() {
 
 #[test]
 fn nothing_is_redrawn_while_nothing_moves() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.key_press(Key::Space);
     for _ in 0..10 {
         window.step();
@@ -436,8 +427,7 @@ fn nothing_is_redrawn_while_nothing_moves() {
 #[test]
 fn a_redraw_paints_the_ground_once_and_less_than_the_window_besides() {
     for preset in ["fundamental", "plate-trapped"] {
-        let mut window = window(preset);
-        solved(&mut window);
+        let window = once_solved(window(preset));
         let whole = window.ctx.content_rect();
         let ground = window.ctx.global_style().visuals.panel_fill;
         let grounds = window.output().shapes.iter().filter(|shape| match &shape.shape {
@@ -501,8 +491,7 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
 
 #[test]
 fn the_sheet_of_shortcuts_opens_and_closes() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     // What explains a slider under the pointer does not stay above it.
     let explained = |window: &Window| window.query_by_label_contains("plate.frequency_khz").is_some();
     window.get_by_role_and_label(Role::Slider, "Frequency").hover();
@@ -518,8 +507,7 @@ fn the_sheet_of_shortcuts_opens_and_closes() {
 
 #[test]
 fn a_scene_that_is_opened_is_shown_from_its_beginning() {
-    let mut window = window_in("fundamental", 600.0, Platform::default());
-    solved(&mut window);
+    let mut window = once_solved(window_in("fundamental", 600.0, Platform::default()));
     let tops = |window: &Window| ["Main", "Regime"].map(|label| window.get_by_label(label).rect().top());
     let before = tops(&window);
     window.get_by_label("Film").scroll_to_me();
@@ -570,8 +558,7 @@ fn endless(problem: &Problem) -> (Vec<Candidate>, Effort) {
 #[test]
 fn a_term_is_switched_and_the_window_says_what_it_changed() {
     let key = "numerics.wedge";
-    let mut window = tall_window(little);
-    solved(&mut window);
+    let mut window = once_solved(tall_window(little));
     let decision = |app: &App| {
         let decisions = &app.state().run.as_deref().unwrap().solution.model.decisions;
         *decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
@@ -602,8 +589,7 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
 
 #[test]
 fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.get_by_label("Pause");
     show(&mut window, Tab::Tradeoff);
     window.run_steps(3);
@@ -623,8 +609,7 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
 #[test]
 fn error_against_time_is_measured_and_a_setting_is_used() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = tall_window(little);
-    solved(&mut window);
+    let mut window = once_solved(tall_window(little));
     show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
     window.click_on("Measure");
@@ -697,8 +682,7 @@ fn has_torque(app: &App) -> bool {
 
 #[test]
 fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
-    let mut window = tall_window(little);
-    solved(&mut window);
+    let mut window = once_solved(tall_window(little));
     assert!(window.known().torque.found().is_none(), "nothing is computed for a tab that is not shown");
     show(&mut window, Tab::Torque);
     window.run_steps(2);
@@ -735,8 +719,7 @@ fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
 
 #[test]
 fn a_floating_rotor_and_a_still_stator_have_a_torque_tab_too() {
-    let mut window = window("levitating");
-    solved(&mut window);
+    let mut window = once_solved(window("levitating"));
     show(&mut window, Tab::Torque);
     window.run_steps(2);
     until(&mut window, "torque over speed", has_torque);
@@ -750,8 +733,7 @@ fn a_floating_rotor_and_a_still_stator_have_a_torque_tab_too() {
 #[test]
 fn a_plate_has_exact_results_in_place_of_torque() {
     for preset in ["plate-crossover", "plate-viscous", "plate-trapped"] {
-        let mut window = window(preset);
-        solved(&mut window);
+        let mut window = once_solved(window(preset));
         window.get_by_label("Exact");
         assert!(window.query_by_label("Torque").is_none());
         show(&mut window, Tab::Torque);
@@ -772,8 +754,7 @@ fn a_plate_has_exact_results_in_place_of_torque() {
 
 #[test]
 fn an_accuracy_is_typed_in_place_of_a_name() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     let type_in = |window: &mut Window, text: &str| into_target(window, "Accuracy", text);
     type_in(&mut window, "0,7 %");
     let asked = Fidelity::to(0.007);
@@ -801,8 +782,7 @@ fn into_target(window: &mut Window, field: &str, text: &str) {
 
 #[test]
 fn a_solve_takes_no_longer_than_was_allowed() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     into_target(&mut window, "Accuracy", "0.0001%");
     // So short that the coarsest grids are all there is time for.
     into_target(&mut window, "Time for a solve", "0,1 ms");
@@ -839,8 +819,7 @@ fn a_solve_takes_no_longer_than_was_allowed() {
 
 #[test]
 fn light_and_dark_leave_the_zoom_alone() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.ctx.set_zoom_factor(1.2);
     window.run_steps(2);
     for (key, zoom) in [(Key::T, 1.2), (Key::L, 1.2 * 1.35), (Key::T, 1.2 * 1.35), (Key::L, 1.2)] {
@@ -851,8 +830,7 @@ fn light_and_dark_leave_the_zoom_alone() {
 
 #[test]
 fn panels_are_as_wide_again_as_before_the_window_was_small() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     let width = |window: &Window| window.get_by_role_and_label(Role::Slider, "Minimum spacing H_m").rect().width();
     let before = width(&window);
     window.set_size(Vec2::new(800.0, 600.0));
@@ -871,8 +849,7 @@ fn panels_are_as_wide_again_as_before_the_window_was_small() {
 
 #[test]
 fn panels_are_as_wide_after_lecture_size_as_before() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     let edge = |window: &Window| window.get_by_label("share of the load carried by air").rect().left();
     let zoom = |window: &mut Window, zoom: f32| {
         window.ctx.set_zoom_factor(zoom);
@@ -892,8 +869,7 @@ fn panels_are_as_wide_after_lecture_size_as_before() {
 
 #[test]
 fn what_pins_is_beside_the_labels_or_below_them() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     for width in [1024.0, 1240.0, 1260.0, 1280.0, 1300.0, 1400.0] {
         window.set_size(Vec2::new(width, 800.0));
         window.run_steps(4);
@@ -904,8 +880,7 @@ fn what_pins_is_beside_the_labels_or_below_them() {
 
 #[test]
 fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
-    let mut window = window_in("plate-crossover", 2400.0, Platform::default());
-    solved(&mut window);
+    let mut window = once_solved(window_in("plate-crossover", 2400.0, Platform::default()));
     window.get_by_label("Film").click();
     window.run_steps(10);
     let disabled = |name: &str| {
@@ -918,8 +893,7 @@ fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
 #[test]
 fn the_first_drag_of_a_main_slider_goes_on_while_its_value_changes() {
     for name in ["Minimum spacing H_m", "Frequency"] {
-        let mut window = window("fundamental");
-        solved(&mut window);
+        let mut window = once_solved(window("fundamental"));
         let slider = window.get_by_role_and_label(Role::Slider, name).rect();
         let at = |share: f32| slider.left_center() + vec2(share * slider.width(), 0.0);
         let key = if name == "Frequency" { "stator.frequency_khz" } else { "film.min_spacing_nm" };
@@ -941,8 +915,7 @@ fn the_first_drag_of_a_main_slider_goes_on_while_its_value_changes() {
 
 #[test]
 fn a_number_that_was_entered_is_typed_over_after_another_click() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     const FIELD: &str = "Minimum spacing H_m in nm";
     window.type_into(FIELD, "150");
     for digits in ["25", "30"] {

@@ -21,7 +21,7 @@ use squeezefilm::problem::Scenario;
 use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
 use std::time::Duration;
-use window::{User, Window, solved, until};
+use window::{User, Window, once_solved, until};
 
 const STARTUP: Key = Key::Num6;
 const HOLD: Key = Key::Num7;
@@ -64,8 +64,7 @@ fn agrees(app: &App) {
 
 #[test]
 fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
-    let mut window = window("fundamental", STARTUP);
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental", STARTUP));
     assert!(window.known().startup.as_ref().is_none(), "nothing is computed before it is asked for");
     assert!(window.query_by_label("Pause").is_none());
     window.click_on("Start from rest");
@@ -134,8 +133,7 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
 
 #[test]
 fn a_plate_starts_from_rest_too() {
-    let mut window = window("plate-crossover", STARTUP);
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover", STARTUP));
     window.click_on("Start from rest");
     until(&mut window, "it repeats", |app| {
         app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
@@ -187,8 +185,7 @@ fn a_motor_cannot_be_held_but_a_plate_is_offered() {
 
 #[test]
 fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
-    let mut window = window("plate-crossover", HOLD);
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover", HOLD));
     let rect = window.get_by_label("Held plate: drag it up and down").rect();
     let begin = rect.center();
     window.hover_at(begin);
@@ -243,8 +240,7 @@ fn wait(window: &mut Window) {
 
 #[test]
 fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
-    let mut window = window("floating-disc", HOLD);
-    solved(&mut window);
+    let mut window = once_solved(window("floating-disc", HOLD));
     window.get_by_role_and_label(Role::Slider, "Recorded time");
     for _ in 0..12 {
         window.press(Key::ArrowDown);
@@ -321,8 +317,7 @@ fn the_charts_begin_at_rest() {
 
 #[test]
 fn numbers_and_pressure_of_a_plate_let_go_are_of_one_instant() {
-    let mut window = window("floating-disc", HOLD);
-    solved(&mut window);
+    let mut window = once_solved(window("floating-disc", HOLD));
     window.click_on("Let go");
     until(&mut window, "it floats", |app| held(app).trail().len() > 60);
     window.key_press(Key::Space);
@@ -341,8 +336,7 @@ fn numbers_and_pressure_of_a_plate_let_go_are_of_one_instant() {
 
 #[test]
 fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
-    let mut window = window("floating-disc", HOLD);
-    solved(&mut window);
+    let mut window = once_solved(window("floating-disc", HOLD));
     window.get_by_label("Load / (p_a · area)");
     window.click_on("Let go");
     until(&mut window, "it floats by itself", |app| held(app).now.reading.time > 1e-4);

@@ -35,7 +35,7 @@ use squeezefilm::solution::Outcome;
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use window::{Memory, User, Window, begin_export, drop_file, face, left, reopen, solved, until};
+use window::{Memory, User, Window, begin_export, drop_file, face, left, once_solved, reopen, solved, until};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
@@ -64,8 +64,7 @@ fn labels(app: &App) -> Vec<String> {
 
 /// A window in which the fundamental case and one with half the spacing are pinned.
 fn two_pinned() -> Window {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::D);
     window.type_into("Minimum spacing H_m in nm", "100");
     solved(&mut window);
@@ -187,8 +186,7 @@ fn swept(app: &App) -> &Swept {
 
 #[test]
 fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::Num3);
     assert_eq!(window.known().view.tab, Tab::Sweep);
     assert!(window.known().sweep.swept.is_none(), "nothing is solved before it is asked for");
@@ -226,8 +224,7 @@ fn sweep_quantities(window: &Window) -> Vec<Quantity> {
 
 /// A window after a sweep over five points, and where its chart is.
 fn five_points() -> (Window, Rect) {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "5");
     window.click_on("Start the sweep");
@@ -355,8 +352,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn what_is_exported_is_what_the_command_line_writes() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| -> PathBuf { folder.path().join(name) };
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     export(&mut window, "All results, into a folder…", &at("results"));
     let expected = [
         "convergence.png",
@@ -421,8 +417,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
 fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| -> PathBuf { folder.path().join(name) };
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.ctrl(Key::D);
     window.type_into("Frequency in kHz", "30");
     solved(&mut window);
@@ -641,16 +636,14 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
     drop(window);
 
-    let mut window = self::window("rough-flow");
-    solved(&mut window);
+    let mut window = once_solved(self::window("rough-flow"));
     quiet(&mut window);
     window.ctrl(Key::Num8);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
     explains(faults, &window, "Rough faces", &["Compliance", "Asperities", "Flow factors", "along the wave"]);
     drop(window);
 
-    let mut window = self::window("plate-trapped");
-    solved(&mut window);
+    let mut window = once_solved(self::window("plate-trapped"));
     quiet(&mut window);
     explains(
         faults,
@@ -676,8 +669,7 @@ const LOADS: &str = "stator.frequency_khz,film_load_n\n20,0.550\n40,0.600\n60,0.
 
 #[test]
 fn a_fit_gives_values_that_are_taken_and_taken_back() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     show_fit(&mut window);
     assert!(window.shows("Which values of some parameters agree best"));
     let folder = tempfile::tempdir().unwrap();
@@ -722,8 +714,7 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
 
 #[test]
 fn a_fit_that_is_cancelled_leaves_nothing() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     show_fit(&mut window);
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("loads.csv");
@@ -745,8 +736,7 @@ fn a_fit_that_is_cancelled_leaves_nothing() {
 
 #[test]
 fn an_optimum_is_found_within_limits_and_taken() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     show_fit(&mut window);
     let choose = |window: &mut Window, combo: &str, entry: &str| {
         window.open_list(combo);
@@ -805,8 +795,7 @@ fn fits_beside_the_results(window: &mut Window) {
 
 #[test]
 fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", |app| {
         app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
@@ -830,8 +819,7 @@ fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
 
 #[test]
 fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::Num9);
     let state = |window: &Window| -> bool { window.known().sensitivity.found.is_some() };
     assert!(!state(&window), "nothing is computed before it is asked for");
@@ -885,8 +873,7 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
 
 #[test]
 fn exports_say_what_they_write() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.get_by_label("File").click();
     window.run_steps(10);
     window.get_by_label("Export").hover();
@@ -908,8 +895,7 @@ fn exports_say_what_they_write() {
 
 #[test]
 fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
-    let mut window = window("asperities");
-    solved(&mut window);
+    let mut window = once_solved(window("asperities"));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("face.csv");
     std::fs::write(&path, face()).unwrap();
@@ -1009,8 +995,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
 
 #[test]
 fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.ctrl(Key::D);
     let good = left(&mut window);
     drop(window);
@@ -1059,8 +1044,7 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         ("fundamental", Key::Num1, "Loads over the cycle: click to jump there"),
         ("fundamental", Key::Num1, "Pressures along one wavelength: point to read values, click a tooth to follow it"),
     ] {
-        let mut window = window(preset);
-        solved(&mut window);
+        let mut window = once_solved(window(preset));
         window.key_press(Key::Space);
         window.ctrl(tab);
         let id = eframe::egui::Id::unique(("chart", name));
@@ -1104,8 +1088,7 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
 #[test]
 fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
     const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
-    let mut window = window("fundamental");
-    solved(&mut window);
+    let mut window = once_solved(window("fundamental"));
     window.click_on("Pause");
     let seen = |window: &Window| {
         let view = &window.known().view;
@@ -1129,15 +1112,13 @@ fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
     window.press(Key::Home);
     assert_eq!((seen(&window), same), ((first, phase), phase));
     drop(window);
-    let mut window = self::window("plate-trapped");
-    solved(&mut window);
+    let window = once_solved(self::window("plate-trapped"));
     assert!(window.query_by_label(NAME).is_none(), "a plate is no ring");
 }
 
 #[test]
 fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
-    let mut window = window("plate-crossover");
-    solved(&mut window);
+    let mut window = once_solved(window("plate-crossover"));
     window.click_on("Pause");
     let chart = window.get_by_role_and_label(Role::Image, "Load over the cycle: click to jump there").rect();
     let line = |window: &Window| window.get_by_label_contains("Line of Load over the cycle").rect().center();
@@ -1151,8 +1132,7 @@ fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
 
 /// The ring's tab, its rotor computed and the scene solved.
 fn ring() -> Window {
-    let mut window = window("ring-rotor");
-    solved(&mut window);
+    let mut window = once_solved(window("ring-rotor"));
     window.ctrl(Key::Num8);
     until(&mut window, "the rotor is computed", |app| {
         let run = app.state().run.as_deref().map(|run| &run.problem.scenario);

@@ -150,6 +150,12 @@ pub(crate) fn solved(window: &mut Window) {
     });
 }
 
+/// The window when its scene is solved.
+pub(crate) fn once_solved(mut window: Window) -> Window {
+    solved(&mut window);
+    window
+}
+
 /// Drops a file on the window.
 pub(crate) fn drop_file(window: &mut Window, path: impl Into<PathBuf>) {
     window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.into())));
