@@ -119,19 +119,12 @@ impl Fidelity {
             },
             Self::Standard => Spec {
                 along: 12,
-                across: 3,
-                volumes: 4,
-                steps: 36,
                 per_wave: 64,
                 edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
-                tolerance: 1e-3,
-                plate: 12,
                 plate_steps: 48,
-                plate_tolerance: 1e-4,
-                plate_edge_fraction: 0.5,
                 target_error: 5e-3,
-                least_factor: 1.0,
+                ..Self::Draft.spec()
             },
             Self::Fine => Spec {
                 along: 24,
@@ -158,12 +151,9 @@ impl Fidelity {
                 edge_fraction: 0.2,
                 harmonic_fraction: 1e-3,
                 tolerance: 1e-5,
-                plate: 16,
-                plate_steps: 64,
                 plate_tolerance: 1e-6,
-                plate_edge_fraction: 0.4,
                 target_error: 2e-4,
-                least_factor: 1.0,
+                ..Self::Fine.spec()
             },
             Self::To(_) => {
                 let target_error = self.accuracy();
