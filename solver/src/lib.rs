@@ -30,13 +30,15 @@
 //! | [`numerics`] | film systems by elimination and multigrid, graded nodes, Anderson acceleration; no physics |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
 //! | [`budget`] | the memory that all solves of the process share |
+//! | [`estimate`] | a number with its error; extrapolation from nested grids |
+//! | [`rotor::ring`] | the cross-section of a rotor that is a ring, and its compliances |
 //! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |
 //! | [`surface`] | rough faces: what their asperities carry, how gas flows between them |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`dimensionless`] | σ, Λ and Kn without solving |
 //! | [`film`] | the gas film: slip laws, one time step, one cycle, exact results |
 //! | [`rotor`], [`contact`] | the compliance; contact and load balance at one instant |
-//! | [`fidelity`], [`plan`], [`estimate`] | how much accuracy; what this scene needs; the error that is left |
+//! | [`fidelity`], [`plan`] | how much accuracy; what this scene needs |
 //! | [`recording`], [`solution`] | what a solve returns: plain data |
 //! | [`ladder`] | finer grids until the error is what was asked for |
 //! | [`drive`] | torque, power and efficiency over speed, from where the contact load is |

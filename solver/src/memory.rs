@@ -13,7 +13,8 @@ use crate::problem::{Flow, Motor, Plate};
 /// Bytes up to which grids are refined beyond those of the plan, and up to which the states that a solve ends with are kept to start
 /// the next from. A constant, since either changes results, which are not to depend on the machine.
 pub const REFINED: u64 = 256_000_000;
-// ---- in numbers of eight bytes
+
+// What follows counts numbers of eight bytes, until the needs that are public turn them into bytes.
 
 /// Nodes of one film.
 struct Film {

@@ -104,9 +104,9 @@ const NEWTON_LIMIT: u32 = 40;
 /// it accepts.
 const CAREFUL_LIMIT: u32 = 400;
 const HASTY: u32 = 60;
-/// Change of a pressure that is round-off after so many iterations: gas that slip lets through everywhere is known no better.
-const ROUND_OFF: f64 = 1e-6;
 const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
+/// Change of a pressure that is round-off when that method has come to its limit: gas that slip lets through everywhere is known no better.
+const ROUND_OFF: f64 = 1e-6;
 /// Least pressure that such a step begins with, over ambient.
 const EMPTY: f64 = 1e-12;
 /// W is kept above this fraction of Z.

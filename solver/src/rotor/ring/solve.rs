@@ -43,8 +43,10 @@ pub(super) struct Factor {
 /// ring on one core takes a sixth longer.
 const JOINED: &[(usize, f64)] = &[(12, 1.0), (32, 0.3), (usize::MAX, 0.02)];
 
+/// Ends what is being computed if it has been cancelled.
+///
 /// # Errors
-/// [`RingError::Cancelled`] if it is.
+/// [`RingError::Cancelled`] if it has.
 pub(super) fn cancelled(cancel: &Cancel) -> Result<(), RingError> {
     if cancel.is_cancelled() { Err(RingError::Cancelled) } else { Ok(()) }
 }
