@@ -60,18 +60,11 @@ fn fundamental_case_at_every_fidelity() {
         [(Fidelity::Draft, 2e-2), (Fidelity::Standard, 5e-3), (Fidelity::Fine, 1e-3), (Fidelity::Reference, 2e-4)]
     {
         let found = solve(&motor, fidelity);
-        let error = (found.result.alpha.value - CONVERGED_ALPHA).abs();
-        assert!(error < allowed * CONVERGED_ALPHA, "{fidelity}: {} off by {error:.1e}", found.result.alpha);
-        assert!(
-            error < found.result.alpha.error + 2e-6,
-            "{fidelity}: {error:.1e}, stated {:.1e}",
-            found.result.alpha.error
-        );
-        assert!(
-            found.result.alpha.error < allowed * CONVERGED_ALPHA * 2.0,
-            "{fidelity}: {:.1e}",
-            found.result.alpha.error
-        );
+        let alpha = found.result.alpha;
+        let error = (alpha.value - CONVERGED_ALPHA).abs();
+        assert!(error < allowed * CONVERGED_ALPHA, "{fidelity}: {alpha} off by {error:.1e}");
+        assert!(error < alpha.error + 2e-6, "{fidelity}: {error:.1e}, stated {:.1e}", alpha.error);
+        assert!(alpha.error < allowed * CONVERGED_ALPHA * 2.0, "{fidelity}: {:.1e}", alpha.error);
         check_frames(&motor, &found, fidelity.spec().tolerance);
         assert!(found.recording.teeth_in_contact.iter().all(|teeth| (3..=4).contains(teeth)), "{fidelity}");
         assert!(!found.result.levitated);
@@ -122,18 +115,10 @@ fn one_tooth_stands_for_all_and_half_the_width_for_the_whole() {
     let one = solve_plan(&motor, &coarse);
     let all = solve_plan(&motor, &Plan { every_tooth: true, ..coarse.clone() });
     let whole = solve_plan(&motor, &Plan { half_width: false, ..coarse.clone() });
-    assert!(
-        (one.result.alpha.value - all.result.alpha.value).abs() < 1e-9,
-        "{} {}",
-        one.result.alpha,
-        all.result.alpha
-    );
-    assert!(
-        (one.result.alpha.value - whole.result.alpha.value).abs() < 1e-9,
-        "{} {}",
-        one.result.alpha,
-        whole.result.alpha
-    );
+    for other in [&all, &whole] {
+        let [alpha, other] = [&one, other].map(|found| found.result.alpha);
+        assert!((alpha.value - other.value).abs() < 1e-9, "{alpha} {other}");
+    }
     same_on_every_tooth(&one, &all);
     let trapped = Plan { trapped: true, ..coarse };
     same_on_every_tooth(

@@ -37,8 +37,8 @@ fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Solved {
     solved_by(preset, set, fidelity, Method::Auto)
 }
 
-/// μ_d waves ∫ c |V_St − V| over a wavelength, averaged over the cycle, node by node and frame by frame \[W\].
-fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
+/// waves ∫ c f(U) over a wavelength, averaged over the cycle, node by node and frame by frame; U is the sliding speed.
+fn node_by_node(solved: &Solved, f: impl Fn(f64) -> f64) -> f64 {
     let (motor, recording) = (&solved.motor, &solved.recording);
     let mut sum = 0.0;
     for frame in 0..recording.frames {
@@ -46,12 +46,17 @@ fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
             let line = recording.line_offset(tooth, frame);
             for (i, (x, length)) in recording.x.iter().zip(&recording.node_length).enumerate() {
                 let (x, phase) = (tooth as f64 * recording.pitch + x, frame as f64 / recording.frames as f64);
-                let slide = motor.sliding_speed(x, phase) - motor.rotor_speed + speed;
-                sum += recording.contact[line + i] * length * slide.abs();
+                sum += recording.contact[line + i] * length * f(motor.sliding_speed(x, phase));
             }
         }
     }
-    motor.dry_friction * f64::from(motor.waves) * sum / recording.frames as f64
+    f64::from(motor.waves) * sum / recording.frames as f64
+}
+
+/// The heat of friction with a rotor at this speed \[W\].
+fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
+    let motor = &solved.motor;
+    motor.dry_friction * node_by_node(solved, |slide| (slide - motor.rotor_speed + speed).abs())
 }
 
 #[test]
@@ -129,18 +134,7 @@ fn a_heavily_pressed_motor_gives_far_less_than_the_bound() {
         let (stall, exact) = (found.stall_torque, reference.stall_torque);
         assert!((stall.value - exact.value).abs() <= stall.error + exact.error, "{fidelity}: {stall:?} {exact:?}");
         // At rest what drives, less what brakes, node by node: the change of sign falls between two frames.
-        let mut sum = 0.0;
-        for frame in 0..solved.recording.frames {
-            for tooth in 0..solved.recording.teeth {
-                let line = solved.recording.line_offset(tooth, frame);
-                for (i, (x, length)) in solved.recording.x.iter().zip(&solved.recording.node_length).enumerate() {
-                    let x = tooth as f64 * solved.recording.pitch + x;
-                    let slide = solved.motor.sliding_speed(x, frame as f64 / solved.recording.frames as f64);
-                    sum -= solved.recording.contact[line + i] * length * slide.signum();
-                }
-            }
-        }
-        let torque = 0.7 * 9.0 * 60e-3 * sum / solved.recording.frames as f64;
+        let torque = -0.7 * 60e-3 * node_by_node(&solved, f64::signum);
         assert!((torque - stall.value).abs() < 0.02 * stall.value, "{fidelity}: {torque} {stall:?}");
     }
 }
