@@ -222,13 +222,18 @@ fn sweep_quantities(window: &Window) -> Vec<Quantity> {
     swept(window.state()).sweep.quantities()
 }
 
+/// Starts the sweep, and waits for its end.
+fn sweep(window: &mut Window) {
+    window.click_on("Start the sweep");
+    until(window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
+}
+
 /// A window after a sweep over five points, and where its chart is.
 fn five_points() -> (Window, Rect) {
     let mut window = once_solved(window("plate-crossover"));
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "5");
-    window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
+    sweep(&mut window);
     let rect = window.get_by_label("Sweep: point to read a value, click to make its scene the present one").rect();
     (window, rect)
 }
@@ -304,8 +309,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     window.get_by_label_contains("plate.frequency_khz = -1");
     window.type_into("From along x", "1");
     // A fault that only both keys together have is told when it begins.
-    window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
+    sweep(&mut window);
     assert_eq!(swept(window.state()).rows.len(), 12);
     assert_eq!(swept(window.state()).sweep.axes().len(), 2);
     // Its contours are computed once.
@@ -433,8 +437,7 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
 
     window.ctrl(Key::Num3);
     window.type_into("Values along x", "3");
-    window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
+    sweep(&mut window);
     export(&mut window, "Sweep as table…", &at("sweep.csv"));
     let text = std::fs::read_to_string(at("sweep.csv")).unwrap();
     let (shown, mut written) = (swept(window.state()), Vec::new());
@@ -555,8 +558,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     window.ctrl(Key::Num3);
     explains(faults, &window, "Sweep, before", &["Fidelity"]);
     window.type_into("Values along x", "3");
-    window.click_on("Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| swept.complete()));
+    sweep(&mut window);
     explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
     hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
     hovers(faults, &mut window, "stated error", "the numerical error only");
@@ -624,10 +626,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "Decay length", "rotor.decay_length_mm");
     show_fit(&mut window);
     explains(faults, &window, "Fit, before", &[]);
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("loads.csv");
-    std::fs::write(&table, LOADS).unwrap();
-    drop_file(&mut window, &table);
+    let _loads = drop_text(&mut window, "loads.csv", LOADS);
     explains(faults, &window, "Fit, form", &[]);
     window.click_on("Fit the scene");
     until(&mut window, "the fit", |app| app.state().fit.found.is_some());
@@ -664,6 +663,15 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
+/// Drops a file with this text on the window; the folder that it is in, and its path.
+fn drop_text(window: &mut Window, name: &str, text: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    drop_file(window, &path);
+    (folder, path)
+}
+
 /// Film loads of the paper's motor at other frequencies, as Table I has them.
 const LOADS: &str = "stator.frequency_khz,film_load_n\n20,0.550\n40,0.600\n60,0.615\n100,0.630\n";
 
@@ -672,10 +680,7 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     let mut window = once_solved(window("fundamental"));
     show_fit(&mut window);
     assert!(window.shows("Which values of some parameters agree best"));
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("loads.csv");
-    std::fs::write(&table, LOADS).unwrap();
-    drop_file(&mut window, &table);
+    let (folder, table) = drop_text(&mut window, "loads.csv", LOADS);
     assert!(window.shows("loads.csv: 4 measurements under 4 conditions"));
     // What is wrong with a bound is said at the bound.
     window.type_into("Lower bound of parameter 1", "3");
@@ -716,10 +721,7 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
 fn a_fit_that_is_cancelled_leaves_nothing() {
     let mut window = once_solved(window("fundamental"));
     show_fit(&mut window);
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("loads.csv");
-    std::fs::write(&table, LOADS).unwrap();
-    drop_file(&mut window, &table);
+    let _loads = drop_text(&mut window, "loads.csv", LOADS);
     for _ in 0..2 {
         window.click_on("Add a key…");
     }
@@ -801,11 +803,8 @@ fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
         app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
     });
     assert!(!window.shows("measured"));
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("torque.csv");
     let rows = "rotor_speed_rpm,torque_nm,film.min_spacing_nm\n0,0.26,\n20,0.24,\n40,0.2,100\n";
-    std::fs::write(&table, rows).unwrap();
-    drop_file(&mut window, &table);
+    let _torques = drop_text(&mut window, "torque.csv", rows);
     assert_eq!(window.known().view.tab, Tab::Torque);
     assert_eq!(window.known().torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
     assert!(window.shows("measured") && window.shows("1 measured torques are not drawn"));
@@ -896,10 +895,7 @@ fn exports_say_what_they_write() {
 #[test]
 fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let mut window = once_solved(window("asperities"));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("face.csv");
-    std::fs::write(&path, face()).unwrap();
-    drop_file(&mut window, &path);
+    let (_folder, path) = drop_text(&mut window, "face.csv", &face());
     until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
     assert_eq!(window.known().view.tab, Tab::Rotor);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
