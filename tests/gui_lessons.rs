@@ -169,6 +169,14 @@ fn go_on(window: &mut Window, steps: usize) {
     }
 }
 
+/// A window in which this lesson is open, so many steps on.
+fn at(title: &str, steps: usize) -> Window {
+    let mut window = window("fundamental");
+    open(&mut window, title);
+    go_on(&mut window, steps);
+    window
+}
+
 /// The step on screen, once its scene is solved and its question answered.
 fn predicted(window: &mut Window) -> Step {
     let (_, step) = step(window);
@@ -519,9 +527,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
 
 #[test]
 fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
-    let mut window = window("fundamental");
-    open(&mut window, "Why the mean force");
-    go_on(&mut window, 5);
+    let mut window = at("Why the mean force", 5);
     let (_, step) = step(&window);
     assert!(step.task.as_ref().unwrap().too_far.is_some());
     solved(&mut window);
@@ -548,9 +554,7 @@ fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
 
 #[test]
 fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
-    let mut window = window("fundamental");
-    open(&mut window, "A travelling wave");
-    go_on(&mut window, 4);
+    let mut window = at("A travelling wave", 4);
     solved(&mut window);
     let compared = |window: &Window| {
         let state = window.known();
@@ -922,9 +926,7 @@ fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
 fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not() {
     const ANOTHER: &str = "which is not the one on screen";
     let told = |window: &Window| work(window).readings["max_pressure_kpa"];
-    let mut window = window("fundamental");
-    open(&mut window, "Pushing on trapped air");
-    go_on(&mut window, 2);
+    let mut window = at("Pushing on trapped air", 2);
     let step = predicted(&mut window);
     change(&mut window, "plate.amplitude_um", "0.52");
     solved(&mut window);
@@ -955,9 +957,7 @@ fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not(
 fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
     const KEY: &str = "plate.amplitude_um";
     let amplitude = |app: &App| app.state().document.scene().get(KEY);
-    let mut window = window("fundamental");
-    open(&mut window, "Why the mean force");
-    go_on(&mut window, 1);
+    let mut window = at("Why the mean force", 1);
     let (_, step) = step(&window);
     assert!(step.tab.is_none(), "the step before has set one");
     solved(&mut window);
@@ -990,8 +990,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
 
 #[test]
 fn the_highest_pressure_of_a_push_is_kept() {
-    let mut window = window("fundamental");
-    open(&mut window, "Pushing on trapped air");
+    let mut window = at("Pushing on trapped air", 0);
     predicted(&mut window);
     let live =
         |window: &Window, live: Live| window.known().lessons.running.as_ref().unwrap().tabs.now.get(live).unwrap();
@@ -1212,9 +1211,7 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
 
 #[test]
 fn what_a_lesson_shows_in_a_tab_it_does_itself() {
-    let mut window = window("fundamental");
-    open(&mut window, "Why the mean force");
-    go_on(&mut window, 3);
+    let mut window = at("Why the mean force", 3);
     assert_eq!(window.known().view.tab, Tab::Startup);
     predicted(&mut window);
     // In another tab, too.
