@@ -2,10 +2,13 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
 
+mod scenes;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use scenes::changed;
 use squeezefilm::analysis::decision::{term, words};
 use squeezefilm::analysis::validity::outside;
 use squeezefilm::control::Cancel;
@@ -72,17 +75,21 @@ impl Edited {
     }
 }
 
-fn panel(edited: Edited) -> Harness<'static, Edited> {
-    let size = edited.size;
+/// A panel of this width, with text that is `size` times as large.
+fn harness<S>(width: f32, size: f32, ui: impl FnMut(&mut egui::Ui, &mut S) + 'static, of: S) -> Harness<'static, S> {
     let mut harness = Harness::builder()
-        .with_size(egui::vec2(300.0, 3000.0))
+        .with_size(egui::vec2(width, 3000.0))
         .with_context_setup(move |ctx| {
             theme::install_fonts(ctx);
             ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
         })
-        .build_ui_state(|ui, edited: &mut Edited| edited.ui(ui), edited);
+        .build_ui_state(ui, of);
     harness.run();
     harness
+}
+
+fn panel(edited: Edited) -> Harness<'static, Edited> {
+    harness(300.0, edited.size, |ui, edited: &mut Edited| edited.ui(ui), edited)
 }
 
 fn open_all(harness: &mut Harness<'_, Edited>) {
@@ -94,42 +101,45 @@ fn open_all(harness: &mut Harness<'_, Edited>) {
     }
 }
 
+/// The panel with every group of it open.
+fn opened(scene: Scene) -> Harness<'static, Edited> {
+    let mut harness = panel(Edited::of(scene));
+    open_all(&mut harness);
+    harness
+}
+
 fn scenes() -> Vec<Scene> {
-    let mut crowned = Scene::motor();
-    crowned.set("stator.tooth_radius_m", "6.5").unwrap();
-    let mut table = Scene::motor();
-    table.set("rotor.compliance", "[[100, 1e-9], [200, 5e-10]]").unwrap();
-    let mut wide = Scene::plate();
-    wide.set("plate.width_mm", "2").unwrap();
-    for key in ["film_nodes_along", "film_nodes_across", "steps_per_cycle"] {
-        wide.set(&format!("numerics.{key}"), "41").unwrap();
-    }
-    let mut green = Scene::motor();
-    green.set("rotor.green", "[[0, 0.6], [1, 0.5]]").unwrap();
-    let mut ring = Scene::motor();
-    ring.set("rotor.model", "ring").unwrap();
+    let with = |mut scene: Scene, changes: &[(&str, &str)]| {
+        changes.iter().for_each(|(key, text)| scene.set(key, text).unwrap());
+        scene
+    };
+    let motor = |changes: &[(&str, &str)]| with(Scene::motor(), changes);
+    let nodes = ["numerics.film_nodes_along", "numerics.film_nodes_across", "numerics.steps_per_cycle"];
+    let wide = [&[("plate.width_mm", "2")][..], &nodes.map(|key| (key, "41"))].concat();
     let all = "[{r_inner_mm = 0, r_outer_mm = 60, z_bottom_mm = 0, z_top_mm = 9, fixed = \"radial\"}]";
-    ring.set("rotor.support", all).unwrap();
-    let mut helium = Scene::motor();
-    helium.set_all([("film.gas", "helium"), ("film.altitude_m", "2000"), ("film.slip", "fukui-kaneko")]).unwrap();
-    let mut section = Scene::motor();
-    let others = [
-        ("rotor.model", "section"),
-        ("motor.load_n", "20"),
-        ("stator.tooth_share", "0.5"),
-        ("motor.rotor_speed_mm_per_s", "9"),
-    ];
-    section.set_all(others).unwrap();
-    let mut rough = Scene::motor();
-    rough.set_all([("surface.model", "asperities"), ("surface.flow_factors", "patir-cheng")]).unwrap();
-    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section, green, ring, rough]
+    vec![
+        Scene::motor(),
+        Scene::plate(),
+        motor(&[("stator.tooth_radius_m", "6.5")]),
+        motor(&[("rotor.compliance", "[[100, 1e-9], [200, 5e-10]]")]),
+        with(Scene::plate(), &wide),
+        motor(&[("film.gas", "helium"), ("film.altitude_m", "2000"), ("film.slip", "fukui-kaneko")]),
+        motor(&[
+            ("rotor.model", "section"),
+            ("motor.load_n", "20"),
+            ("stator.tooth_share", "0.5"),
+            ("motor.rotor_speed_mm_per_s", "9"),
+        ]),
+        motor(&[("rotor.green", "[[0, 0.6], [1, 0.5]]")]),
+        motor(&[("rotor.model", "ring"), ("rotor.support", all)]),
+        motor(&[("surface.model", "asperities"), ("surface.flow_factors", "patir-cheng")]),
+    ]
 }
 
 #[test]
 fn every_parameter_has_a_named_widget() {
     for scene in scenes() {
-        let mut harness = panel(Edited::of(scene.clone()));
-        open_all(&mut harness);
+        let harness = opened(scene.clone());
         for parameter in scene.parameters() {
             let name = labels::label(parameter);
             let has = |role, label: &str| harness.query_all_by_role_and_label(role, label).count() == 1;
@@ -306,12 +316,9 @@ fn a_refusal_opens_the_group_it_is_in() {
 
 #[test]
 fn one_click_brings_back_what_was_opened() {
-    let mut opened = Scene::motor();
-    opened.set("motor.load_per_wave_n", "1").unwrap();
+    let [opened, next] = ["1", "2"].map(|load| changed(Scene::motor(), &[("motor.load_per_wave_n", load)]));
     let mut edited = Edited::of(opened.clone());
-    let mut changed = opened.clone();
-    changed.set("motor.load_per_wave_n", "2").unwrap();
-    edited.state.document.edit(changed, "motor.load_per_wave_n", false);
+    edited.state.document.edit(next, "motor.load_per_wave_n", false);
     let mut harness = panel(edited);
     assert!(harness.query_by_label("Reset tooth width").is_none(), "it is as it was");
     click(&mut harness, "Reset load on one wave");
@@ -334,8 +341,7 @@ fn an_optional_parameter_is_switched() {
 
 #[test]
 fn choices_and_flags_are_set() {
-    let mut harness = panel(Edited::of(Scene::motor()));
-    open_all(&mut harness);
+    let mut harness = opened(Scene::motor());
     click_a(&mut harness, Role::CheckBox, "Sliding drags gas along");
     click_a(&mut harness, Role::ComboBox, "Slip at the walls");
     click(&mut harness, "Fukui and Kaneko");
@@ -346,8 +352,7 @@ fn choices_and_flags_are_set() {
 
 #[test]
 fn a_list_closes_when_enter_takes_an_entry() {
-    let mut harness = panel(Edited::of(Scene::motor()));
-    open_all(&mut harness);
+    let mut harness = opened(Scene::motor());
     let slip = "Slip at the walls";
     harness.get_by_role_and_label(Role::ComboBox, slip).focus();
     harness.run();
@@ -364,8 +369,7 @@ fn a_list_closes_when_enter_takes_an_entry() {
 
 #[test]
 fn what_follows_from_the_gas_is_shown_and_not_edited() {
-    let mut harness = panel(Edited::of(Scene::motor()));
-    open_all(&mut harness);
+    let mut harness = opened(Scene::motor());
     click_a(&mut harness, Role::ComboBox, "Gas");
     click(&mut harness, "Helium");
     for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
@@ -402,8 +406,7 @@ fn a_table_comes_from_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rotor.csv");
     std::fs::write(&path, "wavenumber_per_m,compliance_m2_per_n\n100,1e-9\n200,5e-10\n").unwrap();
-    let mut harness = panel(Edited::of(Scene::motor()));
-    open_all(&mut harness);
+    let mut harness = opened(Scene::motor());
     enter(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
     assert_eq!(
         harness.state().scene().get("rotor.model"),
@@ -420,8 +423,7 @@ fn a_table_can_be_asked_for() {
         ("Open: Compliance from a CSV file", "rotor.compliance_csv"),
         ("Open: Deflection from a CSV file", "rotor.green_csv"),
     ] {
-        let mut harness = panel(Edited::of(Scene::motor()));
-        open_all(&mut harness);
+        let mut harness = opened(Scene::motor());
         click(&mut harness, name);
         assert_eq!(harness.state().pushed, [Command::Ask(Purpose::Csv(key))]);
     }
@@ -429,8 +431,7 @@ fn a_table_can_be_asked_for() {
 
 #[test]
 fn a_first_support_holds_the_inner_edge_of_the_ring_and_a_second_is_like_it() {
-    let mut harness = panel(Edited::of(presets::find("ring-rotor").unwrap()));
-    open_all(&mut harness);
+    let mut harness = opened(presets::find("ring-rotor").unwrap());
     let supports = |harness: &Harness<'_, Edited>| match harness.state().scene().get("rotor.support") {
         Some(Value::Records(supports)) => supports,
         _ => panic!("no supports"),
@@ -447,8 +448,7 @@ fn a_first_support_holds_the_inner_edge_of_the_ring_and_a_second_is_like_it() {
 
 #[test]
 fn a_ring_that_is_chosen_suits_the_motor() {
-    let mut harness = panel(Edited::of(presets::find("motor-60mm-helium").unwrap()));
-    open_all(&mut harness);
+    let mut harness = opened(presets::find("motor-60mm-helium").unwrap());
     click_a(&mut harness, Role::ComboBox, "Compliance model");
     click(&mut harness, "Ring, by its cross-section");
     let inner = harness.state().scene().get("rotor.part.lining.r_inner_mm");
@@ -459,8 +459,7 @@ fn a_ring_that_is_chosen_suits_the_motor() {
 #[test]
 fn a_refused_length_stays_in_its_field_with_the_reason_below_its_part() {
     let ring = presets::find("ring-rotor").unwrap();
-    let mut harness = panel(Edited::of(ring.clone()));
-    open_all(&mut harness);
+    let mut harness = opened(ring.clone());
     let field = "Outer radius in mm, rim";
     let shown = |harness: &Harness<'_, Edited>| {
         harness.get_by_role_and_label(Role::SpinButton, field).value().unwrap_or_default()
@@ -539,8 +538,7 @@ fn run(preset: &str) -> SolvedScene {
 }
 
 fn run_with(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(set.iter().copied()).unwrap();
+    let scene = scenes::scene(preset, set);
     let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
     let mut history = Vec::new();
@@ -552,18 +550,10 @@ fn run_with(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
 
 fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
     let state = State::new(Document::opened(run.scene.clone(), None));
-    let mut harness = Harness::builder()
-        .with_size(egui::vec2(width, 3000.0))
-        .with_context_setup(move |ctx| {
-            theme::install_fonts(ctx);
-            ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
-        })
-        .build_ui_state(
-            move |ui, run: &mut SolvedScene| results::show(ui, run, &DrawContext::new(&state, Instant::now())),
-            run,
-        );
-    harness.run();
-    harness
+    let ui = move |ui: &mut egui::Ui, run: &mut SolvedScene| {
+        results::show(ui, run, &DrawContext::new(&state, Instant::now()));
+    };
+    harness(width, size, ui, run)
 }
 
 #[test]
