@@ -23,7 +23,10 @@ use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::{Outcome, StoppedBy};
 use std::time::Duration;
-use window::{Memory, User, Window, answer, await_path, drop_file, left, once_solved, open, reopen, solved, until};
+use window::{
+    Memory, User, Window, answer, await_path, drop_file, has_torque, left, measured, once_solved, open, reopen, solved,
+    until,
+};
 
 fn window(preset: &str) -> Window {
     window_asking(preset, |_, _| Answer::Cancelled)
@@ -613,9 +616,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
     window.click_on("Measure");
-    until(&mut window, "the measurement ends", |app| {
-        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
-    });
+    until(&mut window, "the measurement ends", measured);
     let points = &window.known().tradeoff.as_ref().unwrap().tradeoff.points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
     assert_eq!(names, ["draft", "standard", "present setting"]);
@@ -667,17 +668,12 @@ fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
             .is_some_and(|measured| measured.tradeoff.points.iter().any(|point| point.median.is_finite()))
     });
     window.click_on("Cancel the measurement");
-    until(&mut window, "it ends", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running()));
+    until(&mut window, "it ends", measured);
     window.get_by_label_contains("Cancelled");
     // What was measured stays, another can begin, and the window does not wait for it.
     window.click_on("Measure");
     assert!(window.known().tradeoff.as_ref().unwrap().work.running());
     drop(window);
-}
-
-/// Whether torque over speed is known of the run on screen.
-fn has_torque(app: &App) -> bool {
-    app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
 }
 
 #[test]

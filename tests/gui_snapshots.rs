@@ -130,7 +130,9 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
         settle(&mut window);
     }
     until(&mut window, "what a tab computes in the background", |app| {
-        app.state().view.tab != Tab::Torque || app.state().run.as_deref().is_some_and(|run| !needs_torque(app, run))
+        app.state().view.tab != Tab::Torque
+            || has_torque(app)
+            || app.state().run.as_deref().is_some_and(|run| matches!(run.problem.scenario, Scenario::Plate(_)))
     });
     window
 }
@@ -170,11 +172,6 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
     window.click_on("Start the sweep");
     until(&mut window, "swept", |app| app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.running));
     window
-}
-
-/// Whether torque over speed is still to come.
-fn needs_torque(app: &App, run: &SolvedScene) -> bool {
-    matches!(run.problem.scenario, Scenario::Motor(_)) && !app.state().torque.is_of(run)
 }
 
 /// Until panels have their sizes and nothing fades in any more.
@@ -244,9 +241,7 @@ fn the_window_looks_as_it_did() {
     }
     let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
     window.click_on("Measure");
-    until(&mut window, "measured", |app| {
-        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
-    });
+    until(&mut window, "measured", measured);
     compare(&mut results, &mut window, "trade-off");
     let mut window = self::window("plate-crossover", USUAL, &[LECTURE, TORQUE]);
     window.get_by_label_contains("6mH^2").scroll_to_me();

@@ -564,9 +564,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "stated error", "the numerical error only");
 
     window.ctrl(Key::Num4);
-    until(&mut window, "torque over speed", |app| {
-        app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
-    });
+    until(&mut window, "torque over speed", has_torque);
     let torque =
         ["Torque over speed", "Power", "Efficiency", "With film", "Without film", "Friction heat", "Rotor speed"];
     explains(faults, &window, "Torque", &torque);
@@ -582,9 +580,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     window.ctrl(Key::Num5);
     explains(faults, &window, "Trade-off, before", &[]);
     window.click_on("Measure");
-    until(&mut window, "measured", |app| {
-        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
-    });
+    until(&mut window, "measured", measured);
     let tradeoff = [
         "fidelities",
         "other grids",
@@ -799,9 +795,7 @@ fn fits_beside_the_results(window: &mut Window) {
 fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
     let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::Num4);
-    until(&mut window, "torque over speed", |app| {
-        app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
-    });
+    until(&mut window, "torque over speed", has_torque);
     assert!(!window.shows("measured"));
     let rows = "rotor_speed_rpm,torque_nm,film.min_spacing_nm\n0,0.26,\n20,0.24,\n40,0.2,100\n";
     let _torques = drop_text(&mut window, "torque.csv", rows);

@@ -156,6 +156,16 @@ pub(crate) fn once_solved(mut window: Window) -> Window {
     window
 }
 
+/// Whether torque over speed is known of the run on screen.
+pub(crate) fn has_torque(app: &App) -> bool {
+    app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
+}
+
+/// Whether a measurement of error against time has ended.
+pub(crate) fn measured(app: &App) -> bool {
+    app.state().tradeoff.as_ref().is_some_and(|measured| !measured.work.running())
+}
+
 /// Drops a file on the window.
 pub(crate) fn drop_file(window: &mut Window, path: impl Into<PathBuf>) {
     window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.into())));
