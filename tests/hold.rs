@@ -10,7 +10,7 @@ use squeezefilm::film::exact::viscous_strip_force;
 use squeezefilm::hold::{Hold, REACH, leak_time};
 use squeezefilm::plan::Plan;
 use squeezefilm::problem::{GRAVITY, Numerics, Plate, Scenario};
-use squeezefilm::solution::{Outcome, PlateResult, settled};
+use squeezefilm::solution::{Outcome, PlateResult, SlowMotion, settled};
 use squeezefilm::solve::{Settings, solve};
 
 fn plate(set: &[(&str, &str)]) -> Plate {
@@ -250,13 +250,17 @@ fn the_mean_pressure_of_a_plate_let_go_has_the_mean_force() {
     }
 }
 
-#[test]
-fn pushed_away_it_creeps_back_as_fast_as_is_said() {
-    let (plate, gap) = floating(&[]);
-    let problem = scenes::problem("floating-disc", &[]);
+/// What a solve of such a plate says of its slow motion.
+fn said(set: &[(&str, &str)]) -> SlowMotion {
+    let problem = scenes::problem("floating-disc", set);
     let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
     let Outcome::Plate(PlateResult { floating: Some(found), .. }) = solution.outcome else { panic!("it floats") };
-    let slow = found.slow.unwrap();
+    found.slow.unwrap()
+}
+
+#[test]
+fn pushed_away_it_creeps_back_as_fast_as_is_said() {
+    let ((plate, gap), slow) = (floating(&[]), said(&[]));
     assert!(slow.damping_ratio.value > 5.0, "{slow:?}");
     let within = slow.creep_time.unwrap().value;
     // Three heights at equal times give the rate, wherever it ends; at the same instant of the vibration, in which the plate trembles.
