@@ -323,11 +323,8 @@ fn a_stiffness_that_may_be_none_leaves_stability_open() {
 #[test]
 fn a_load_that_no_film_carries_is_refused_with_the_amplitude_it_needs() {
     let with = |amplitude: &str, load: &str| {
-        solved(
-            &scene("floating-disc", &[&[("plate.amplitude_um", amplitude), ("plate.load_n", load)]]),
-            Fidelity::Draft,
-        )
-        .1
+        let set = [("plate.amplitude_um", amplitude), ("plate.load_n", load)];
+        solved(&scene("floating-disc", &[&set]), Fidelity::Draft).1
     };
     let error = with("0.01", "5").unwrap_err().to_string();
     println!("{error}");
@@ -400,10 +397,7 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
         let problem = Problem::try_from(&sweep.scene_at(row.point).unwrap()).unwrap();
         let plate = problem.scenario.plate().unwrap();
         let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;
-        assert!(
-            row.numbers.get(Quantity::SlowDampingError).unwrap()
-                < 0.1 * row.numbers.get(Quantity::SlowDamping).unwrap()
-        );
+        assert!(get(Quantity::SlowDampingError) < 0.1 * get(Quantity::SlowDamping));
         println!("{:?}: {gap} ± {error}, law {law}", row.values);
         assert!((gap / law - 1.0).abs() < 0.05 && error < 0.02 * gap, "{row:?}");
     }

@@ -534,10 +534,14 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
 }
 
 fn run(preset: &str) -> SolvedScene {
-    run_with(preset, &[], Method::Auto)
+    run_with(preset, &[])
 }
 
-fn run_with(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
+fn run_with(preset: &str, set: &[(&str, &str)]) -> SolvedScene {
+    run_by(Method::Auto, preset, set)
+}
+
+fn run_by(method: Method, preset: &str, set: &[(&str, &str)]) -> SolvedScene {
     let scene = scenes::scene(preset, set);
     let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
@@ -694,11 +698,11 @@ fn look(run: &SolvedScene, size: egui::Vec2, click: bool) -> (View, Vec<Command>
 fn every_kind_of_run_is_drawn_at_every_size() {
     let runs = [
         run("fundamental"),
-        run_with("fundamental", &[], Method::Paper),
+        run_by(Method::Paper, "fundamental", &[]),
         run("levitating"),
         run("tooth-radius-3m"),
         run("plate-crossover"),
-        run_with("plate-trapped", &[("plate.width_mm", "0.3")], Method::Auto),
+        run_with("plate-trapped", &[("plate.width_mm", "0.3")]),
     ];
     for run in &runs {
         for size in
@@ -725,21 +729,13 @@ fn extremes_do_not_disturb_it() {
         field.fill(0.0);
     }
     nothing.pressure.fill(101_325.0);
-    look(&still, egui::vec2(600.0, 600.0), false);
+    let draw = |run: &SolvedScene| look(run, egui::vec2(600.0, 600.0), false);
+    draw(&still);
     still.number = 2;
     still.solution.recording = Recording::default();
-    look(&still, egui::vec2(600.0, 600.0), false);
+    draw(&still);
     for teeth in ["1", "64"] {
-        let few = run_with(
-            "fundamental",
-            &[("stator.teeth_per_wave", teeth), ("stator.tooth_width_mm", "0.3")],
-            Method::Auto,
-        );
-        look(&few, egui::vec2(600.0, 600.0), false);
+        draw(&run_with("fundamental", &[("stator.teeth_per_wave", teeth), ("stator.tooth_width_mm", "0.3")]));
     }
-    look(
-        &run_with("fundamental", &[("stator.normal_amplitude_um", "0")], Method::Auto),
-        egui::vec2(600.0, 600.0),
-        false,
-    );
+    draw(&run_with("fundamental", &[("stator.normal_amplitude_um", "0")]));
 }
