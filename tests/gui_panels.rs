@@ -408,12 +408,8 @@ fn a_table_comes_from_its_file() {
     std::fs::write(&path, "wavenumber_per_m,compliance_m2_per_n\n100,1e-9\n200,5e-10\n").unwrap();
     let mut harness = opened(Scene::motor());
     enter(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
-    assert_eq!(
-        harness.state().scene().get("rotor.model"),
-        Some(Value::Text("table".into())),
-        "{:?}",
-        harness.state().state.rejected
-    );
+    let (model, rejected) = (harness.state().scene().get("rotor.model"), &harness.state().state.rejected);
+    assert_eq!(model, Some(Value::Text("table".into())), "{rejected:?}");
     harness.get_by_label("2 rows");
 }
 
@@ -522,11 +518,8 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
             open_all(&mut harness);
             for role in [Role::Slider, Role::TextInput, Role::CheckBox, Role::ComboBox, Role::Label] {
                 for node in harness.query_all_by_role(role) {
-                    assert!(
-                        node.rect().right() <= width + 0.5,
-                        "{:?} at {width} × {size}",
-                        node.accesskit_node().label()
-                    );
+                    let (right, name) = (node.rect().right(), node.accesskit_node().label());
+                    assert!(right <= width + 0.5, "{name:?} at {width} × {size}");
                 }
             }
         }

@@ -277,20 +277,17 @@ fn a_double_click_brings_a_moved_chart_back_and_opens_no_point() {
     window.drag_at(to);
     window.drop_at(to);
     window.run_steps(3);
-    assert_eq!(
-        window.known().document.scene(),
-        &swept(window.state()).sweep.scene_at(3).unwrap(),
-        "one click opens a point"
-    );
+    let point = |window: &Window, place: usize| swept(window.state()).sweep.scene_at(place).unwrap();
+    assert_eq!(window.known().document.scene(), &point(&window, 3), "one click opens a point");
     // Where a click may be the first of two it waits.
     drag(&mut window, from, to);
     window.run_steps(100);
     window.drag_at(to);
     window.drop_at(to);
     window.run_steps(3);
-    assert_eq!(window.known().document.scene(), &swept(window.state()).sweep.scene_at(3).unwrap());
+    assert_eq!(window.known().document.scene(), &point(&window, 3));
     window.run_steps(60);
-    assert_eq!(window.known().document.scene(), &swept(window.state()).sweep.scene_at(1).unwrap());
+    assert_eq!(window.known().document.scene(), &point(&window, 1));
 }
 
 #[test]

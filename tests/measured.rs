@@ -5,7 +5,6 @@
 
 use squeezefilm::digits::significant;
 use squeezefilm::export::surface::{lay, lengths, preset};
-use squeezefilm::scene::presets;
 use squeezefilm::surface::height_map::{HeightMap, HeightMapError};
 use squeezefilm::surface::texture::{Pair, Texture, measured};
 use std::f64::consts::{PI, TAU};
@@ -184,5 +183,4 @@ fn the_lines_for_a_preset_are_taken() {
     // What no key allows is moved to the end of its range, and says so.
     let lines = preset(&Pair { rms: 1e-9, ..pair });
     assert!(lines.contains("rms_nm = 10.0  # measured 1, allowed 10 to 5000"), "{lines}");
-    assert!(presets::find("asperities").is_ok());
 }

@@ -165,10 +165,8 @@ fn a_light_load_floats() {
         let motor = motor_with(&[("motor.load_per_wave_n", load)]);
         let found = solve_plan(&motor, &Plan { tolerance: 1e-6, ..plan(&motor, Fidelity::Standard) });
         assert!((found.result.alpha.value - 1.0).abs() <= 1e-6, "{load} N: {}", found.result.alpha);
-        assert!(
-            (found.recording.film_load.iter().sum::<f64>() / found.recording.frames as f64 / motor.load - 1.0).abs()
-                < 1e-5
-        );
+        let mean = found.recording.film_load.iter().sum::<f64>() / found.recording.frames as f64;
+        assert!((mean / motor.load - 1.0).abs() < 1e-5);
         if load != "0.3" {
             assert!(found.result.levitated && found.result.teeth_in_contact.value == 0.0, "{load} N");
             assert!(found.result.min_film_thickness.value > motor.min_spacing, "{load} N");
@@ -204,13 +202,9 @@ fn leaving_out_the_wedge_term_changes_alpha_by_less_than_stated() {
         let motor = motor_with(&changes);
         let without = Plan { shear: false, ..plan(&motor, Fidelity::Fine) };
         let with = Plan { shear: true, ..without.clone() };
-        let (a, b) = (solve_plan(&motor, &with).result.alpha.value, solve_plan(&motor, &without).result.alpha.value);
-        let stated = 2.0 * Dimensionless::of_motor(&motor).bearing_to_squeeze;
-        assert!(
-            (a / b - 1.0).abs() < stated,
-            "{changes:?}: {a} {b}, relative {:.1e}, stated {stated:.1e}",
-            a / b - 1.0
-        );
+        let [a, b] = [&with, &without].map(|plan| solve_plan(&motor, plan).result.alpha.value);
+        let (change, stated) = (a / b - 1.0, 2.0 * Dimensionless::of_motor(&motor).bearing_to_squeeze);
+        assert!(change.abs() < stated, "{changes:?}: {a} {b}, relative {change:.1e}, stated {stated:.1e}");
     }
 }
 
@@ -224,8 +218,7 @@ fn a_compliance_table_of_the_beam_is_the_beam() {
     };
     let rows = (0..400).map(|i| at(50.0 * 1.03f64.powi(i))).collect();
     let table = Motor { rotor: RotorCompliance::Table(rows), ..beam.clone() };
-    let (a, b) =
-        (solve(&beam, Fidelity::Standard).result.alpha.value, solve(&table, Fidelity::Standard).result.alpha.value);
+    let [a, b] = [&beam, &table].map(|motor| solve(motor, Fidelity::Standard).result.alpha.value);
     assert!((a / b - 1.0).abs() < 5e-4, "{a} {b}");
 }
 
