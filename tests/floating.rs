@@ -392,8 +392,8 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
     }
     let rows = sweep.run(&[], &Cancel::new(), &|_| ());
     for row in &rows {
-        let (gap, error) =
-            (row.numbers.get(Quantity::MeanGap).unwrap(), row.numbers.get(Quantity::MeanGapError).unwrap());
+        let get = |quantity| row.numbers.get(quantity).unwrap();
+        let (gap, error) = (get(Quantity::MeanGap), get(Quantity::MeanGapError));
         let problem = Problem::try_from(&sweep.scene_at(row.point).unwrap()).unwrap();
         let plate = problem.scenario.plate().unwrap();
         let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;

@@ -8,7 +8,6 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use scenes::changed;
 use squeezefilm::analysis::decision::{term, words};
 use squeezefilm::analysis::validity::outside;
 use squeezefilm::control::Cancel;
@@ -316,7 +315,7 @@ fn a_refusal_opens_the_group_it_is_in() {
 
 #[test]
 fn one_click_brings_back_what_was_opened() {
-    let [opened, next] = ["1", "2"].map(|load| changed(Scene::motor(), &[("motor.load_per_wave_n", load)]));
+    let [opened, next] = ["1", "2"].map(|load| Scene::motor().with(&[("motor.load_per_wave_n", load)]).unwrap());
     let mut edited = Edited::of(opened.clone());
     edited.state.document.edit(next, "motor.load_per_wave_n", false);
     let mut harness = panel(edited);

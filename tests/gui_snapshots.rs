@@ -30,7 +30,7 @@ use squeezefilm::solve::Method;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
-use window::{User, Window, await_path, drop_file, face};
+use window::{User, Window, await_path, drop_file, face, has_torque, measured};
 
 const USUAL: [f32; 2] = [1400.0, 900.0];
 const SMALL: [f32; 2] = [1024.0, 700.0];

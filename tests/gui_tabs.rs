@@ -35,7 +35,9 @@ use squeezefilm::solution::Outcome;
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use window::{Memory, User, Window, begin_export, drop_file, face, left, once_solved, reopen, solved, until};
+use window::{
+    Memory, User, Window, begin_export, drop_file, face, has_torque, left, measured, once_solved, reopen, solved, until,
+};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {

@@ -9,11 +9,6 @@ pub(crate) fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
     presets::find(preset).unwrap().with(changes).unwrap()
 }
 
-/// The built-in preset of this name, with these keys changed.
-pub(crate) fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
-    changed(presets::find(preset).unwrap(), changes)
-}
-
 /// The problem of such a scene.
 pub(crate) fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
     Problem::try_from(&scene(preset, changes)).unwrap()
