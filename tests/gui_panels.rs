@@ -398,6 +398,29 @@ fn one_of_two_ways_to_say_a_thing_is_edited_and_shows_the_other() {
 }
 
 #[test]
+fn a_tick_changes_the_form_and_not_the_value() {
+    for (key, value, switch, form) in [
+        ("motor.load_per_wave_n", "5", "Load on the whole ring", "motor.load_n"),
+        ("motor.rotor_speed_rpm", "20", "Speed in mm/s", "motor.rotor_speed_mm_per_s"),
+        ("stator.tooth_width_mm", "1.767", "Tooth width as a share of the pitch", "stator.tooth_share"),
+    ] {
+        let scene = Scene::motor().with([(key, value)]).unwrap();
+        let now = scene.alternative(Parameter::find(form).unwrap()).unwrap();
+        let mut harness = panel(Edited::of(scene.clone()));
+        click_a(&mut harness, Role::CheckBox, switch);
+        let ticked = harness.state().scene().get(form).and_then(|value| value.as_number()).unwrap();
+        assert!((ticked / now - 1.0).abs() < 1e-6, "{form} = {ticked}");
+        click_a(&mut harness, Role::CheckBox, switch);
+        assert_eq!(*harness.state().scene(), scene);
+    }
+    // The mean gap was not on screen, and the default is no more than the amplitude.
+    let floating = Scene::plate().with([("plate.mass_g", "100"), ("plate.amplitude_um", "1")]).unwrap();
+    let mut harness = panel(Edited::of(floating));
+    click_a(&mut harness, Role::CheckBox, "Floats under its weight");
+    assert_eq!(harness.state().scene().get("plate.mean_gap_um"), Some(Value::Number(2.0)));
+}
+
+#[test]
 fn a_table_comes_from_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rotor.csv");
