@@ -5,7 +5,7 @@ use super::records;
 use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
-use crate::gui::derived::words::{self, choice, field_name, label};
+use crate::gui::derived::words::{self, field_name, label};
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
@@ -426,11 +426,7 @@ impl Panel<'_> {
     }
 
     fn in_words(&self, parameter: &Parameter, value: &Value) -> String {
-        match value {
-            Value::Text(name) => choice(parameter.key, name).to_owned(),
-            Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
-            value => parameter.with_unit(value),
-        }
+        parameter.with_unit(words::shown(parameter.key, value))
     }
 }
 
