@@ -285,6 +285,17 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
 }
 
 #[test]
+fn a_number_has_as_many_digits_as_fit_its_field() {
+    let scene = Scene::motor().with([("motor.dry_friction", "0.286212")]).unwrap();
+    let mut harness = panel(Edited::of(scene));
+    let name = "Dry friction coefficient as a number";
+    let shown = |harness: &Harness<'_, Edited>| harness.get_by_role_and_label(Role::TextInput, name).value();
+    assert_eq!(shown(&harness).as_deref(), Some("0.28621"));
+    click_a(&mut harness, Role::TextInput, name);
+    assert_eq!(shown(&harness).as_deref(), Some("0.286212"));
+}
+
+#[test]
 fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
     let mut edited = Edited::of(Scene::motor());
     edited.apply(&Command::Set { key: "motor.contact_radius_mm", value: Value::Number(5.0), dragging: false });
