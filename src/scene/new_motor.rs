@@ -41,8 +41,10 @@ pub enum Accepts {
     Text,
 }
 
-/// Digits of what follows from torque and speed.
+/// Digits of what follows from torque, speed and normal amplitude.
 const DIGITS: usize = 4;
+/// Normal amplitude over the tangential one, where only one of them is known.
+const ELLIPSE: f64 = 1.3;
 /// More friction than this is remarked on.
 const MUCH_FRICTION: f64 = 0.5;
 /// Usual coefficients of friction, in words.
@@ -68,7 +70,7 @@ pub static QUESTIONS: &[Question] = &[
     question("waves", "Wavelengths round the ring", Accepts::Key("motor.waves"), Some("9")),
     question("teeth", "Teeth on the ring", Accepts::Whole(1.0, 6400.0), Some("8 on each wave")),
     question("stall-torque-nm", "Stall torque", Accepts::Number(1e-6, 1e4, "N·m"), Some("a friction coefficient of 0.3")),
-    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"), Some("a tangential amplitude of 1 µm")),
+    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"), Some("a tangential amplitude of 1 µm, or of the normal one over 1.3")),
     question("normal-amplitude-um", "Normal amplitude of the stator", Accepts::Key("stator.normal_amplitude_um"),
         Some("1.3 times the tangential one")),
     question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter")),
@@ -307,19 +309,22 @@ impl NewMotor {
             .number("no-load-speed-rpm")
             .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
         let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
-        let (tangential, why) = match amplitude {
-            Some(amplitude) if factors == Factors::LEAST => (
+        let (tangential, why) = match (amplitude, draft.number("normal-amplitude-um")) {
+            (Some(amplitude), _) if factors == Factors::LEAST => (
                 amplitude,
                 "the crests of the wave move as fast as the rotor without load: the least that it can be; the solved motor tells how much more it is",
             ),
-            Some(amplitude) => {
+            (Some(amplitude), _) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
             }
-            None => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
+            (None, Some(normal)) => {
+                (rounded(normal / ELLIPSE, DIGITS), "the normal one over 1.3, as in the motor of Maeno and Bogy")
+            }
+            (None, None) => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
         let why = "1.3 times the tangential one, as in the motor of Maeno and Bogy";
-        draft.take("stator.normal_amplitude_um", "normal-amplitude-um", 1.3 * tangential, why);
+        draft.take("stator.normal_amplitude_um", "normal-amplitude-um", ELLIPSE * tangential, why);
         let why = "3 % of the diameter: how wide the lip of a rotor is";
         draft.take("rotor.contact_width_mm", "contact-width-mm", 0.03 * diameter, why);
         draft.pairs.push(("rotor.model", "section".to_owned()));
@@ -436,6 +441,9 @@ mod tests {
         };
         let uneven = why(("teeth", "70"), "stator.teeth_per_wave");
         assert!(uneven.starts_with("8: ") && uneven.ends_with("72 teeth on the ring, not 70"), "{uneven}");
+        // A normal amplitude alone leaves the shape of the ellipse to be assumed, not its size.
+        let tangential = why(("normal-amplitude-um", "0.8"), "stator.tangential_amplitude_um");
+        assert!(tangential.starts_with("0.6154 µm: the normal one over 1.3"), "{tangential}");
         // More friction than is usual.
         let friction = |torque| why(("stall-torque-nm", torque), "motor.dry_friction");
         assert!(
