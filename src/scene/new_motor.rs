@@ -69,8 +69,10 @@ pub static QUESTIONS: &[Question] = &[
     question("load-n", "Axial load on the rotor", Accepts::Key("motor.load_n"), None),
     question("waves", "Wavelengths round the ring", Accepts::Key("motor.waves"), Some("9")),
     question("teeth", "Teeth on the ring", Accepts::Whole(1.0, 6400.0), Some("8 on each wave")),
+    question("tooth-width-mm", "Tooth width", Accepts::Key("stator.tooth_width_mm"), Some("three quarters of the pitch")),
     question("stall-torque-nm", "Stall torque", Accepts::Number(1e-6, 1e4, "N·m"), Some("a friction coefficient of 0.3")),
-    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"), Some("a tangential amplitude of 1 µm, or of the normal one over 1.3")),
+    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"),
+        Some("a tangential amplitude of 1 µm, or of the normal one over 1.3")),
     question("normal-amplitude-um", "Normal amplitude of the stator", Accepts::Key("stator.normal_amplitude_um"),
         Some("1.3 times the tangential one")),
     question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter")),
@@ -288,7 +290,10 @@ impl NewMotor {
             }
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
-        draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch");
+        match draft.number("tooth-width-mm") {
+            Some(width) => draft.give("stator.tooth_width_mm", width),
+            None => draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch"),
+        }
         let friction = draft
             .number("stall-torque-nm")
             .map(|torque| rounded(factors.friction * torque / (load * radius * 1e-3), DIGITS));
@@ -408,6 +413,7 @@ mod tests {
             ("name", "Mine"),
             ("waves", "9"),
             ("teeth", "72"),
+            ("tooth-width-mm", "1.9"),
             ("stall-torque-nm", "1.215"),
             ("no-load-speed-rpm", "100"),
             ("normal-amplitude-um", "1500 nm"),
@@ -425,9 +431,16 @@ mod tests {
         assert!((number("motor.dry_friction") - 0.3).abs() < 1e-9);
         assert!((number("stator.tangential_amplitude_um") - 1.125).abs() < 1e-9);
         assert_eq!(number("stator.normal_amplitude_um"), 1.5);
-        assert_eq!(number("rotor.thickness_mm"), 1.5);
+        assert_eq!([number("stator.tooth_width_mm"), number("rotor.thickness_mm")], [1.9, 1.5]);
         assert_eq!(motor.scene.name, "Mine");
-        let given = ["motor.waves", "stator.teeth_per_wave", "rotor.thickness_mm", "film.gas", "film.altitude_m"];
+        let given = [
+            "motor.waves",
+            "stator.teeth_per_wave",
+            "stator.tooth_share",
+            "rotor.thickness_mm",
+            "film.gas",
+            "film.altitude_m",
+        ];
         assert!(!motor.assumed.iter().any(|assumption| given.contains(&assumption.key)));
         // 70 teeth are no whole number on each of 9 waves.
         let why = |more: (&'static str, &str), key: &str| {
@@ -466,6 +479,8 @@ mod tests {
         );
         let few = NewMotor::of(&answers(&[&NEEDED[..], &[("teeth", "5")]].concat())).unwrap_err();
         assert_eq!(few, "teeth = 5 does not go with the other answers: each of the 9 waves has one tooth or more");
+        let wide = NewMotor::of(&answers(&[&NEEDED[..], &[("tooth-width-mm", "3")]].concat())).unwrap_err();
+        assert!(wide.contains("1 % to 100 % of the tooth pitch"), "{wide}");
         // Each answer alone is allowed, and together they ask for a load on one wave that is not.
         let light = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "0.05")];
         assert!(NewMotor::of(&answers(&light)).unwrap_err().contains("motor.load_per_wave_n"));
