@@ -379,7 +379,7 @@ fn what_follows_from_the_gas_is_shown_and_not_edited() {
     open_all(&mut harness);
     click_a(&mut harness, Role::ComboBox, "Gas");
     click(&mut harness, "Helium");
-    for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
+    for (name, value) in [("Viscosity", "19.61 µPa·s"), ("Mean free path", "189.3 nm")] {
         assert!(harness.query_by_role_and_label(Role::Slider, name).is_none(), "{name}");
         harness.get_by_label(value);
     }
