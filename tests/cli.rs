@@ -134,7 +134,7 @@ fn summary_names_the_numbers_with_units() {
 #[test]
 fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
     let helium = run(&["solve", "motor-60mm-helium", "--fidelity", "draft"]);
-    let line = "helium at 20 °C  at 79.50 kPa: viscosity 19.61 µPa s, mean free path 241.3 nm";
+    let line = "helium at 20 °C  at 79.50 kPa: viscosity 19.61 µPa·s, mean free path 241.3 nm";
     assert!(out(&helium).contains(line) && err(&helium).is_empty(), "{}", out(&helium));
     let (pressure, stays) = ("film.ambient_pressure_kpa=50", "the mean free path stays at 64 nm at another pressure");
     let solve =

@@ -68,7 +68,7 @@ impl Noise {
 const FREQUENCIES: [f64; 8] = [3.0, 6.0, 12.0, 20.0, 35.0, 60.0, 100.0, 150.0];
 const PLATE: [&str; 2] = ["plate.amplitude_um=0.2:0.8", "film.viscosity_upa_s=8:40"];
 
-/// Loads of a plate over its frequency at an amplitude of 0.5 µm and a viscosity of 18.1 µPa s, with errors of 1 %.
+/// Loads of a plate over its frequency at an amplitude of 0.5 µm and a viscosity of 18.1 µPa·s, with errors of 1 %.
 fn plate_loads(exact: &[f64], seed: u64) -> String {
     let mut noise = Noise(seed);
     let mut text = "plate.frequency_khz,film_load_n,film_load_n_error\n".to_owned();
@@ -162,7 +162,7 @@ fn a_bound_in_the_way_is_told() {
     let viscosity = &found.unknowns[0];
     assert_eq!((viscosity.at, viscosity.value, viscosity.error), (Some(Bound::Lower), 25.0, None));
     assert!(found.unknowns[1].error.is_some() && found.degrees_of_freedom == 7);
-    assert!(found.warnings.iter().any(|text| text.starts_with("film.viscosity_upa_s is at its lower bound, 25 µPa s")));
+    assert!(found.warnings.iter().any(|text| text.starts_with("film.viscosity_upa_s is at its lower bound, 25 µPa·s")));
 }
 
 #[test]

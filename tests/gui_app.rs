@@ -270,6 +270,24 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
     assert_eq!((window.known().document.scene().name.as_str(), window.known().view.tab), (name.as_str(), Tab::Motion));
 }
 
+/// What a form for a new motor needs.
+const DATA_SHEET: [(&str, &str); 3] =
+    [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")];
+
+#[test]
+fn enter_makes_a_new_motor_once_its_form_is_complete() {
+    let mut window = window("fundamental");
+    window.state_mut().carry_out(Command::NewMotor);
+    window.run_steps(2);
+    for (field, text) in DATA_SHEET {
+        window.get_by_label("Make this motor");
+        window.type_into(field, text);
+    }
+    until(&mut window, "the new motor", |app| {
+        app.state().document.scene().get("motor.load_n") == Some(Value::Number(150.0))
+    });
+}
+
 #[test]
 fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     let mut window = once_solved(window("fundamental"));
@@ -279,9 +297,7 @@ fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     window.run_steps(5);
     let make = |window: &Window| window.get_by_label("Make this motor").accesskit_node().is_disabled();
     assert!(make(&window));
-    for (field, text) in
-        [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")]
-    {
+    for (field, text) in DATA_SHEET {
         window.type_over(Role::TextInput, field, text);
         window.run_steps(5);
     }

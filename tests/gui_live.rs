@@ -140,6 +140,7 @@ fn a_plate_starts_from_rest_too() {
     });
     window.get_by_label_contains("repeats within");
     window.get_by_label_contains("load ratio");
+    window.get_by_label_contains("film load over p_a × length, against the cycle: click");
     // (That of a plate at standard is half of what a finer grid shows.)
     agrees(window.state());
     let kept = starting(window.state()).kept().count();

@@ -294,6 +294,17 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
 }
 
 #[test]
+fn a_number_has_as_many_digits_as_fit_its_field() {
+    let scene = Scene::motor().with([("motor.dry_friction", "0.286212")]).unwrap();
+    let mut harness = panel(Edited::of(scene));
+    let name = "Dry friction coefficient as a number";
+    let shown = |harness: &Harness<'_, Edited>| harness.get_by_role_and_label(Role::TextInput, name).value();
+    assert_eq!(shown(&harness).as_deref(), Some("0.28621"));
+    click_a(&mut harness, Role::TextInput, name);
+    assert_eq!(shown(&harness).as_deref(), Some("0.286212"));
+}
+
+#[test]
 fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
     let mut edited = Edited::of(Scene::motor());
     edited.apply(&Command::Set { key: "motor.contact_radius_mm", value: Value::Number(5.0), dragging: false });
@@ -371,7 +382,7 @@ fn what_follows_from_the_gas_is_shown_and_not_edited() {
     let mut harness = opened(Scene::motor());
     click_a(&mut harness, Role::ComboBox, "Gas");
     click(&mut harness, "Helium");
-    for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
+    for (name, value) in [("Viscosity", "19.61 µPa·s"), ("Mean free path", "189.3 nm")] {
         assert!(harness.query_by_role_and_label(Role::Slider, name).is_none(), "{name}");
         harness.get_by_label(value);
     }
@@ -398,6 +409,29 @@ fn one_of_two_ways_to_say_a_thing_is_edited_and_shows_the_other() {
     // 0.6 of 2π · 29 mm/63.
     harness.get_by_label("1.735 mm");
     assert_eq!(harness.state().scene().get("stator.tooth_width_mm"), None);
+}
+
+#[test]
+fn a_tick_changes_the_form_and_not_the_value() {
+    for (key, value, switch, form) in [
+        ("motor.load_per_wave_n", "5", "Load on the whole ring", "motor.load_n"),
+        ("motor.rotor_speed_rpm", "20", "Speed in mm/s", "motor.rotor_speed_mm_per_s"),
+        ("stator.tooth_width_mm", "1.767", "Tooth width as a share of the pitch", "stator.tooth_share"),
+    ] {
+        let scene = Scene::motor().with([(key, value)]).unwrap();
+        let now = scene.alternative(Parameter::find(form).unwrap()).unwrap();
+        let mut harness = panel(Edited::of(scene.clone()));
+        click_a(&mut harness, Role::CheckBox, switch);
+        let ticked = harness.state().scene().get(form).and_then(|value| value.as_number()).unwrap();
+        assert!((ticked / now - 1.0).abs() < 1e-6, "{form} = {ticked}");
+        click_a(&mut harness, Role::CheckBox, switch);
+        assert_eq!(*harness.state().scene(), scene);
+    }
+    // The mean gap was not on screen, and the default is no more than the amplitude.
+    let floating = Scene::plate().with([("plate.mass_g", "100"), ("plate.amplitude_um", "1")]).unwrap();
+    let mut harness = panel(Edited::of(floating));
+    click_a(&mut harness, Role::CheckBox, "Floats under its weight");
+    assert_eq!(harness.state().scene().get("plate.mean_gap_um"), Some(Value::Number(2.0)));
 }
 
 #[test]

@@ -178,6 +178,13 @@ fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     assert!(window.query_by_label_contains("t = ").is_none());
     // The scene being edited is as it was.
     assert_eq!(window.known().document.scene(), &presets::find("fundamental").unwrap());
+    // Words of the window for what is chosen, and which of the two a name belongs to.
+    window.click_on("Numbers");
+    for text in
+        ["Beam on a foundation", "Rectangle or strip", "Frequency of the stator, kHz", "Frequency of the plate, kHz"]
+    {
+        assert!(window.query_all_by_label(text).next().is_some(), "{text}");
+    }
     window.click_on("Remove all");
     assert!(window.known().pins.runs.is_empty());
 }

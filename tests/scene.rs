@@ -89,7 +89,7 @@ fn messages_name_file_line_key_value_and_range() {
         ("[film]\nshear = 1\n", "my.toml:4: film.shear = 1 is of the wrong type: expected true or false"),
         (
             "[film]\nviscosity_upa_s = nan\n",
-            "my.toml:4: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa s",
+            "my.toml:4: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa·s",
         ),
         ("[film]\nviscosity_upa_s = -inf\n", "my.toml:4: film.viscosity_upa_s = -inf is not finite"),
         ("[motor]\nwaves = inf\n", "my.toml:4: motor.waves = inf is not finite: expected a whole number"),
@@ -310,7 +310,7 @@ fn a_key_at_fault_hides_the_rules_about_it() {
     assert_eq!(
         message("[motor]\nwaves = 0\n[film]\nviscosity_upa_s = nan\nshear = 0\n[numerics]\nwedge = \"on\"\n"),
         "my.toml:4: motor.waves = 0 is out of range: allowed 1 to 100\n\
-         my.toml:6: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa s\n\
+         my.toml:6: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa·s\n\
          my.toml:7: film.shear = 0 is of the wrong type: expected true or false"
     );
     // A table of harmonics is not read without a wavelength, and is not missing either.
@@ -334,7 +334,7 @@ fn viscosity_and_mean_free_path_follow_a_named_gas() {
     let mut scene = Scene::motor();
     assert_eq!(gas(&scene), Gas::default());
     scene.set("film.viscosity_upa_s", "30").unwrap();
-    // The issue's motor: helium at 2000 m. 79.501 kPa (U.S. Standard Atmosphere), 19.6 µPa s; 194 nm at 20 °C and 101.325 kPa.
+    // The issue's motor: helium at 2000 m. 79.501 kPa (U.S. Standard Atmosphere), 19.6 µPa·s; 194 nm at 20 °C and 101.325 kPa.
     scene.set_all([("film.gas", "helium"), ("film.altitude_m", "2000")]).unwrap();
     let (helium, sea_level) = (gas(&scene), 101.325 / 79.501);
     assert!((helium.ambient_pressure / 79_501.0 - 1.0).abs() < 1e-4, "{helium:?}");

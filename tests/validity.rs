@@ -55,7 +55,7 @@ fn solution(min_gap: f64) -> Solution {
 fn density_heat_and_sound_are_those_of_the_gas() {
     let far = [("plate.mean_gap_um", "500"), ("plate.frequency_khz", "40"), ("film.gas", "helium")];
     let found = plate(&far);
-    // 101325 Pa/(2077.3 J/(kg K) · 293.15 K) = 0.16639 kg/m³; 0.16639 · 251 327/s · (0.5 mm)²/(12 · 19.62 µPa s).
+    // 101325 Pa/(2077.3 J/(kg K) · 293.15 K) = 0.16639 kg/m³; 0.16639 · 251 327/s · (0.5 mm)²/(12 · 19.62 µPa·s).
     check(&found, "gas-inertia", 44.40, 0.1);
     // κ = 19.62e-6/(0.16639 · 0.664) = 1.776e-4 m²/s, depth 37.59 µm.
     check(&found, "isothermal", 500.0 / 37.59, 1.0);
@@ -80,7 +80,7 @@ fn density_heat_and_sound_are_those_of_the_gas() {
 fn a_plate_far_above_a_wall() {
     let found = plate(&[("plate.mean_gap_um", "500"), ("plate.frequency_khz", "40")]);
     assert_eq!(names(&found), ["gas-inertia", "isothermal", "thinness"]);
-    // 1.2041 kg/m³ · 251 327/s · (0.5 mm)²/(12 · 18.1 µPa s).
+    // 1.2041 kg/m³ · 251 327/s · (0.5 mm)²/(12 · 18.1 µPa·s).
     check(&found, "gas-inertia", 348.3, 0.1);
     // κ = 18.1e-6/(1.2041 · 0.71) = 2.117e-5 m²/s, depth 12.98 µm.
     check(&found, "isothermal", 500.0 / 12.98, 1.0);
@@ -94,7 +94,7 @@ fn gas_inertia() {
     let at = |gap: &str| names_of(plate(&[("plate.length_mm", "5"), ("plate.mean_gap_um", gap)]));
     assert_eq!(at("9.7"), Vec::<&str>::new());
     assert_eq!(at("9.9"), ["gas-inertia"]);
-    // However slow: Re/σ = 1.2041 · 101 325 · h⁴/(144 · (18.1 µPa s)² · 1 mm²), 0.015 at 8.73 µm.
+    // However slow: Re/σ = 1.2041 · 101 325 · h⁴/(144 · (18.1 µPa·s)² · 1 mm²), 0.015 at 8.73 µm.
     let slow = |gap: &str| plate(&[("plate.frequency_khz", "0.01"), ("plate.mean_gap_um", gap)]);
     assert_eq!(names(&slow("8.7")), Vec::<&str>::new());
     let found = slow("17.5");

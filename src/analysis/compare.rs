@@ -139,9 +139,17 @@ pub struct ParameterRow {
     pub parameter: &'static Parameter,
     /// Its value in each scene; `None` where it is absent or does not apply.
     pub values: Vec<Option<Value>>,
+    /// Whether each scene has the key.
+    has: Vec<bool>,
 }
 
 impl ParameterRow {
+    /// What a table for people has in place of the value of this scene, if there is none: `none` where the key is absent, and `–` where it does not
+    /// apply.
+    pub fn missing(&self, place: usize) -> &'static str {
+        if self.has.get(place) == Some(&true) { "none" } else { "–" }
+    }
+
     /// Whether the scenes differ in it.
     pub fn differs(&self) -> bool {
         self.values.windows(2).any(|pair| pair[0] != pair[1])
@@ -152,8 +160,9 @@ impl ParameterRow {
 pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
     let row = |parameter: &'static Parameter| {
         let values: Vec<_> = scenes.iter().map(|scene| scene.get(parameter.key)).collect();
-        (!matches!(parameter.key, "name" | "about") && values.iter().any(Option::is_some))
-            .then_some(ParameterRow { parameter, values })
+        let has = scenes.iter().map(|scene| scene.has(parameter)).collect();
+        let told = !matches!(parameter.key, "name" | "about") && values.iter().any(Option::is_some);
+        told.then_some(ParameterRow { parameter, values, has })
     };
     PARAMETERS.iter().filter_map(row).collect()
 }
@@ -258,6 +267,15 @@ mod tests {
         let differing: Vec<_> = rows.iter().filter(|row| row.differs()).map(|row| row.parameter.key).collect();
         assert_eq!(differing, ["film.min_spacing_nm"]);
         assert!(rows.len() > 15, "{}", rows.len());
+    }
+
+    #[test]
+    fn a_key_that_a_scene_has_not_is_not_one_that_is_absent() {
+        let floating = Scene::plate().with([("plate.mass_g", "100")]).unwrap();
+        let rows = parameters(&[&Scene::motor(), &Scene::plate(), &floating]);
+        let row = |key: &str| rows.iter().find(|row| row.parameter.key == key).unwrap();
+        assert_eq!([0, 1].map(|place| row("plate.mass_g").missing(place)), ["–", "none"]);
+        assert_eq!(row("plate.mean_gap_um").missing(2), "–");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult};
 use std::f64::consts::SQRT_2;
 
-/// A share of the load, or of p_a × area, below which a film hardly matters.
+/// A share of the load, or of ambient pressure times area, below which a film hardly matters.
 const HARDLY: f64 = 1e-3;
 /// No film has an effect as small as this.
 const NOTHING: f64 = 1e-6;
@@ -67,7 +67,8 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
         }
         (Scenario::Motor(_), Outcome::Motor(result)) => (result.alpha, "the load", ", and contact the rest"),
         (Scenario::Plate(plate), Outcome::Plate(result)) => {
-            (result.film_load * PlateResult::ratio(1.0, plate), "p_a × area", " in the mean")
+            let of = if plate.is_strip() { "p_a × length" } else { "p_a × area" };
+            (result.film_load * PlateResult::ratio(1.0, plate), of, " in the mean")
         }
         // A solver answers in kind.
         _ => return String::new(),
@@ -211,7 +212,7 @@ mod tests {
                 PlateResult { film_load: Estimate { value: film_load, error: 1e-6 }, ..PlateResult::default() };
             weight(&problem, &Outcome::Plate(result))
         };
-        assert_eq!(of(10.1325), "here it carries 10 % of p_a × area in the mean");
-        assert_eq!(of(0.0101325), "here it hardly matters: it carries 0.01 % of p_a × area in the mean");
+        assert_eq!(of(10.1325), "here it carries 10 % of p_a × length in the mean");
+        assert_eq!(of(0.0101325), "here it hardly matters: it carries 0.01 % of p_a × length in the mean");
     }
 }

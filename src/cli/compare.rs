@@ -102,8 +102,10 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     let mut listed = 0;
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         listed += 1;
-        let shown = |value: &Option<Value>| value.as_ref().map_or_else(|| "none".to_owned(), Value::to_string);
-        columns.row(std::iter::once(row.parameter.key.to_owned()).chain(row.values.iter().map(shown)));
+        let shown = |(place, value): (usize, &Option<Value>)| {
+            value.as_ref().map_or_else(|| row.missing(place).to_owned(), Value::to_string)
+        };
+        columns.row(std::iter::once(row.parameter.key.to_owned()).chain(row.values.iter().enumerate().map(shown)));
     }
     let right: Vec<usize> = (1..=2 * runs.len()).collect();
     text.push('\n');

@@ -288,7 +288,7 @@ fn gas_row(columns: &mut Columns, problem: &Problem) {
     if gas.ideal != IdealGas::UNNAMED {
         let [pressure, viscosity, path] = [gas.ambient_pressure / 1e3, gas.viscosity * 1e6, gas.mean_free_path * 1e9];
         let follows = format!(
-            "at {} kPa: viscosity {} µPa s, mean free path {} nm",
+            "at {} kPa: viscosity {} µPa·s, mean free path {} nm",
             shown(pressure),
             shown(viscosity),
             shown(path)

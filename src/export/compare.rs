@@ -53,7 +53,7 @@ pub const TIME_UP: &str = "time was up";
 pub fn object(runs: &[ComparedRun], settings: &Settings) -> Value {
     let rows = results(runs);
     let differing = parameter_rows(runs).into_iter().filter(ParameterRow::differs).map(|row| {
-        let ParameterRow { parameter, values } = row;
+        let ParameterRow { parameter, values, .. } = row;
         json!({ "key": parameter.key, "unit": parameter.unit, "values": values })
     });
     json!({
@@ -442,10 +442,10 @@ fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a Para
     let mut table = Table::default().heads(names.into_iter().chain(labels));
     for row in rows {
         // What differs from the first run is marked.
-        let values = row.values.iter().map(|value| match value {
+        let values = row.values.iter().enumerate().map(|(place, value)| match value {
             Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
             Some(shown) => (Kind::Strong, shown.to_string()),
-            None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
+            None => (Kind::Quiet, row.missing(place).to_owned()),
         });
         let name = capitalised(&labelled(&row.parameter.words(), row.parameter.unit));
         table.row([(Kind::Words, name), (Kind::Quiet, row.parameter.key.to_owned())].into_iter().chain(values));

@@ -176,8 +176,11 @@ pub fn figure<'a>(
     steady: Option<Estimate>,
     loads: impl Iterator<Item = &'a [f64]>,
 ) -> Figure {
-    let motor = matches!(problem.scenario, Scenario::Motor(_));
-    let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
+    let label = match &problem.scenario {
+        Scenario::Motor(_) => "film share of the load α",
+        Scenario::Plate(plate) if plate.is_strip() => "film load over p_a × length",
+        Scenario::Plate(_) => "film load over p_a × area",
+    };
     let at = |row: &CycleRow| (row.cycle as f64, row.numbers.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);

@@ -119,7 +119,7 @@ pub static PARAMETERS: &[Parameter] = &[
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
     number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude at which the standard atmosphere has the ambient pressure")
         .absent("the pressure is given", "Pressure of an altitude").when(NAMED).instead_of("film.ambient_pressure_kpa"),
-    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
+    number("film.viscosity_upa_s", "µPa·s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
         "Mean free path of the gas at the ambient pressure").when(CUSTOM),
     choice("film.slip", Any, Slip::NAMES, "first-order", "Slip law of the gas at the walls").named("Slip at the walls"),

@@ -41,8 +41,10 @@ pub enum Accepts {
     Text,
 }
 
-/// Digits of what follows from torque and speed.
+/// Digits of what follows from torque, speed and normal amplitude.
 const DIGITS: usize = 4;
+/// Normal amplitude over the tangential one, where only one of them is known.
+const ELLIPSE: f64 = 1.3;
 /// More friction than this is remarked on.
 const MUCH_FRICTION: f64 = 0.5;
 /// Usual coefficients of friction, in words.
@@ -67,8 +69,10 @@ pub static QUESTIONS: &[Question] = &[
     question("load-n", "Axial load on the rotor", Accepts::Key("motor.load_n"), None),
     question("waves", "Wavelengths round the ring", Accepts::Key("motor.waves"), Some("9")),
     question("teeth", "Teeth on the ring", Accepts::Whole(1.0, 6400.0), Some("8 on each wave")),
+    question("tooth-width-mm", "Tooth width", Accepts::Key("stator.tooth_width_mm"), Some("three quarters of the pitch")),
     question("stall-torque-nm", "Stall torque", Accepts::Number(1e-6, 1e4, "N·m"), Some("a friction coefficient of 0.3")),
-    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"), Some("a tangential amplitude of 1 µm")),
+    question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"),
+        Some("a tangential amplitude of 1 µm, or of the normal one over 1.3")),
     question("normal-amplitude-um", "Normal amplitude of the stator", Accepts::Key("stator.normal_amplitude_um"),
         Some("1.3 times the tangential one")),
     question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter")),
@@ -286,7 +290,10 @@ impl NewMotor {
             }
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
-        draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch");
+        match draft.number("tooth-width-mm") {
+            Some(width) => draft.give("stator.tooth_width_mm", width),
+            None => draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch"),
+        }
         let friction = draft
             .number("stall-torque-nm")
             .map(|torque| rounded(factors.friction * torque / (load * radius * 1e-3), DIGITS));
@@ -307,19 +314,22 @@ impl NewMotor {
             .number("no-load-speed-rpm")
             .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
         let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
-        let (tangential, why) = match amplitude {
-            Some(amplitude) if factors == Factors::LEAST => (
+        let (tangential, why) = match (amplitude, draft.number("normal-amplitude-um")) {
+            (Some(amplitude), _) if factors == Factors::LEAST => (
                 amplitude,
                 "the crests of the wave move as fast as the rotor without load: the least that it can be; the solved motor tells how much more it is",
             ),
-            Some(amplitude) => {
+            (Some(amplitude), _) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
             }
-            None => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
+            (None, Some(normal)) => {
+                (rounded(normal / ELLIPSE, DIGITS), "the normal one over 1.3, as in the motor of Maeno and Bogy")
+            }
+            (None, None) => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
         let why = "1.3 times the tangential one, as in the motor of Maeno and Bogy";
-        draft.take("stator.normal_amplitude_um", "normal-amplitude-um", 1.3 * tangential, why);
+        draft.take("stator.normal_amplitude_um", "normal-amplitude-um", ELLIPSE * tangential, why);
         let why = "3 % of the diameter: how wide the lip of a rotor is";
         draft.take("rotor.contact_width_mm", "contact-width-mm", 0.03 * diameter, why);
         draft.pairs.push(("rotor.model", "section".to_owned()));
@@ -403,6 +413,7 @@ mod tests {
             ("name", "Mine"),
             ("waves", "9"),
             ("teeth", "72"),
+            ("tooth-width-mm", "1.9"),
             ("stall-torque-nm", "1.215"),
             ("no-load-speed-rpm", "100"),
             ("normal-amplitude-um", "1500 nm"),
@@ -420,9 +431,16 @@ mod tests {
         assert!((number("motor.dry_friction") - 0.3).abs() < 1e-9);
         assert!((number("stator.tangential_amplitude_um") - 1.125).abs() < 1e-9);
         assert_eq!(number("stator.normal_amplitude_um"), 1.5);
-        assert_eq!(number("rotor.thickness_mm"), 1.5);
+        assert_eq!([number("stator.tooth_width_mm"), number("rotor.thickness_mm")], [1.9, 1.5]);
         assert_eq!(motor.scene.name, "Mine");
-        let given = ["motor.waves", "stator.teeth_per_wave", "rotor.thickness_mm", "film.gas", "film.altitude_m"];
+        let given = [
+            "motor.waves",
+            "stator.teeth_per_wave",
+            "stator.tooth_share",
+            "rotor.thickness_mm",
+            "film.gas",
+            "film.altitude_m",
+        ];
         assert!(!motor.assumed.iter().any(|assumption| given.contains(&assumption.key)));
         // 70 teeth are no whole number on each of 9 waves.
         let why = |more: (&'static str, &str), key: &str| {
@@ -436,6 +454,9 @@ mod tests {
         };
         let uneven = why(("teeth", "70"), "stator.teeth_per_wave");
         assert!(uneven.starts_with("8: ") && uneven.ends_with("72 teeth on the ring, not 70"), "{uneven}");
+        // A normal amplitude alone leaves the shape of the ellipse to be assumed, not its size.
+        let tangential = why(("normal-amplitude-um", "0.8"), "stator.tangential_amplitude_um");
+        assert!(tangential.starts_with("0.6154 µm: the normal one over 1.3"), "{tangential}");
         // More friction than is usual.
         let friction = |torque| why(("stall-torque-nm", torque), "motor.dry_friction");
         assert!(
@@ -458,6 +479,8 @@ mod tests {
         );
         let few = NewMotor::of(&answers(&[&NEEDED[..], &[("teeth", "5")]].concat())).unwrap_err();
         assert_eq!(few, "teeth = 5 does not go with the other answers: each of the 9 waves has one tooth or more");
+        let wide = NewMotor::of(&answers(&[&NEEDED[..], &[("tooth-width-mm", "3")]].concat())).unwrap_err();
+        assert!(wide.contains("1 % to 100 % of the tooth pitch"), "{wide}");
         // Each answer alone is allowed, and together they ask for a load on one wave that is not.
         let light = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "0.05")];
         assert!(NewMotor::of(&answers(&light)).unwrap_err().contains("motor.load_per_wave_n"));

@@ -164,7 +164,7 @@ const UNITS: [(&str, &str, Per); 16] = [
     ("_m2_per_n", "m²/N", Per::One),
     ("_um_per_n", "µm/N", Per::Over(1e6)),
     ("_mm_per_s", "mm/s", Per::Over(1e3)),
-    ("_upa_s", "µPa s", Per::Over(1e6)),
+    ("_upa_s", "µPa·s", Per::Over(1e6)),
     ("_gpa", "GPa", Per::Times(1e9)),
     ("_khz", "kHz", Per::Times(1e3)),
     ("_kpa", "kPa", Per::Times(1e3)),

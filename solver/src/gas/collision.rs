@@ -20,7 +20,7 @@ impl Collision {
     }
 }
 
-/// As Lemmon and Jacobsen write C: 0.0266958 √M/σ² µPa s/√K, molar mass M \[g/mol\], diameter σ \[nm\].
+/// As Lemmon and Jacobsen write C: 0.0266958 √M/σ² µPa·s/√K, molar mass M \[g/mol\], diameter σ \[nm\].
 pub(super) fn lemmon_jacobsen(molar_mass: f64, diameter: f64, energy: f64) -> Collision {
     Collision { scale: 2.66958e-8 * molar_mass.sqrt() / (diameter * diameter), energy, terms: LEMMON_JACOBSEN }
 }

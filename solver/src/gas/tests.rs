@@ -1,6 +1,6 @@
 use super::{GASES, atmosphere, find};
 
-/// CRC Handbook of Chemistry and Physics, 84th edition, "Viscosity of gases" [µPa s] at 200, 300, 400, 500 and 600 K. Its
+/// CRC Handbook of Chemistry and Physics, 84th edition, "Viscosity of gases" [µPa·s] at 200, 300, 400, 500 and 600 K. Its
 /// sources are others than those of the fits: Kadoya et al. 1985 (air), Cole and Wakeham 1985 (nitrogen), Kestin et al. 1984
 /// (helium, argon), Vesovic et al. 1990 (carbon dioxide), Assael et al. 1986 (hydrogen).
 const HANDBOOK: [(&str, [f64; 5]); 6] = [

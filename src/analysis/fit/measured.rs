@@ -132,7 +132,7 @@ pub fn measurable(problem: &Problem) -> Vec<Quantity> {
     Quantity::of(problem).filter(|quantity| !quantity.is_count() && !quantity.is_error() && !other(quantity)).collect()
 }
 
-/// Names of measurable numbers, divided by commas.
+/// Names of measurable numbers, separated by commas.
 pub(super) fn names(problem: &Problem) -> String {
     measurable(problem).into_iter().map(|quantity| quantity.column(problem)).collect::<Vec<_>>().join(", ")
 }

@@ -138,7 +138,7 @@ impl Axis {
                     ParameterKind::Whole { .. } => true,
                     _ => {
                         return Err(AnalysisError::Input(format!(
-                            "vary {key}: it accepts {}, and only a number has a range; list its values, divided by commas",
+                            "vary {key}: it accepts {}, and only a number has a range; list its values, separated by commas",
                             parameter.accepts()
                         )));
                     }

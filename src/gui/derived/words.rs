@@ -59,6 +59,15 @@ pub fn choice(key: &str, name: &str) -> String {
     }
 }
 
+/// A value as the window writes it, without its unit: a choice in words, a flag as on or off.
+pub fn shown(key: &str, value: &Value) -> String {
+    match value {
+        Value::Text(name) => choice(key, name),
+        Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
+        value => value.to_string(),
+    }
+}
+
 /// As [`choice`]; if it is left to the plan, also the choice of the `plan`: "Auto: left out".
 pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     let found = plan.iter().find(|decision| decision.key() == Some(key));

@@ -56,9 +56,10 @@ impl RejectedEdits {
         self.0.insert(key, (change, message));
     }
 
-    /// Forgets the rejected edit of `key`.
+    /// Forgets the rejected edits of `key`, and of the keys that could be given in its place.
     pub fn accept(&mut self, key: &str) {
-        self.0.remove(key);
+        let other_form = |other: &str| Parameter::find(other).and_then(|found| found.instead_of) == Some(key);
+        self.0.retain(|other, _| *other != key && !other_form(other));
     }
 
     /// Forgets all.

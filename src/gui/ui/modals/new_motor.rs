@@ -8,13 +8,15 @@ use crate::gui::ui::form::show_list;
 use crate::gui::ui::theme::outline_fields;
 use crate::scene::Parameter;
 use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
-use eframe::egui::{self, Ui};
+use eframe::egui::{self, Key, Ui};
 
 /// Share of the window's height that questions and assumptions have each.
 const HEIGHTS: [f32; 2] = [0.5, 0.2];
 
-/// Asks; the answer is the motor.
+/// Asks; the answer is the motor. Enter in a field makes it, as the button does.
 pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answer {
+    let mut answers = answers.clone();
+    let mut entered = false;
     heading(ui, "A motor from its data sheet");
     outline_fields(ui);
     let height = ui.ctx().content_rect().height();
@@ -23,13 +25,13 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
     egui::ScrollArea::vertical().id_salt("questions").max_height(HEIGHTS[0] * height).show(ui, |ui| {
         egui::Grid::new("questions").num_columns(2).show(ui, |ui| {
             for question in QUESTIONS {
-                ask(ui, question, answers, cx);
+                entered |= ask(ui, question, &mut answers, cx);
                 ui.end_row();
             }
         });
     });
     ui.add_space(8.0);
-    let motor = NewMotor::of(answers);
+    let motor = NewMotor::of(&answers);
     // As high whatever it says: the questions above do not move while they are answered.
     let said =
         egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).auto_shrink([true, false]);
@@ -41,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
             }
         }
         Err(wrong) => {
-            let told: Vec<String> = QUESTIONS.iter().filter_map(|question| complaint(question, answers)).collect();
+            let told: Vec<String> = QUESTIONS.iter().filter_map(|question| complaint(question, &answers)).collect();
             let others = wrong.lines().filter(|_| told.is_empty()).map(str::to_owned);
             told.iter().cloned().chain(others).for_each(|line| cx.note(ui, line));
         }
@@ -51,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         let make = ui.add_enabled(motor.is_ok(), egui::Button::new("Make this motor")).clicked();
         let cancelled = ui.button("Cancel").clicked();
         match motor {
-            Ok(_) if make => Some(vec![Command::MakeNewMotor(answers.clone())]),
+            Ok(_) if make || entered => Some(vec![Command::MakeNewMotor(answers)]),
             _ => cancelled.then(Vec::new),
         }
     })
@@ -70,7 +72,9 @@ fn complaint(question: &Question, answers: &Answers) -> Option<String> {
     }
 }
 
-fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawContext<'_>) {
+/// Shows a question, with its answer so far, and takes another one; whether Enter was pressed in its field.
+fn ask(ui: &mut Ui, question: &'static Question, answers: &mut Answers, cx: &DrawContext<'_>) -> bool {
+    let mut entered = false;
     let label = ui.label(question.title());
     let present = answers.get(question.name).map_or("", String::as_str);
     let hint = question.otherwise.unwrap_or("needed");
@@ -88,11 +92,14 @@ fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawCon
     } else {
         let field = egui::TextEdit::singleline(&mut answer).hint_text(hint).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
+        entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if ui.memory(|memory| memory.focused().is_none()) && question.otherwise.is_none() && present.is_empty() {
             field.request_focus();
         }
     }
     if answer != present {
+        answers.insert(question.name.to_owned(), answer.clone());
         cx.push(Command::AnswerNewMotor(question.name, answer));
     }
+    entered
 }

@@ -1,16 +1,18 @@
 //! A field for typed values. What is refused stays in the field, with the reason below, until it is corrected or
 //! Escape brings the value back.
 
-use crate::digits;
+use crate::digits::rounded;
 use crate::gui::command::Command;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::text_width;
 use crate::scene::Value;
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{self, Id, Key};
 
-/// Significant digits of a number that is not being edited; with the cursor in the field it has all.
+/// Most and fewest significant digits of a number that is not being edited: as many as fit. With the cursor in the field it has all.
 const DIGITS: usize = 6;
+const FEWEST_DIGITS: usize = 3;
 /// Bytes of a text beyond which it stays on one line, so that it does not fill the panel.
 const LONGEST_WRAPPED: usize = 400;
 
@@ -59,7 +61,7 @@ impl Field<'_> {
         let focused = ui.memory(|memory| memory.has_focus(id));
         let mut text = match (&edit, self.value) {
             (Some(edit), _) => edit.text.clone(),
-            (None, Some(Value::Number(number))) if !focused => plain(&Value::Number(digits::rounded(*number, DIGITS))),
+            (None, Some(Value::Number(number))) if !focused => self.fitting(ui, *number),
             (None, _) => present.clone(),
         };
         let alarmed = self.refused.is_some() && edit.is_some();
@@ -99,6 +101,14 @@ impl Field<'_> {
             self.finish(ui, id, &text, (left && text.trim() != present).then_some(handed), cx);
         }
         response
+    }
+
+    /// The number, with as many digits as fit.
+    fn fitting(&self, ui: &egui::Ui, number: f64) -> String {
+        let room = self.width.min(ui.available_width()) - 2.0 * ui.spacing().button_padding.x;
+        let text = |digits| plain(&Value::Number(rounded(number, digits)));
+        let fits = |digits: &usize| text_width(ui, &text(*digits)) <= room;
+        text((FEWEST_DIGITS..=DIGITS).rev().find(fits).unwrap_or(FEWEST_DIGITS))
     }
 
     /// Text that differs from the scene, if there is any.

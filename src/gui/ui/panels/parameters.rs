@@ -5,7 +5,7 @@ use super::records;
 use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
-use crate::gui::derived::words::{self, choice, field_name, label};
+use crate::gui::derived::words::{self, field_name, label};
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
@@ -14,7 +14,7 @@ use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
-use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
+use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, SolvedPlate, Value};
 use eframe::egui::{self, RichText, TextStyle, Ui};
 
 /// Keys of the main parameters, listed first.
@@ -302,10 +302,7 @@ impl Panel<'_> {
         let mut on = present;
         let explanation = self.explanation(parameter);
         if ui.checkbox(&mut on, parameter.switch).hint_beside(ui, &explanation).changed() {
-            self.cx.push(match parameter.usual().filter(|_| on) {
-                Some(value) => Command::Set { key: parameter.key, value, dragging: false },
-                None => Command::Reset(parameter.key),
-            });
+            self.cx.push(self.switched(parameter, on));
         }
         if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {
             let now = format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter));
@@ -315,6 +312,25 @@ impl Panel<'_> {
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
             quiet(ui, self.cx, &capitalised(meaning));
         }
+    }
+
+    /// The command of a checkbox: a key that is given in place of another one says the same as that, there and back.
+    fn switched(&self, parameter: &'static Parameter, on: bool) -> Command {
+        let replaced = parameter.instead_of.and_then(Parameter::find);
+        let Some(given) = Some(parameter).filter(|_| on).or(replaced) else { return Command::Reset(parameter.key) };
+        let same = replaced.and_then(|_| self.scene.restated(given, self.solved_plate())).map(Value::Number);
+        match same.or_else(|| given.usual()) {
+            Some(value) => Command::Set { key: given.key, value, dragging: false },
+            None => Command::Reset(parameter.key),
+        }
+    }
+
+    /// What is known of the plate, if it is one that is solved as it is now.
+    fn solved_plate(&self) -> Option<SolvedPlate> {
+        let run = self.cx.state.run.as_ref().filter(|run| !self.cx.state.stale(run))?;
+        let plate = run.solution.outcome.plate()?;
+        let mean_gap_um = plate.floating.map(|floating| floating.mean_gap.value * 1e6);
+        Some(SolvedPlate { mean_gap_um, load_n: plate.film_load.value })
     }
 
     fn flag_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, on: bool) {
@@ -410,11 +426,7 @@ impl Panel<'_> {
     }
 
     fn in_words(&self, parameter: &Parameter, value: &Value) -> String {
-        match value {
-            Value::Text(name) => choice(parameter.key, name).to_owned(),
-            Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
-            value => parameter.with_unit(value),
-        }
+        parameter.with_unit(words::shown(parameter.key, value))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::analysis::quantity::Quantity;
 use crate::digits::{capitalised, raised};
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
-use crate::gui::derived::words::{explanation, label};
+use crate::gui::derived::words::{explanation, label, shown};
 use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
@@ -284,16 +284,19 @@ fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
         for row in rows {
             let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
             let about = explanation(cx.state.document.scene(), row.parameter, None);
-            ui.label(format!("{}{unit}", label(row.parameter))).hint(about);
-            for value in &row.values {
+            let mut name = label(row.parameter).to_owned();
+            if rows.iter().filter(|other| label(other.parameter) == name).count() > 1 {
+                name += &format!(" of the {}", row.parameter.table());
+            }
+            ui.label(name + &unit).hint(about);
+            for (place, value) in row.values.iter().enumerate() {
                 match value {
                     Some(value) => {
-                        let text = RichText::new(value.to_string());
+                        let text = RichText::new(shown(row.parameter.key, value));
                         ui.label(if row.differs() { text.strong() } else { text.color(cx.colours.quiet) });
                     }
                     None => {
-                        let text = row.parameter.absent.map_or("–", |_| "none");
-                        ui.label(RichText::new(text).color(cx.colours.quiet));
+                        ui.label(RichText::new(row.missing(place)).color(cx.colours.quiet));
                     }
                 }
             }

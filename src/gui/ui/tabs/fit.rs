@@ -117,7 +117,7 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
             }
         });
         ui.label("with");
-        let about = "Limits on other results, divided by commas: alpha<30 %, stall_torque_nm>0.2 N·m. Their names are those of the columns that are exported";
+        let about = "Limits on other results, separated by commas: alpha<30 %, stall_torque_nm>0.2 N·m. Their names are those of the columns that are exported";
         field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
     cx.alarm(ui, cx.state.fit.goal_fault.as_ref().filter(|_| sought != Sought::Agreement));

@@ -76,7 +76,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 /// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
-    "How exact can this scene be solved, and how fast, on this machine?",
+    "How accurately can this scene be solved, and how fast, on this machine?",
     "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
          background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
 ];

@@ -40,6 +40,14 @@ const RATIO: Curve = Curve {
     word: "Load ratio",
     of: (Quantity::LoadRatio, 1.0),
 };
+const RATIO_OF_STRIP: Curve = Curve {
+    titles: [
+        "Load ratio, film load over p_a × length, against the cycle",
+        "Load ratio against the cycle",
+        "Load ratio",
+    ],
+    ..RATIO
+};
 const THICKNESS: Curve = Curve {
     titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
     word: "Least film thickness",
@@ -56,15 +64,17 @@ const OF_MOTOR_NARROW: &[(Curve, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
 const NARROW: f32 = 36.0;
 /// The gap of a plate is given.
 const OF_PLATE: &[(Curve, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
+const OF_STRIP: &[(Curve, f32)] = &[(RATIO_OF_STRIP, 0.62), (PRESSURE, 0.38)];
 
 /// Draws the start-up's numbers into the next `height` of `ui`; a click looks at the cycle there. `periodic`: the periodic
 /// solve of the same scene.
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let curves = match startup.problem.scenario {
+    let curves = match &startup.problem.scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
+        Scenario::Plate(plate) if plate.is_strip() => OF_STRIP,
         Scenario::Plate(_) => OF_PLATE,
     };
     let mut left = area.left();
