@@ -382,6 +382,13 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     window.ctrl(Key::S);
     assert!(!window.known().document.is_dirty());
     assert_eq!(&Scene::load(&path).unwrap(), window.known().document.scene());
+
+    // The same file again: what the question has saved is shown, not what the file held before.
+    window.state_mut().carry_out(Command::SetText("film.min_spacing_nm", "170".to_owned()));
+    drop_file(&mut window, path.clone());
+    window.click_on("Save");
+    assert_eq!(spacing(window.state()), Value::Number(170.0));
+    assert_eq!(&Scene::load(&path).unwrap(), window.known().document.scene());
 }
 
 /// Types a minimum spacing.
