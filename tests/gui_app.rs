@@ -22,6 +22,7 @@ use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::{Outcome, StoppedBy};
+use std::collections::HashSet;
 use std::time::Duration;
 use window::{Memory, User, Window, answer, await_path, drop_file, left, open, reopen, solved, until};
 
@@ -625,6 +626,21 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     window.ctrl(Key::Num1);
     assert_eq!(window.known().view.tab, Tab::Motion);
     window.get_by_label("Pause");
+}
+
+#[test]
+fn what_the_keyboard_goes_to_is_scrolled_into_sight() {
+    let mut window = window_in("fundamental", 500.0, Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() });
+    solved(&mut window);
+    let mut reached = HashSet::new();
+    for _ in 0..60 {
+        window.press(Key::Tab);
+        let at = window.ctx.memory(|memory| memory.focused()).and_then(|id| window.ctx.read_response(id));
+        let Some(at) = at else { continue };
+        assert!(at.interact_rect.contains(at.rect.center()), "{:?} shows {:?}", at.rect, at.interact_rect);
+        reached.insert(at.id);
+    }
+    assert!(reached.len() > 30, "{} controls", reached.len());
 }
 
 #[test]
