@@ -57,7 +57,8 @@ pub(super) fn entered_box(
     (response, entered.take())
 }
 
-/// As [`entered_box`]. Why text was refused is told beside it until something else is done.
+/// As [`entered_box`]. Text that Enter has entered and that is refused stays in it with the cursor, and why is told beside it until something
+/// else is done.
 pub(super) fn number_box(
     ui: &mut Ui,
     drag: DragValue<'_>,
@@ -73,6 +74,9 @@ pub(super) fn number_box(
     }
     if let Some((_, Some(reason))) = entered {
         ui.data_mut(|data| data.insert_temp::<String>(key, reason));
+        if ui.input(|input| input.key_pressed(Key::Enter)) {
+            response.request_focus();
+        }
     }
     if let Some(reason) = ui.data(|data| data.get_temp::<String>(key)) {
         Tooltip::for_widget(&response).show(|ui| cx.alarm(ui, [reason]));
