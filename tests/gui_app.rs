@@ -644,6 +644,25 @@ fn what_the_keyboard_goes_to_is_scrolled_into_sight() {
 }
 
 #[test]
+fn a_lit_button_shows_that_the_keyboard_is_at_it() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.ctrl(Key::Num5);
+    let outlined = |window: &Window| {
+        let (place, line) =
+            (window.get_by_label("Measure").rect(), window.ctx.global_style().visuals.widgets.active.bg_stroke);
+        window.output().shapes.iter().any(|shape| match &shape.shape {
+            Shape::Rect(rect) => place.contains(rect.rect.center()) && rect.stroke == line,
+            _ => false,
+        })
+    };
+    assert!(!outlined(&window));
+    window.get_by_label("Measure").focus();
+    window.run_steps(3);
+    assert!(outlined(&window));
+}
+
+#[test]
 fn error_against_time_is_measured_and_a_setting_is_used() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tall_window(little);

@@ -17,7 +17,11 @@ use std::ops::RangeInclusive;
 pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
     let mut button = Button::new(RichText::new(text).strong());
     if lit {
-        button = button.fill(ui.visuals().selection.bg_fill).stroke(Stroke::new(1.0, cx.colours.film));
+        // It has the outline of any other button that the keyboard is at.
+        let id = ui.next_auto_id();
+        let focused = ui.memory(|memory| memory.has_focus(id));
+        let line = if focused { ui.visuals().widgets.active.bg_stroke } else { Stroke::new(1.0, cx.colours.film) };
+        button = button.fill(ui.visuals().selection.bg_fill).stroke(line);
     }
     ui.add(button)
 }
