@@ -211,6 +211,23 @@ fn a_table_of_the_rotor_is_opened_by_the_dialog_and_told_at_its_field_if_it_is_r
 }
 
 #[test]
+fn a_path_of_a_table_that_cannot_be_read_is_offered_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("absent.csv");
+    let mut window = window_asking("fundamental", |_, _| Answer::NoDialog);
+    for purpose in [Purpose::Measurements, Purpose::Heights, Purpose::Csv("rotor.compliance_csv")] {
+        window.state_mut().carry_out(Command::Chosen(purpose.clone(), path.clone()));
+        until(&mut window, "it is refused", |app| app.state().failed_path.is_some());
+        window.state_mut().carry_out(Command::CloseModal);
+        window.state_mut().carry_out(Command::Ask(purpose));
+        await_path(&mut window);
+        let Some(Modal::Path(prompt)) = &window.known().modal else { panic!("no path is asked for") };
+        assert_eq!(prompt.path, path.to_str().unwrap());
+        window.state_mut().carry_out(Command::CloseModal);
+    }
+}
+
+#[test]
 fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
     let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
