@@ -796,6 +796,9 @@ fn fits_beside_the_results(window: &mut Window) {
     window.set_size(Vec2::new(1024.0, 700.0));
     window.run_steps(5);
     let results = window.query_all_by_label_contains("share of the load carried by air").next().unwrap().rect().left();
+    if let Some(sentence) = window.query_by_label_contains("the result stays within ") {
+        assert!(sentence.rect().right() < results, "{:?} {results}", sentence.rect());
+    }
     let charts: Vec<Rect> = window.query_all_by_role(Role::Image).map(|image| image.rect()).collect();
     let charts: Vec<Rect> = charts.into_iter().filter(|chart| chart.left() < results).collect();
     assert!(!charts.is_empty() && charts.iter().all(|chart| chart.right() <= results), "{charts:?} {results}");

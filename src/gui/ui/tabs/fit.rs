@@ -18,7 +18,7 @@ use crate::gui::ui::panels::menu::export_button;
 use crate::gui::ui::parts::{first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
 use crate::problem::Problem;
-use eframe::egui::{RichText, TextStyle, Ui};
+use eframe::egui::{Label, RichText, TextStyle, Ui};
 use std::sync::Arc;
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
@@ -280,7 +280,12 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         let row = |ui: &mut Ui, name: &str, about: &str, value: String, beside: String| {
             ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
             ui.label(RichText::new(value).color(strong));
-            ui.label(beside);
+            ui.scope(|ui| {
+                // Over as many lines as it takes, each of some words.
+                let room = ui.available_width().max(WIDE * ui.text_style_height(&TextStyle::Body));
+                ui.set_max_width(room);
+                ui.add(Label::new(beside).wrap());
+            });
             ui.end_row();
         };
         let before = found.before.map_or_else(
@@ -294,16 +299,14 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
-            let at = match scan.at {
-                Some(Bound::Lower) => "at its lower bound; ",
-                Some(Bound::Upper) => "at its upper bound; ",
-                None => "",
-            };
-            let (from, to) = scan.flat;
-            let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
-            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(found.flatness()));
+            let at = scan.at.map(|bound| format!("at its {} bound", bound.name()));
+            let flat = scan.flat.map(|(from, to)| {
+                let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+                format!("the result stays within {} of the optimum {ends}", percent(found.flatness()))
+            });
+            let beside: Vec<String> = at.into_iter().chain(flat).collect();
             let value = parameter.with_unit(significant(scan.value, 4));
-            row(ui, label(parameter), parameter.about, value, flat);
+            row(ui, label(parameter), parameter.about, value, beside.join("; "));
         }
     });
     take(ui, cx);
