@@ -13,6 +13,9 @@ use std::fmt::Debug;
 use std::hash::Hash;
 use std::ops::RangeInclusive;
 
+/// Room at the right of a tab with charts: half of the last number of an axis is clear of the scroll bar.
+pub(super) const BESIDE_CHARTS: f32 = 14.0;
+
 /// A button, lit if it is what comes next.
 pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
     let mut button = Button::new(RichText::new(text).strong());

@@ -15,7 +15,7 @@ use crate::gui::ui::form::{AxisRow, field, list};
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::export_button;
-use crate::gui::ui::parts::{first_button, heads, scrolled, table};
+use crate::gui::ui::parts::{BESIDE_CHARTS, first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
 use crate::problem::Problem;
 use eframe::egui::{Label, RichText, TextStyle, Ui};
@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let state = &cx.state.fit;
     outline_fields(ui);
-    scrolled(ui, "fit", 8.0, |ui| {
+    scrolled(ui, "fit", BESIDE_CHARTS, |ui| {
         let mut form = state.form.clone();
         sought(ui, &mut form, cx);
         let agreement = state.form.sought == Sought::Agreement;
