@@ -754,6 +754,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
         window.run_steps(3);
     };
     choose(&mut window, "What is looked for", "the greatest value of");
+    assert!(window.shows("At which values of some parameters"));
     choose(&mut window, "Number that is sought", "stall torque, N·m");
     // No table is needed, and a limit that cannot be read is said.
     window.type_into("Limits on other results", "alpha=0.3");
@@ -916,6 +917,9 @@ fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("face.csv");
     std::fs::write(&path, face()).unwrap();
+    window.ctrl(Key::Num8);
+    assert!(window.shows("after the lines # dx_um"), "what the file must hold");
+    window.ctrl(Key::Num1);
     drop_file(&mut window, &path);
     until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
     assert_eq!(window.known().view.tab, Tab::Rotor);

@@ -52,8 +52,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         if asks {
             buttons(ui, form, cx);
-        } else {
+        }
+        if !asks {
             cx.introduce(ui, INTRODUCTION);
+        } else if !agreement && state.found.is_none() && !state.work.running() {
+            cx.introduce(ui, OPTIMUM);
         }
         if let Some((scene, found)) = state.found.as_ref() {
             ui.add_space(6.0);
@@ -138,6 +141,14 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         }
     });
 }
+
+/// Text of the tab without an optimum.
+const OPTIMUM: &[&str] = &[
+    "At which values of some parameters is a result as large or as small as it can be?",
+    "Choose the result, and each parameter with its bounds. Limits on other results, such as alpha<30 %, stall_torque_nm>0.2 N·m, are \
+         divided by commas.",
+    "Nothing is solved before you ask.",
+];
 
 /// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
