@@ -140,6 +140,12 @@ fn names_of_places_close_together_stand_apart() {
             assert!((a[0] - b[0]).abs() > 26.0 || (a[1] - b[1]).abs() > 6.0, "{at:?}");
         }
     }
+    // More of one place than there is room for right beside it: the others have lines to it.
+    let line = Line::new("", [[0.0, 0.0], [2.0, 2.0]], Style::quiet());
+    let names = (0..12).map(|i| Text::new([1.0, 1.0], format!("number {i}")));
+    let crowded = Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(line).layers(names);
+    let svg = figure::to_svg(&Figure::new("").panel(crowded));
+    assert!(svg.contains(r#"class="leaders""#), "{svg}");
 }
 
 #[test]

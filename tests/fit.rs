@@ -357,7 +357,8 @@ fn the_optimum_is_that_of_a_fine_sweep() {
     assert!((found.value.value / best.0 - 1.0).abs() < 0.01, "{found:?} {best:?}");
     assert!(found.warnings.iter().any(|text| text.contains("always brake")), "{:?}", found.warnings);
     let line = &found.lines[0];
-    assert!(line.flat.0 <= line.value && line.value <= line.flat.1 && (line.flat.0..=line.flat.1).contains(&best.1));
+    let (from, to) = line.flat.unwrap();
+    assert!(from <= line.value && line.value <= to && (from..=to).contains(&best.1));
 }
 
 #[test]
@@ -378,12 +379,14 @@ fn an_optimum_keeps_its_limits() {
         "{line:?}"
     );
     // The range in which it hardly changes ends there, too.
-    assert_eq!(line.flat.0, line.value);
-    // Where it is kept nowhere, that is no optimum.
+    assert_eq!(line.flat.unwrap().0, line.value);
+    // Where it is kept nowhere, that is no optimum, and no range round it is stated.
     let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
-    let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft"]].concat());
+    let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft", "--json"]].concat());
     let said = [out(&output), err(&output)].concat();
     assert!(output.status.code() == Some(3) && said.contains("the limit alpha < 0.05 cannot be kept"), "{said}");
+    let unknown = &json(&output)["unknowns"][0];
+    assert!(unknown["flat_from"].is_null() && unknown["flat_to"].is_null(), "{unknown}");
     // Without it the bound is reached, and said to be.
     let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
     let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();

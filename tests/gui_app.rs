@@ -22,6 +22,7 @@ use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::{Outcome, StoppedBy};
+use std::collections::HashSet;
 use std::time::Duration;
 use window::{
     Memory, User, Window, answer, await_path, drop_file, has_torque, left, measured, once_solved, open, reopen, solved,
@@ -210,6 +211,23 @@ fn a_table_of_the_rotor_is_opened_by_the_dialog_and_told_at_its_field_if_it_is_r
 }
 
 #[test]
+fn a_path_of_a_table_that_cannot_be_read_is_offered_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("absent.csv");
+    let mut window = window_asking("fundamental", |_, _| Answer::NoDialog);
+    for purpose in [Purpose::Measurements, Purpose::Heights, Purpose::Csv("rotor.compliance_csv")] {
+        window.state_mut().carry_out(Command::Chosen(purpose.clone(), path.clone()));
+        until(&mut window, "it is refused", |app| app.state().failed_path.is_some());
+        window.state_mut().carry_out(Command::CloseModal);
+        window.state_mut().carry_out(Command::Ask(purpose));
+        await_path(&mut window);
+        let Some(Modal::Path(prompt)) = &window.known().modal else { panic!("no path is asked for") };
+        assert_eq!(prompt.path, path.to_str().unwrap());
+        window.state_mut().carry_out(Command::CloseModal);
+    }
+}
+
+#[test]
 fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
     let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
@@ -393,6 +411,13 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     // Saved by the keyboard, the file holds the edit.
     window.ctrl(Key::S);
     assert!(!window.known().document.is_dirty());
+    assert_eq!(&Scene::load(&path).unwrap(), window.known().document.scene());
+
+    // The same file again: what the question has saved is shown, not what the file held before.
+    window.state_mut().carry_out(Command::SetText("film.min_spacing_nm", "170".to_owned()));
+    drop_file(&mut window, path.clone());
+    window.click_on("Save");
+    assert_eq!(spacing(window.state()), Value::Number(170.0));
     assert_eq!(&Scene::load(&path).unwrap(), window.known().document.scene());
 }
 
@@ -623,6 +648,40 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     window.ctrl(Key::Num1);
     assert_eq!(window.known().view.tab, Tab::Motion);
     window.get_by_label("Pause");
+}
+
+#[test]
+fn what_the_keyboard_goes_to_is_scrolled_into_sight() {
+    let mut window = window_in("fundamental", 500.0, Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() });
+    solved(&mut window);
+    let mut reached = HashSet::new();
+    for _ in 0..60 {
+        window.press(Key::Tab);
+        let at = window.ctx.memory(|memory| memory.focused()).and_then(|id| window.ctx.read_response(id));
+        let Some(at) = at else { continue };
+        assert!(at.interact_rect.contains(at.rect.center()), "{:?} shows {:?}", at.rect, at.interact_rect);
+        reached.insert(at.id);
+    }
+    assert!(reached.len() > 30, "{} controls", reached.len());
+}
+
+#[test]
+fn a_lit_button_shows_that_the_keyboard_is_at_it() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.ctrl(Key::Num5);
+    let outlined = |window: &Window| {
+        let (place, line) =
+            (window.get_by_label("Measure").rect(), window.ctx.global_style().visuals.widgets.active.bg_stroke);
+        window.output().shapes.iter().any(|shape| match &shape.shape {
+            Shape::Rect(rect) => place.contains(rect.rect.center()) && rect.stroke == line,
+            _ => false,
+        })
+    };
+    assert!(!outlined(&window));
+    window.get_by_label("Measure").focus();
+    window.run_steps(3);
+    assert!(outlined(&window));
 }
 
 #[test]

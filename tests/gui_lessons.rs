@@ -634,6 +634,11 @@ fn a_number_that_is_still_being_typed_is_given_with_one_click() {
     window.drop_at(at);
     window.run_steps(3);
     assert_eq!((work(&window).prediction, work(&window).wrong), (Some(Prediction::Number(7000.0)), 1));
+    // What is no number stays in the field, with the cursor, to be corrected.
+    window.type_over(Role::SpinButton, "Your number", "abc");
+    window.press(Key::Enter);
+    let field = window.get_by_role_and_label(Role::SpinButton, "Your number");
+    assert!(field.is_focused() && field.value().is_some_and(|text| text == "abc"), "{:?}", field.value());
 }
 
 #[test]

@@ -748,6 +748,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
         window.run_steps(3);
     };
     choose(&mut window, "What is looked for", "the greatest value of");
+    assert!(window.shows("At which values of some parameters"));
     choose(&mut window, "Number that is sought", "stall torque, N·m");
     // No table is needed, and a limit that cannot be read is said.
     window.type_into("Limits on other results", "alpha=0.3");
@@ -790,6 +791,9 @@ fn fits_beside_the_results(window: &mut Window) {
     window.set_size(Vec2::new(1024.0, 700.0));
     window.run_steps(5);
     let results = window.query_all_by_label_contains("share of the load carried by air").next().unwrap().rect().left();
+    if let Some(sentence) = window.query_by_label_contains("the result stays within ") {
+        assert!(sentence.rect().right() < results, "{:?} {results}", sentence.rect());
+    }
     let charts: Vec<Rect> = window.query_all_by_role(Role::Image).map(|image| image.rect()).collect();
     let charts: Vec<Rect> = charts.into_iter().filter(|chart| chart.left() < results).collect();
     assert!(!charts.is_empty() && charts.iter().all(|chart| chart.right() <= results), "{charts:?} {results}");
@@ -895,6 +899,9 @@ fn exports_say_what_they_write() {
 #[test]
 fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let mut window = once_solved(window("asperities"));
+    window.ctrl(Key::Num8);
+    assert!(window.shows("after the lines # dx_um"), "what the file must hold");
+    window.ctrl(Key::Num1);
     let (_folder, path) = drop_text(&mut window, "face.csv", &face());
     until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
     assert_eq!(window.known().view.tab, Tab::Rotor);

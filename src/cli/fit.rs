@@ -284,7 +284,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
             parameter.key.to_owned(),
             parameter.with_unit(significant(line.value, 4)),
             bounds((line.unknown.from, line.unknown.to), parameter),
-            bounds(line.flat, parameter),
+            line.flat.map_or_else(|| "–".to_owned(), |flat| bounds(flat, parameter)),
             at_bound(line.at).to_owned(),
         ]);
     }

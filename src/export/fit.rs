@@ -222,8 +222,8 @@ fn scan(Scan { unknown, value, at, flat, .. }: &Scan) -> Value {
         "from": unknown.from,
         "to": unknown.to,
         "at_bound": at.map(Bound::name),
-        "flat_from": flat.0,
-        "flat_to": flat.1,
+        "flat_from": flat.map(|(from, _)| from),
+        "flat_to": flat.map(|(_, to)| to),
     })
 }
 

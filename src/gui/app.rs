@@ -17,6 +17,7 @@ use crate::platform::Instant;
 use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
 use crate::scene::Scene;
 use eframe::egui;
+use eframe::egui::accesskit::{Action, ActionRequest, TreeId};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -38,6 +39,8 @@ pub struct App {
     address: String,
     /// Title that the window has.
     title: String,
+    /// What the keyboard was at when the last frame began.
+    focused: Option<egui::Id>,
 }
 
 impl App {
@@ -54,7 +57,8 @@ impl App {
         let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
         next.into_iter().for_each(|document| updater.carry_out(Command::Proceed(Next::Given(Box::new(document)))));
         let (after_text, address, title) = (Vec::new(), String::new(), String::new());
-        Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address, title })
+        let (last_frame, focused) = (None, None);
+        Ok(Self { updater, typing: false, after_text, last_frame, unwritten: false, address, title, focused })
     }
 
     /// All that the window knows.
@@ -80,6 +84,22 @@ impl App {
         let other = modal || typing || egui::Popup::is_any_open(ctx);
         let pressed = !other && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
         pressed.then_some(close)
+    }
+
+    /// Scrolls to what the keyboard has gone to since the last frame, if its middle is out of sight: egui passes the keyboard on to what is
+    /// scrolled away too.
+    fn follow_focus(&mut self, ctx: &egui::Context) {
+        let focused = ctx.memory(|memory| memory.focused());
+        if std::mem::replace(&mut self.focused, focused) == focused {
+            return;
+        }
+        let hidden = |found: &egui::Response| !found.interact_rect.contains(found.rect.center());
+        if let Some(found) = focused.and_then(|id| ctx.read_response(id)).filter(hidden) {
+            // As a screen reader asks for it: all scroll areas around it follow.
+            let (action, target_node) = (Action::ScrollIntoView, found.id.accesskit_id());
+            let request = ActionRequest { action, target_tree: TreeId::ROOT, target_node, data: None };
+            ctx.input_mut(|input| input.events.push(egui::Event::AccessKitActionRequest(request)));
+        }
     }
 
     fn obstacles(&self) -> Obstacles {
@@ -164,6 +184,7 @@ impl eframe::App for App {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
+        self.follow_focus(&ctx);
         let cx = DrawContext::new(self.state(), self.updater.now());
         // Known to what fades into it.
         let ground = egui::Frame::new().fill(ui.visuals().panel_fill);
@@ -171,8 +192,8 @@ impl eframe::App for App {
         ui.scope_builder(egui::UiBuilder::new().ui_stack_info(stack), |ui| layout::show(ui, &cx));
         let commands = cx.into_commands();
         self.typing = ctx.text_edit_focused() && !is_searched(&ctx);
-        if !commands.is_empty() {
-            // What a command changes is drawn soon.
+        if !commands.is_empty() || ctx.memory(|memory| memory.focused()) != self.focused {
+            // What a command changes is drawn soon, and so is what the keyboard has gone to.
             ctx.request_repaint();
         }
         let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();

@@ -83,10 +83,15 @@ impl Limit {
         (over, found.error.max(2e-3 * self.value.abs()))
     }
 
+    /// Whether `found` keeps the limit, as far as it is known.
+    fn is_kept(&self, found: &Estimate) -> bool {
+        let (over, unclear) = self.over(found);
+        over <= unclear
+    }
+
     /// The limit, beside the number `found` of an optimum, in words.
     pub fn told(&self, found: &Estimate) -> String {
-        let (over, unclear) = self.over(found);
-        format!("{}: {self}", if over > unclear { "NOT KEPT" } else { "allowed" })
+        format!("{}: {self}", if self.is_kept(found) { "allowed" } else { "NOT KEPT" })
     }
 }
 
@@ -182,8 +187,9 @@ pub struct Scan {
     pub points: Vec<(f64, Option<f64>)>,
     /// Of each of them, whether all limits are kept.
     pub kept: Vec<bool>,
-    /// The range round the optimum in which all limits are kept, and the number stays within [`Optimum::flatness`] of it.
-    pub flat: (f64, f64),
+    /// The range round the optimum in which all limits are kept, and the number stays within [`Optimum::flatness`] of it; `None` if they are
+    /// not kept at the optimum itself.
+    pub flat: Option<(f64, f64)>,
 }
 
 /// The problem as the library wants it.
@@ -368,6 +374,8 @@ fn describe(
     let Some(best) = value(&here) else {
         return Err(no_start("the optimum could not be solved again"));
     };
+    let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
+    let within = goal.limits.iter().zip(&limited).all(|((limit, _), found)| limit.is_kept(found));
     let sign = if goal.greatest { 1.0 } else { -1.0 };
     let little = flatness(&best);
     let (mut lines, mut warnings) = (Vec::new(), Vec::new());
@@ -403,31 +411,28 @@ fn describe(
             let (parameter, at) = (unknown.parameter, short(unknown.value(*place), 4));
             warnings.push(format!("{} = {} cannot be computed: {reason}", parameter.key, parameter.with_unit(at)));
         }
-        let flat = [false, true].map(|upwards| edge((&points, &kept), (middle, best.value, little), upwards));
-        let flat = (flat[0], flat[1]);
+        let end = |upwards| edge((&points, &kept), (middle, best.value, little), upwards);
+        let flat = within.then(|| (end(false), end(true)));
         lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, kept, flat });
     }
-    let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
     for line in &lines {
         let Some(bound) = line.at else { continue };
         let name = goal.quantity.name();
         let (parameter, lower) = (line.unknown.parameter, bound == Bound::Lower);
-        let flat_to = if lower { line.flat.1 } else { line.flat.0 };
         let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
-        let flat = parameter.with_unit(short(flat_to, 3));
-        let beyond = match (line.value - flat_to).abs() > PLATEAU * range {
-            true if lower => format!("up to {flat} {name} changes by less than {}", percent(little)),
-            true => format!("from {flat} on {name} changes by less than {}", percent(little)),
-            false => "a better value lies beyond it, if anywhere".to_owned(),
+        let flat_to = line.flat.map(|(from, to)| if lower { to } else { from });
+        let plateau = flat_to.filter(|to| (line.value - to).abs() > PLATEAU * range);
+        let beyond = match plateau.map(|to| parameter.with_unit(short(to, 3))) {
+            Some(flat) if lower => format!("up to {flat} {name} changes by less than {}", percent(little)),
+            Some(flat) => format!("from {flat} on {name} changes by less than {}", percent(little)),
+            None => "a better value lies beyond it, if anywhere".to_owned(),
         };
         let (side, value) = (bound.name(), parameter.with_unit(short(line.value, 6)));
         warnings.push(format!("{} is at its {side} bound, {value}: {beyond}", parameter.key));
     }
-    let mut kept = true;
     for ((limit, _), found) in goal.limits.iter().zip(&limited) {
         let (over, unclear) = limit.over(found);
         if over > unclear {
-            kept = false;
             warnings.push(format!("the limit {limit} cannot be kept: {} is reached", found));
         } else if over.abs() <= unclear {
             warnings.push(format!("the limit {limit} is what stops it"));
@@ -454,7 +459,7 @@ fn describe(
         before: value(&before),
         limited,
         lines,
-        converged: converged && kept,
+        converged: converged && within,
         solves: model.solves(),
         warnings,
         scene,

@@ -23,6 +23,10 @@ use crate::ticks::Steps;
 const THIN: f64 = 0.6;
 /// Markers on a line with more.
 const MARKERS: usize = 7;
+/// A name farther than this from its point has a line to it \[pt\].
+const FAR: f64 = 8.0;
+/// The line ends this far from the point \[pt\].
+const RIM: f64 = 4.0;
 /// From the baseline to half the height of a digit, of the size.
 const HALF_HEIGHT: f64 = 0.35;
 
@@ -71,15 +75,16 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
     svg.close();
 }
 
-/// The names of places, and the upper left corner of each, where a figure has them, for another drawing of the panel: an area of this width
-/// and height \[pt\] with the axes between these ends, and words of the width and height that `words` tells.
+/// The names of places, the upper left corner of each, and the line from the place to one that is farther away, where a figure has them, for
+/// another drawing of the panel: an area of this width and height \[pt\] with the axes between these ends, and words of the width and height
+/// that `words` tells.
 #[cfg(feature = "gui")]
 pub(crate) fn names(
     panel: &Panel,
     ends: [[f64; 2]; 2],
     [width, height]: [f64; 2],
     words: impl Fn(&str) -> [f64; 2],
-) -> Vec<(String, [f64; 2])> {
+) -> Vec<(String, [f64; 2], Option<[f64; 4]>)> {
     let ruler =
         |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
     let placed = Placed {
@@ -89,7 +94,15 @@ pub(crate) fn names(
         ..Placed::default()
     };
     let on = On { placed: &placed, panel };
-    on.named_places(words).into_iter().map(|(name, place)| (name.text.clone(), [place.x, place.y])).collect()
+    let names = on.named_places(words).into_iter();
+    names.map(|(name, at, place)| (name.text.clone(), [place.x, place.y], leader(at, &place))).collect()
+}
+
+/// The line from the rim of a point to its name, if that is not right beside it.
+fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[f64; 4]> {
+    let near = [x.max(name.x).min(name.right()), y.max(name.y).min(name.bottom())];
+    let share = RIM / distance([x, y], near);
+    (share < RIM / FAR).then(|| [x + share * (near[0] - x), y + share * (near[1] - y), near[0], near[1]])
 }
 
 /// A panel at its place.
@@ -247,14 +260,21 @@ impl On<'_> {
     }
 
     fn names(&self, svg: &mut Svg) {
-        for (words, place) in self.named_places(|words| [text::width(words, NOTE), 0.8 * NOTE]) {
+        let names = self.named_places(|words| [text::width(words, NOTE), 0.8 * NOTE]);
+        let leaders: Vec<[f64; 4]> = names.iter().filter_map(|(_, at, place)| leader(*at, place)).collect();
+        if !leaders.is_empty() {
+            svg.open(r#"class="leaders""#);
+            svg.segments(&leaders, &Pen::solid(Colour::QUIET, 0.4));
+            svg.close();
+        }
+        for (words, _, place) in names {
             svg.text([place.x, place.bottom()], &words.text, &Type::new(NOTE, "start"));
         }
     }
 
-    /// The names of places, each beside its own: right and left first, then above and below, then at the corners, then likewise farther away.
-    /// `size`: width and height of words.
-    fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, Rect)> {
+    /// The names of places, each with its own and where it is beside that: right and left first, then above and below, then at the corners,
+    /// then likewise farther away. `size`: width and height of words.
+    fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
             Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
@@ -276,7 +296,7 @@ impl On<'_> {
             taken.extend(place.points());
             place
         };
-        names.into_iter().map(|(words, at)| (words, place(&words.text, at))).collect()
+        names.into_iter().map(|(words, at)| (words, at, place(&words.text, at))).collect()
     }
 
     fn contours(&self, svg: &mut Svg, map: &Map) {

@@ -1,6 +1,7 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
 use super::background::BackgroundOf;
+use super::dialogs::Purpose;
 use crate::digits::rounded;
 use crate::job::face::FaceWork;
 use crate::job::task::TaskOf;
@@ -8,6 +9,7 @@ use crate::scene::Scene;
 use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A measured face: its heights, levelled, and their statistics.
@@ -39,25 +41,31 @@ impl Face {
 pub struct FaceState {
     /// The task that reads a file.
     pub work: BackgroundOf<FaceWork>,
-    /// Name of that file.
-    name: String,
+    /// That file, and what it was asked for.
+    asked: Option<(Purpose, PathBuf)>,
     /// The face.
     pub found: Option<Arc<Face>>,
 }
 
 impl FaceState {
-    /// `task` reads the file of this name.
-    pub fn begin(&mut self, name: String, task: TaskOf<FaceWork>) {
-        (self.work, self.name) = (task.into(), name);
+    /// `task` reads the file at this path, as `purpose` asks.
+    pub fn begin(&mut self, purpose: Purpose, path: PathBuf, task: TaskOf<FaceWork>) {
+        (self.work, self.asked) = (task.into(), Some((purpose, path)));
     }
 
-    /// Takes a face that was read since the last call; returns an error to be shown.
-    pub fn drain(&mut self) -> Option<String> {
-        let found = self.work.news().end?.map(|found| {
-            let (map, texture) = found?;
-            let (name, pair) = (self.name.clone(), Pair::of(&texture, &texture));
-            Some(Arc::new(Face { name, map, pair, texture }))
-        });
-        found.map(|face| self.found = face.or(self.found.take())).err()
+    /// Takes a face that was read since the last call; returns the file that could not be, what it was asked for, and why.
+    pub fn drain(&mut self) -> Option<(Purpose, PathBuf, String)> {
+        let end = self.work.news().end?;
+        let (purpose, path) = self.asked.take()?;
+        match end {
+            Ok(found) => {
+                let (map, texture) = found?;
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let pair = Pair::of(&texture, &texture);
+                self.found = Some(Arc::new(Face { name, map, pair, texture }));
+                None
+            }
+            Err(why) => Some((purpose, path, why)),
+        }
     }
 }

@@ -202,8 +202,13 @@ fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
         [low[0], high[0]].map(|end| value(panel.x.scale, end)),
         [low[1], high[1]].map(|end| value(panel.y.scale, end)),
     ];
-    for (name, [x, y]) in figure::names(panel, ends, points(frame.size()), |text| points(galley(text).size())) {
-        painter.galley(frame.min + POINT * vec2(x as f32, y as f32), galley(&name), colour);
+    let place = |[x, y]: [f64; 2]| frame.min + POINT * vec2(x as f32, y as f32);
+    let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
+    for (name, corner, leader) in figure::names(panel, ends, points(frame.size()), |text| points(galley(text).size())) {
+        if let Some([x, y, to_x, to_y]) = leader {
+            painter.line_segment([place([x, y]), place([to_x, to_y])], thin);
+        }
+        painter.galley(place(corner), galley(&name), colour);
     }
 }
 
@@ -378,7 +383,7 @@ mod tests {
             .layers(named.map(|(at, name)| figure::Text::new(at, name)));
         let size = |text: &str| [4.0 * text.len() as f64, 7.5];
         let names = figure::names(&panel, [[0.0, 2.0]; 2], [300.0, 150.0], size);
-        let rect = |(name, [x, y]): &(String, [f64; 2])| {
+        let rect = |(name, [x, y], _): &(String, [f64; 2], Option<[f64; 4]>)| {
             let [width, height] = size(name).map(|length| length as f32);
             Rect::from_min_size(egui::pos2(*x as f32, *y as f32), vec2(width, height))
         };
@@ -389,6 +394,8 @@ mod tests {
             assert!(rects[..i].iter().all(|other| !other.intersects(*rect)), "{names:?}");
             let point = egui::pos2(150.0 * x as f32, 150.0 - 75.0 * y as f32);
             assert!(rect.distance_to_pos(point) < 25.0, "{names:?}");
+            // One that is farther from its point than the others has a line to it.
+            assert_eq!(names[i].2.is_some(), rect.distance_to_pos(point) > 8.0, "{names:?}");
         }
     }
 

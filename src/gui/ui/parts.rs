@@ -13,11 +13,18 @@ use std::fmt::Debug;
 use std::hash::Hash;
 use std::ops::RangeInclusive;
 
+/// Room at the right of a tab with charts: half of the last number of an axis is clear of the scroll bar.
+pub(super) const BESIDE_CHARTS: f32 = 14.0;
+
 /// A button, lit if it is what comes next.
 pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
     let mut button = Button::new(RichText::new(text).strong());
     if lit {
-        button = button.fill(ui.visuals().selection.bg_fill).stroke(Stroke::new(1.0, cx.colours.film));
+        // It has the outline of any other button that the keyboard is at.
+        let id = ui.next_auto_id();
+        let focused = ui.memory(|memory| memory.has_focus(id));
+        let line = if focused { ui.visuals().widgets.active.bg_stroke } else { Stroke::new(1.0, cx.colours.film) };
+        button = button.fill(ui.visuals().selection.bg_fill).stroke(line);
     }
     ui.add(button)
 }
@@ -57,7 +64,8 @@ pub(super) fn entered_box(
     (response, entered.take())
 }
 
-/// As [`entered_box`]. Why text was refused is told beside it until something else is done.
+/// As [`entered_box`]. Text that Enter has entered and that is refused stays in it with the cursor, and why is told beside it until something
+/// else is done.
 pub(super) fn number_box(
     ui: &mut Ui,
     drag: DragValue<'_>,
@@ -73,6 +81,9 @@ pub(super) fn number_box(
     }
     if let Some((_, Some(reason))) = entered {
         ui.data_mut(|data| data.insert_temp::<String>(key, reason));
+        if ui.input(|input| input.key_pressed(Key::Enter)) {
+            response.request_focus();
+        }
     }
     if let Some(reason) = ui.data(|data| data.get_temp::<String>(key)) {
         Tooltip::for_widget(&response).show(|ui| cx.alarm(ui, [reason]));

@@ -3,6 +3,7 @@
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
 use crate::gui::command::FitCommand;
+use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
 use crate::job::face::FaceWork;
@@ -29,15 +30,16 @@ impl Updater {
         }
     }
 
-    /// Reads a table of measurements, or a measured face. On the torque tab torques are drawn over the curve; anything else shows the fit.
-    pub(super) fn load_measurements(&mut self, path: PathBuf) {
+    /// Reads a table of measurements, or a measured face, as `purpose` asks. On the torque tab torques are drawn over the curve; anything else
+    /// shows the fit.
+    pub(super) fn load_measurements(&mut self, purpose: Purpose, path: PathBuf) {
         // No table of measurements is as large as heights may be.
         let heights = match read_text(&path, LARGEST_TABLE) {
             Ok(text) => begins_as_heights(&text),
             Err(error) => matches!(error, ReadError::TooLarge(_)),
         };
         if heights {
-            return self.load_face(path);
+            return self.load_face(purpose, path);
         }
         let state = &mut self.state;
         match Measured::find(&path.to_string_lossy(), state.document.scene(), Method::Auto) {
@@ -49,19 +51,20 @@ impl Updater {
                     state.view.tab = Tab::Fit;
                 }
             }
-            Err(error) => state.fail(error),
+            Err(error) => self.fail_at(purpose, &path, error),
         }
     }
 
-    pub(super) fn load_face(&mut self, path: PathBuf) {
+    /// Reads a measured face, as `purpose` asks.
+    pub(super) fn load_face(&mut self, purpose: Purpose, path: PathBuf) {
         if self.state.document.scene().kind() == Kind::Plate {
             let text = "These are measured heights, and only a motor has rough faces: open a motor first.";
             return self.state.fail(text);
         }
         self.state.view.tab = Tab::Rotor;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if let Some(task) = self.start_work("The heights cannot be read", FaceWork::new(path), Duration::ZERO) {
-            self.state.face.begin(name, task);
+        let work = FaceWork::new(path.clone());
+        if let Some(task) = self.start_work("The heights cannot be read", work, Duration::ZERO) {
+            self.state.face.begin(purpose, path, task);
         }
     }
 

@@ -157,10 +157,13 @@ impl Updater {
         let now = self.now();
         let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());
-        if let Some(error) = state.exports.drain(now).or_else(|| state.face.drain()) {
+        if let Some(error) = state.exports.drain(now) {
             state.fail(error);
         }
-        state.pins.drain();
+        if let Some((purpose, path, error)) = state.face.drain() {
+            self.fail_at(purpose, &path, error);
+        }
+        self.state.pins.drain();
         self.solve_pins();
         let state = &mut self.state;
         state.sweep.drain();
@@ -192,9 +195,16 @@ impl Updater {
         let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         match purpose {
             Purpose::Open if !table => self.open_file(path),
-            Purpose::Open | Purpose::Measurements => self.load_measurements(path),
-            Purpose::Heights => self.load_face(path),
-            Purpose::Csv(key) => self.edit(key, false, Change::Text(path.display().to_string())),
+            Purpose::Open | Purpose::Measurements => self.load_measurements(purpose, path),
+            Purpose::Heights => self.load_face(purpose, path),
+            Purpose::Csv(key) => {
+                let text = path.display().to_string();
+                self.edit(key, false, Change::Text(text.clone()));
+                // Why is told at the key.
+                if self.state.rejected.of(key).is_some() {
+                    self.state.failed_path = Some((purpose, text));
+                }
+            }
             Purpose::Lessons => self.load_lessons(&path),
             Purpose::Save(then) => {
                 if let Err(reason) = self.save_as(path.clone(), then) {

@@ -155,13 +155,13 @@ impl Updater {
         self.save_to(&complete(path, "preset", &["toml"])?, then)
     }
 
-    /// Saves to this file, then goes on to `then`.
+    /// Saves to this file, then goes on to `then`. What was read from this very file before is left out: the window shows what it holds now.
     fn save_to(&mut self, path: &Path, then: Option<Next>) -> Result<(), String> {
         self.state.document.save(path).map_err(|error| error.to_string())?;
         self.state.remember(path);
         let now = self.now();
         self.state.exports.wrote(vec![path.to_owned()], now);
-        then.into_iter().for_each(|next| self.proceed_now(next));
+        then.into_iter().filter(|next| !is_of_file(next, path)).for_each(|next| self.proceed_now(next));
         Ok(())
     }
 
@@ -174,6 +174,13 @@ impl Updater {
         }
         self.proceed_now(next);
     }
+}
+
+/// Whether `next` is a document that was read from the file at `path`, under whatever name.
+fn is_of_file(next: &Next, path: &Path) -> bool {
+    let Next::Given(document) = next else { return false };
+    let file = document.path().and_then(|read| read.canonicalize().ok());
+    file.is_some() && file == path.canonicalize().ok()
 }
 
 fn is_switch(key: &str) -> bool {

@@ -10,7 +10,7 @@ use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::parts::{self, scrolled};
+use crate::gui::ui::parts::{self, BESIDE_CHARTS, scrolled};
 use crate::gui::ui::rich::{self, Look};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
@@ -114,7 +114,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         (found, panels)
     });
     let (found, panels) = &*known;
-    scrolled(ui, "exact", 14.0, |ui| {
+    scrolled(ui, "exact", BESIDE_CHARTS, |ui| {
         let em = ui.text_style_height(&TextStyle::Body);
         cx.say_if_stale(ui, run);
         for (i, panel) in panels.iter().enumerate() {

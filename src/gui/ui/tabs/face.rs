@@ -25,6 +25,13 @@ const DRAWN: usize = 512;
 /// Most points of a profile that are drawn.
 const POINTS: usize = 2000;
 
+/// Text without a face.
+const INTRODUCTION: &[&str] = &[
+    "How rough is a face that was measured, and what follows from it?",
+    "The file has a grid of heights, after the lines # dx_um = 0.5, # dy_um = 0.5 and # height = nm, or a profile with the columns x_um and \
+         z_nm.",
+];
+
 /// Shows the face that was opened, or how to open one.
 pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     ui.add_space(6.0);
@@ -54,6 +61,8 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
         let row = if face.map.ny > 1 { map(ui, face, height) } else { 0 };
         profile(ui, &face.map, row, height);
         numbers(ui, face, cx);
+    } else if !state.work.running() {
+        cx.introduce(ui, INTRODUCTION);
     }
 }
 

@@ -15,10 +15,10 @@ use crate::gui::ui::form::{AxisRow, field, list};
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::export_button;
-use crate::gui::ui::parts::{first_button, heads, scrolled, table};
+use crate::gui::ui::parts::{BESIDE_CHARTS, first_button, heads, scrolled, table};
 use crate::gui::ui::theme::outline_fields;
 use crate::problem::Problem;
-use eframe::egui::{RichText, TextStyle, Ui};
+use eframe::egui::{Label, RichText, TextStyle, Ui};
 use std::sync::Arc;
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let state = &cx.state.fit;
     outline_fields(ui);
-    scrolled(ui, "fit", 8.0, |ui| {
+    scrolled(ui, "fit", BESIDE_CHARTS, |ui| {
         let mut form = state.form.clone();
         sought(ui, &mut form, cx);
         let agreement = state.form.sought == Sought::Agreement;
@@ -52,8 +52,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         if asks {
             buttons(ui, form, cx);
-        } else {
+        }
+        if !asks {
             cx.introduce(ui, INTRODUCTION);
+        } else if !agreement && state.found.is_none() && !state.work.running() {
+            cx.introduce(ui, OPTIMUM);
         }
         if let Some((scene, found)) = state.found.as_ref() {
             ui.add_space(6.0);
@@ -138,6 +141,14 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         }
     });
 }
+
+/// Text of the tab without an optimum.
+const OPTIMUM: &[&str] = &[
+    "At which values of some parameters is a result as large or as small as it can be?",
+    "Choose the result, and each parameter with its bounds. Limits on other results, such as alpha<30 %, stall_torque_nm>0.2 N·m, are \
+         divided by commas.",
+    "Nothing is solved before you ask.",
+];
 
 /// Text of the empty tab.
 const INTRODUCTION: &[&str] = &[
@@ -280,7 +291,12 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         let row = |ui: &mut Ui, name: &str, about: &str, value: String, beside: String| {
             ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
             ui.label(RichText::new(value).color(strong));
-            ui.label(beside);
+            ui.scope(|ui| {
+                // Over as many lines as it takes, each of some words.
+                let room = ui.available_width().max(WIDE * ui.text_style_height(&TextStyle::Body));
+                ui.set_max_width(room);
+                ui.add(Label::new(beside).wrap());
+            });
             ui.end_row();
         };
         let before = found.before.map_or_else(
@@ -294,16 +310,14 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
-            let at = match scan.at {
-                Some(Bound::Lower) => "at its lower bound; ",
-                Some(Bound::Upper) => "at its upper bound; ",
-                None => "",
-            };
-            let (from, to) = scan.flat;
-            let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
-            let flat = format!("{at}the result stays within {} of the optimum {ends}", percent(found.flatness()));
+            let at = scan.at.map(|bound| format!("at its {} bound", bound.name()));
+            let flat = scan.flat.map(|(from, to)| {
+                let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+                format!("the result stays within {} of the optimum {ends}", percent(found.flatness()))
+            });
+            let beside: Vec<String> = at.into_iter().chain(flat).collect();
             let value = parameter.with_unit(significant(scan.value, 4));
-            row(ui, label(parameter), parameter.about, value, flat);
+            row(ui, label(parameter), parameter.about, value, beside.join("; "));
         }
     });
     take(ui, cx);

@@ -12,7 +12,7 @@ use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, describe};
 use crate::gui::ui::paint::Axes;
-use crate::gui::ui::parts::scrolled;
+use crate::gui::ui::parts::{BESIDE_CHARTS, scrolled};
 use crate::problem::{Problem, Scenario};
 use crate::scene::Value;
 use crate::scene::edges::{lengths, reach, with_edge};
@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let Some(Problem { scenario: Scenario::Motor(motor), .. }) = &cx.state.problem else {
         return cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
     };
-    scrolled(ui, "rotor", 14.0, |ui| {
+    scrolled(ui, "rotor", BESIDE_CHARTS, |ui| {
         let known = cx.state.rotor.found();
         match known {
             None => drop(ui.label("Computing the rotor…")),

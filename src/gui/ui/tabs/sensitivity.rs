@@ -12,7 +12,7 @@ use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary::{self, Explained};
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::{self, first_button, number_box, scrolled};
+use crate::gui::ui::parts::{self, BESIDE_CHARTS, first_button, number_box, scrolled};
 use crate::scene::Parameter;
 use eframe::egui::{self, RichText, TextStyle, Ui};
 
@@ -24,7 +24,7 @@ const DRAWS: std::ops::RangeInclusive<f64> = 10.0..=1e5;
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
-    scrolled(ui, "sensitivity", 8.0, |ui| {
+    scrolled(ui, "sensitivity", BESIDE_CHARTS, |ui| {
         let state = &cx.state.sensitivity;
         buttons(ui, state, cx);
         cx.alarm(ui, state.failure().map(|failure| format!("Nothing was found: {failure}")));

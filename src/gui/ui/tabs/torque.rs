@@ -9,7 +9,7 @@ use crate::gui::derived::format::uncertain;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::parts::{self, scrolled};
+use crate::gui::ui::parts::{self, BESIDE_CHARTS, scrolled};
 use crate::gui::ui::theme::ACCENT;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
@@ -36,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let of = cx.state.torque.found_of().map_or(run, AsRef::as_ref);
     let Scenario::Motor(motor) = &of.problem.scenario else { return };
     let height = ui.available_height();
-    scrolled(ui, "torque", 14.0, |ui| {
+    scrolled(ui, "torque", BESIDE_CHARTS, |ui| {
         cx.say_if_stale(ui, of);
         match cx.state.torque.found() {
             None => drop(ui.label("Solving the contact without film…")),
