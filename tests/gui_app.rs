@@ -296,7 +296,7 @@ const DATA_SHEET: [(&str, &str); 3] =
 fn enter_makes_a_new_motor_once_its_form_is_complete() {
     let mut window = window("fundamental");
     window.state_mut().carry_out(Command::NewMotor);
-    window.run_steps(2);
+    window.run_steps(10);
     for (field, text) in DATA_SHEET {
         window.get_by_label("Make this motor");
         window.type_into(field, text);

@@ -273,6 +273,20 @@ fn the_stated_error_covers_the_true_one() {
     assert!(ratios[10] < 10.0, "median stated/true {}", ratios[10]);
 }
 
+#[test]
+fn errors_that_cancel_in_the_changes_between_grids_are_stated() {
+    // At these frequencies instants and nodes leave errors of opposite sign.
+    for i in 0..24 {
+        let motor = Motor { frequency: 2.3e3 * 2.6f64.powf(f64::from(i) / 23.0), ..motor_with(&[]) };
+        let fine = solve(&motor, Fidelity::Fine).result.alpha;
+        for fidelity in [Fidelity::Draft, Fidelity::Standard] {
+            let found = solve(&motor, fidelity).result.alpha;
+            let error = (found.value - fine.value).abs();
+            assert!(error <= found.error + fine.error, "{} Hz, {fidelity}: {found}, {fine}", motor.frequency);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
 

@@ -76,8 +76,9 @@ const HIGHER_ORDERS: f64 = 0.6;
 const NEARLY_SECOND_ORDER: f64 = 3.5;
 /// Least share of the spread where the approach turns back.
 const TURNING: f64 = 0.4;
-/// Least share of what the mean on the middle grid gained by its new instants.
-const SAMPLING: f64 = 0.1;
+/// Least share of what the mean on the middle grid gained by its new instants, and that of a film that nothing touches.
+const SAMPLING: f64 = 0.07;
+const SMOOTH_SAMPLING: f64 = 0.1;
 /// Likewise for the first grid.
 const FIRST_SAMPLING: f64 = 0.02;
 
@@ -107,7 +108,8 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
     extrapolate_means(&means)
 }
 
-/// As [`extrapolate`], of cycle means.
+/// As [`extrapolate`], of cycle means. What a mean gains by new instants tells how far it still depends on them: errors of opposite sign, from
+/// instants and from nodes, may cancel in the changes.
 pub fn extrapolate_means(means: &[Mean]) -> Estimate {
     extrapolate_by(means, |steps| {
         let correction = steps.correction().abs();
@@ -118,7 +120,7 @@ pub fn extrapolate_means(means: &[Mean]) -> Estimate {
         } else {
             0.5 * steps.change.abs()
         };
-        left.max((CORRECTION * correction).max(BEFORE * steps.earlier.abs()))
+        left.max((CORRECTION * correction).max(BEFORE * steps.earlier.abs())).max(SAMPLING * steps.sampling.abs())
     })
 }
 
@@ -137,7 +139,7 @@ pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
         } else {
             share.max(TURNING) * steps.spread
         };
-        let sampled = (SAMPLING * steps.sampling.abs()).max(FIRST_SAMPLING * steps.first_sampling.abs());
+        let sampled = (SMOOTH_SAMPLING * steps.sampling.abs()).max(FIRST_SAMPLING * steps.first_sampling.abs());
         left.max((HIGHER_ORDERS * spacing * steps.correction().abs()).max(sampled))
     })
 }

@@ -93,7 +93,7 @@ fn ask(ui: &mut Ui, question: &'static Question, answers: &mut Answers, cx: &Dra
         let field = egui::TextEdit::singleline(&mut answer).hint_text(hint).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
         entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        if ui.memory(|memory| memory.focused().is_none()) && question.otherwise.is_none() && present.is_empty() {
+        if ui.memory(|memory| memory.focused().is_none()) && question.otherwise.is_none() && answer.is_empty() {
             field.request_focus();
         }
     }

@@ -293,7 +293,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
             ui.label(RichText::new(value).color(strong));
             ui.scope(|ui| {
                 // Over as many lines as it takes, each of some words.
-                let room = ui.available_width().max(WIDE * ui.text_style_height(&TextStyle::Body));
+                let room = ui.available_width().max(0.7 * WIDE * ui.text_style_height(&TextStyle::Body));
                 ui.set_max_width(room);
                 ui.add(Label::new(beside).wrap());
             });
