@@ -180,6 +180,20 @@ fn viscous_limit_is_the_incompressible_film_with_no_mean_load() {
     assert!(found.result.film_load.value.abs() < 1e-3 * scale, "{} {scale}", found.result.film_load);
 }
 
+#[test]
+fn the_greatest_load_of_gas_that_is_not_compressed_is_that_of_its_formula() {
+    // Without slip it goes with sin τ/(1 + ε cos τ)³, which is greatest where 2ε cos²τ − cos τ = 3ε.
+    for epsilon in [0.5, 0.95] {
+        let plate = plate(1.0, epsilon, 0.0, None);
+        let found = solve(&plate, Fidelity::Draft);
+        let compared = ExactComparison::of(&plate, &found.result, &found.recording);
+        let cos: f64 = (1.0 - (1.0 + 24.0 * epsilon * epsilon).sqrt()) / (4.0 * epsilon);
+        let speed = std::f64::consts::TAU * plate.frequency * plate.amplitude * (1.0 - cos * cos).sqrt();
+        let known = exact::viscous_force(&plate, plate.mean_gap * (1.0 + epsilon * cos), -speed);
+        assert!((compared.greatest_viscous / known - 1.0).abs() < 1e-9, "{} {known}", compared.greatest_viscous);
+    }
+}
+
 /// Spring and damping of the load over a cycle, divided by p_a·area·ε.
 fn first_harmonic(plate: &Plate, found: &Periodic) -> (f64, f64) {
     let frames = found.recording.frames as f64;

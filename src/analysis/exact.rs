@@ -72,6 +72,8 @@ pub struct ExactComparison {
     pub boyle: Vec<f64>,
     /// Likewise for σ → 0: gas that is not compressed.
     pub viscous: Vec<f64>,
+    /// The greatest of that, also between frames.
+    pub greatest_viscous: f64,
 }
 
 impl ExactComparison {
@@ -94,8 +96,7 @@ impl ExactComparison {
         let frames = recording.frames;
         let limits = |frame: usize| {
             let phase = frame as f64 / frames as f64;
-            let (gap, rate) = (plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin());
-            (force * (trapped / gap - 1.0), viscous_force(plate, gap, rate))
+            (force * (trapped / plate.gap(phase) - 1.0), viscous_load(plate, phase))
         };
         let (boyle, viscous) = (0..frames).map(limits).unzip();
         Self {
@@ -108,8 +109,28 @@ impl ExactComparison {
             invariant_deviation: invariant_deviation(plate, recording),
             boyle,
             viscous,
+            greatest_viscous: greatest_viscous(plate),
         }
     }
+}
+
+/// Load \[N, of a strip N/m\] at a phase of the cycle if gas is not compressed.
+fn viscous_load(plate: &Plate, phase: f64) -> f64 {
+    viscous_force(plate, plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin())
+}
+
+/// The greatest of these loads: while the plate approaches there is one peak.
+fn greatest_viscous(plate: &Plate) -> f64 {
+    let (mut low, mut high) = (0.0, 0.5);
+    while high - low > 1e-9 {
+        let third = (high - low) / 3.0;
+        if viscous_load(plate, low + third) < viscous_load(plate, high - third) {
+            low += third;
+        } else {
+            high -= third;
+        }
+    }
+    viscous_load(plate, low)
 }
 
 /// Spring and damping of a solve of `plate`, over p_a · area · ε; `None` if nothing vibrates.

@@ -174,7 +174,7 @@ fn floating_object(plate: &Plate, load: f64, found: &Floating) -> Value {
 /// of a rectangle), `trapped_…` for σ → ∞ (Langlois 1962, Salbu 1964; with slip); loads in the object's force unit, of gas that cannot
 /// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
 fn exact_object(found: &ExactComparison) -> Value {
-    let [boyle, viscous] = [&found.boyle, &found.viscous].map(|load| extent(load.iter().copied()));
+    let boyle = extent(found.boyle.iter().copied());
     let (linear, unit, absolute) = (found.linear, found.unit, found.stiffness_and_damping());
     let mut object = json!({ "effective_squeeze_number": found.effective_squeeze_number });
     for (name, of_unit, solved, exact) in [
@@ -191,7 +191,7 @@ fn exact_object(found: &ExactComparison) -> Value {
     object["invariant_deviation"] = found.invariant_deviation.into();
     object["boyle_load_min_n"] = boyle[0].into();
     object["boyle_load_max_n"] = boyle[1].into();
-    object["incompressible_load_max_n"] = viscous[1].into();
+    object["incompressible_load_max_n"] = found.greatest_viscous.into();
     object
 }
 

@@ -63,8 +63,9 @@ pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
 
 /// Message for a text that is not a number for `parameter`.
 pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
-    let units: Vec<&str> =
-        kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| !["atm", "C"].contains(name)).collect();
+    let kelvin = (parameter.unit == "°C").then_some("K");
+    let units = kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "C");
+    let units: Vec<&str> = units.chain(kelvin).collect();
     let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
     let (key, text, accepts) = (parameter.key, text.trim(), parameter.accepts());
     let found = if text.is_empty() { "\"\"".to_owned() } else { show_text(text).to_string() };
@@ -326,6 +327,8 @@ mod tests {
         assert!(of("film.min_spacing_nm", "200 + 0.05 um").unwrap_err().ends_with("if one has another than nm"));
         assert!(of("film.min_spacing_nm", "0.3um - 20").unwrap_err().ends_with("if one has another than nm"));
         assert!(of("film.min_spacing_nm", " ").unwrap_err().starts_with("film.min_spacing_nm = \"\" is not a number"));
+        assert!(of("film.ambient_pressure_kpa", "x").unwrap_err().contains("mbar, bar, atm, or"));
+        assert!(of("film.temperature_c", "x").unwrap_err().contains("in °C, K, or"));
         assert!(of("motor.waves", "7 mm").unwrap_err().contains("a whole number from 1 to 100"));
     }
 
