@@ -663,6 +663,15 @@ fn what_the_keyboard_goes_to_is_scrolled_into_sight() {
         reached.insert(at.id);
     }
     assert!(reached.len() > 30, "{} controls", reached.len());
+    // In a table that can be scrolled sideways, too.
+    window.ctrl(Key::Num9);
+    window.click_on("Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
+    let field = |window: &Window| window.get_by_label("Uncertainty of Mean free path").rect();
+    assert!(field(&window).center().y > 500.0);
+    window.get_by_label("Uncertainty of Mean free path").focus();
+    window.run_steps(5);
+    assert!(field(&window).center().y < 500.0, "{:?}", field(&window));
 }
 
 #[test]

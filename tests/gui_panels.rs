@@ -432,6 +432,12 @@ fn a_tick_changes_the_form_and_not_the_value() {
     let mut harness = panel(Edited::of(floating));
     click_a(&mut harness, Role::CheckBox, "Floats under its weight");
     assert_eq!(harness.state().scene().get("plate.mean_gap_um"), Some(Value::Number(2.0)));
+    // What was refused of one form is forgotten with it.
+    let mut harness = panel(Edited::of(Scene::motor()));
+    enter(&mut harness, "Load on one wave in N", "200");
+    assert!(harness.state().state.rejected.of("motor.load_per_wave_n").is_some());
+    click_a(&mut harness, Role::CheckBox, "Load on the whole ring");
+    assert_eq!(harness.state().state.rejected.of("motor.load_per_wave_n"), None);
 }
 
 #[test]

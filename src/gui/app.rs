@@ -7,6 +7,7 @@ use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
 use super::ui::modals::glossary::is_searched;
+use super::ui::parts::FOLLOWED;
 use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
@@ -90,12 +91,14 @@ impl App {
     /// scrolled away too.
     fn follow_focus(&mut self, ctx: &egui::Context) {
         let focused = ctx.memory(|memory| memory.focused());
+        let noted = egui::Id::unique(FOLLOWED);
         if std::mem::replace(&mut self.focused, focused) == focused {
-            return;
+            return ctx.data_mut(|data| data.remove::<egui::Id>(noted));
         }
         let hidden = |found: &egui::Response| !found.interact_rect.contains(found.rect.center());
         if let Some(found) = focused.and_then(|id| ctx.read_response(id)).filter(hidden) {
-            // As a screen reader asks for it: all scroll areas around it follow.
+            // As a screen reader asks for it: the scroll areas around it follow, but for tables, which are told.
+            ctx.data_mut(|data| data.insert_temp(noted, found.id));
             let (action, target_node) = (Action::ScrollIntoView, found.id.accesskit_id());
             let request = ActionRequest { action, target_tree: TreeId::ROOT, target_node, data: None };
             ctx.input_mut(|input| input.events.push(egui::Event::AccessKitActionRequest(request)));

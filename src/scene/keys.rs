@@ -198,7 +198,7 @@ impl Parameter {
     }
 
     /// The other keys for the same quantity: a scene has only one of them.
-    pub(super) fn alternatives(&'static self) -> impl Iterator<Item = &'static Self> {
+    pub fn alternatives(&'static self) -> impl Iterator<Item = &'static Self> {
         let first = |parameter: &Self| parameter.instead_of.unwrap_or(parameter.key);
         PARAMETERS.iter().filter(move |other| other.key != self.key && first(other) == first(self))
     }

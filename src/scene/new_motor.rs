@@ -72,7 +72,7 @@ pub static QUESTIONS: &[Question] = &[
     question("tooth-width-mm", "Tooth width", Accepts::Key("stator.tooth_width_mm"), Some("three quarters of the pitch")),
     question("stall-torque-nm", "Stall torque", Accepts::Number(1e-6, 1e4, "N·m"), Some("a friction coefficient of 0.3")),
     question("no-load-speed-rpm", "No-load speed", Accepts::Number(0.01, 10000.0, "rpm"),
-        Some("a tangential amplitude of 1 µm, or of the normal one over 1.3")),
+        Some("a tangential amplitude of 1 µm, or the normal amplitude divided by 1.3 if that is given")),
     question("normal-amplitude-um", "Normal amplitude of the stator", Accepts::Key("stator.normal_amplitude_um"),
         Some("1.3 times the tangential one")),
     question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter")),
@@ -322,9 +322,10 @@ impl NewMotor {
             (Some(amplitude), _) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
             }
-            (None, Some(normal)) => {
-                (rounded(normal / ELLIPSE, DIGITS), "the normal one over 1.3, as in the motor of Maeno and Bogy")
-            }
+            (None, Some(normal)) => (
+                rounded(normal / ELLIPSE, DIGITS),
+                "the normal amplitude divided by 1.3, as in the motor of Maeno and Bogy",
+            ),
             (None, None) => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
@@ -456,7 +457,7 @@ mod tests {
         assert!(uneven.starts_with("8: ") && uneven.ends_with("72 teeth on the ring, not 70"), "{uneven}");
         // A normal amplitude alone leaves the shape of the ellipse to be assumed, not its size.
         let tangential = why(("normal-amplitude-um", "0.8"), "stator.tangential_amplitude_um");
-        assert!(tangential.starts_with("0.6154 µm: the normal one over 1.3"), "{tangential}");
+        assert!(tangential.starts_with("0.6154 µm: the normal amplitude divided by 1.3"), "{tangential}");
         // More friction than is usual.
         let friction = |torque| why(("stall-torque-nm", torque), "motor.dry_friction");
         assert!(

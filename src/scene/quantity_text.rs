@@ -66,7 +66,11 @@ pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
     let kelvin = (parameter.unit == "°C").then_some("K");
     let units = kind_of(parameter.unit).iter().map(|(name, _)| *name).filter(|name| *name != "C");
     let units: Vec<&str> = units.chain(kelvin).collect();
-    let units = if units.is_empty() { String::new() } else { format!(", in {}", units.join(", ").replace('u', "µ")) };
+    let units = if units.is_empty() {
+        String::new()
+    } else {
+        format!(", in {}", units.join(", ").replace('u', "µ").replace("Pas", "Pa·s"))
+    };
     let (key, text, accepts) = (parameter.key, text.trim(), parameter.accepts());
     let found = if text.is_empty() { "\"\"".to_owned() } else { show_text(text).to_string() };
     let sum = text.chars().skip(1).any(|c| "+-−".contains(c)) && text.contains(char::is_alphabetic);

@@ -58,7 +58,8 @@ impl RejectedEdits {
 
     /// Forgets the rejected edits of `key`, and of the keys that could be given in its place.
     pub fn accept(&mut self, key: &str) {
-        let other_form = |other: &str| Parameter::find(other).and_then(|found| found.instead_of) == Some(key);
+        let other_form =
+            |other: &str| Parameter::find(key).is_some_and(|found| found.alternatives().any(|form| form.key == other));
         self.0.retain(|other, _| *other != key && !other_form(other));
     }
 

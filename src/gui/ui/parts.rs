@@ -102,11 +102,20 @@ fn refusal(text: &str, range: &RangeInclusive<f64>, unit: &str) -> String {
     format!("{}: expected a number{within}", show_text(text)).trim_end().to_owned()
 }
 
+/// Where the window notes which widget it scrolls to in this frame.
+pub const FOLLOWED: &str = "scrolled to";
+
 /// A striped table called `name`, with so much room between its columns. Where it is wider than the tab it is
 /// scrolled, so that what comes below keeps the width of the tab.
 pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: impl FnOnce(&mut Ui)) {
     let grid = Grid::new(name).num_columns(columns).striped(true).spacing([gap, 4.0]);
-    ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true).show(ui, |ui| grid.show(ui, rows));
+    let area = ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true);
+    let shown = area.show(ui, |ui| grid.show(ui, rows));
+    // An area takes what is to be scrolled to, in directions in which it does not scroll as well.
+    let followed = ui.data(|data| data.get_temp::<Id>(Id::unique(FOLLOWED))).and_then(|id| ui.ctx().read_response(id));
+    if let Some(found) = followed.filter(|found| shown.inner_rect.contains(found.rect.center())) {
+        ui.scroll_to_rect(found.rect, None);
+    }
 }
 
 /// Column heads, each with its glossary term; an empty term leaves the head unexplained.

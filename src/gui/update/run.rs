@@ -242,7 +242,12 @@ impl Updater {
     /// Asks for a path to type: begins with the one at which something like this failed last, or the one suggested for the last of `purposes`.
     fn prompt(&mut self, purposes: Vec<Purpose>) {
         let state = &mut self.state;
-        let like = |failed: &Purpose| purposes.iter().any(|purpose| failed.is_like(purpose));
+        // A path of one key is none of another's.
+        let same = |failed: &Purpose, purpose: &Purpose| match failed {
+            Purpose::Csv(_) => failed == purpose,
+            _ => failed.is_like(purpose),
+        };
+        let like = |failed: &Purpose| purposes.iter().any(|purpose| same(failed, purpose));
         let failed = state.failed_path.take_if(|(failed, _)| like(failed)).map(|(_, path)| path);
         let suggested = || purposes.last().map(|purpose| state.suggested_path(purpose));
         let path = failed.or_else(suggested).unwrap_or_default();

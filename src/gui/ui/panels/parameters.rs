@@ -15,6 +15,7 @@ use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, SolvedPlate, Value};
+use crate::solution::Status;
 use eframe::egui::{self, RichText, TextStyle, Ui};
 
 /// Keys of the main parameters, listed first.
@@ -325,9 +326,12 @@ impl Panel<'_> {
         }
     }
 
-    /// What is known of the plate, if it is one that is solved as it is now.
+    /// What is known of the plate, if it is one that is solved as it is now: as exact as the run on screen.
     fn solved_plate(&self) -> Option<SolvedPlate> {
         let run = self.cx.state.run.as_ref().filter(|run| !self.cx.state.stale(run))?;
+        if run.solution.status != Status::Converged {
+            return None;
+        }
         let plate = run.solution.outcome.plate()?;
         let mean_gap_um = plate.floating.map(|floating| floating.mean_gap.value * 1e6);
         Some(SolvedPlate { mean_gap_um, load_n: plate.film_load.value })

@@ -146,7 +146,7 @@ fn measurements(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
 const OPTIMUM: &[&str] = &[
     "At which values of some parameters is a result as large or as small as it can be?",
     "Choose the result, and each parameter with its bounds. Limits on other results, such as alpha<30 %, stall_torque_nm>0.2 N·m, are \
-         divided by commas.",
+         separated by commas.",
     "Nothing is solved before you ask.",
 ];
 

@@ -167,8 +167,10 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
 fn film(style: &PlotStyle, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
     let colour = colour_between(hold.pressure_range);
     let points: Vec<_> = profile_points(hold).collect();
-    for [left, right] in hold.plate.spans() {
-        let there = points.iter().filter(|(x, _)| (left..=right).contains(x));
+    // On either side of the hole of a ring.
+    let whole = hold.plate.spans().len() == 1;
+    for right in if whole { &[true][..] } else { &[false, true] } {
+        let there = points.iter().filter(|(x, _)| whole || (*x > 0.0) == *right);
         style.shaded(there.map(|(x, pressure)| (axes.px(*x), top, bottom, colour(*pressure))));
     }
 }

@@ -6,7 +6,7 @@ use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{has_fields, room};
 use crate::job::SolvedScene;
-use crate::problem::{Motor, Plate, Scenario};
+use crate::problem::Scenario;
 use eframe::egui::Ui;
 
 /// Draws `run` at the view's phase, and behind it `first`, a run that it is compared with, on one scale; the axes have the ranges `within`, if it
@@ -18,17 +18,9 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<Ranges>, first: Optio
     let Some(area) = room(ui) else { return };
     let first = first.filter(|first| first.number != run.number);
     let view = &cx.state.view;
-    if let Some(shown) = Frame::of(ui, "scales", (run, first), within, motor_of, view) {
+    if let Some(shown) = Frame::of(ui, "scales", (run, first), within, Scenario::motor, view) {
         motor::show(ui, area, &shown, cx);
-    } else if let Some(shown) = Frame::of(ui, "scales", (run, first), within, plate_of, view) {
+    } else if let Some(shown) = Frame::of(ui, "scales", (run, first), within, Scenario::plate, view) {
         plate::show(ui, area, &shown, cx);
     }
-}
-
-fn motor_of(scenario: &Scenario) -> Option<&Motor> {
-    if let Scenario::Motor(motor) = scenario { Some(motor) } else { None }
-}
-
-fn plate_of(scenario: &Scenario) -> Option<&Plate> {
-    if let Scenario::Plate(plate) = scenario { Some(plate) } else { None }
 }
