@@ -5,8 +5,9 @@ use super::glossary;
 use crate::digits::{as_given, signed};
 use crate::scene::quantity_text;
 use crate::scene::show_text;
+use eframe::egui::style::ScrollAnimation;
 use eframe::egui::{
-    Button, Color32, DragValue, Event, Grid, Id, Key, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
+    Button, Color32, DragValue, Event, Grid, Id, Key, Rangef, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
 };
 use std::cell::Cell;
 use std::fmt::Debug;
@@ -113,8 +114,9 @@ pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: imp
     let shown = area.show(ui, |ui| grid.show(ui, rows));
     // An area takes what is to be scrolled to, in directions in which it does not scroll as well.
     let followed = ui.data(|data| data.get_temp::<Id>(Id::unique(FOLLOWED))).and_then(|id| ui.ctx().read_response(id));
-    if let Some(found) = followed.filter(|found| shown.inner_rect.contains(found.rect.center())) {
-        ui.scroll_to_rect(found.rect, None);
+    let rows = Rangef::new(shown.inner_rect.top(), shown.inner_rect.top() + shown.content_size.y);
+    if let Some(found) = followed.filter(|found| rows.contains(found.rect.center().y)) {
+        ui.scroll_to_rect_animation(found.rect, None, ScrollAnimation::none());
     }
 }
 
