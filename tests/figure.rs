@@ -419,6 +419,16 @@ fn a_gif_has_all_frames_and_they_move() {
         frames.push(frame.buffer.to_vec());
     }
     assert_eq!((frames.len(), delay), (count, 200));
+    // 255 colours for all frames are near those of the first, wherever in it.
+    let folder = tempfile::tempdir().unwrap();
+    let exact = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
+    let exact = decoded(&fs::read(&exact[0]).unwrap()).1;
+    let pixels = frames[0].chunks_exact(4).zip(exact.chunks_exact(exact.len() / (frames[0].len() / 4)));
+    let mut away: Vec<u8> =
+        pixels.map(|(drawn, exact)| (0..3).map(|k| drawn[k].abs_diff(exact[k])).max().unwrap()).collect();
+    away.sort_unstable();
+    let most = away[away.len() - away.len() / 1000];
+    assert!(most <= 24, "{most}");
     frames.dedup();
     assert_eq!(frames.len(), count, "no two frames in turn are equal");
     assert!(has(&bytes, Provenance::of(&problem, &solution).line().as_bytes()), "the file says where it comes from");

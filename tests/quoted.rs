@@ -25,8 +25,16 @@ mod schemes;
 #[path = "../examples/validation.rs"]
 mod validation;
 
+mod scenes;
+
 use squeezefilm::atomic::write_file;
+use squeezefilm::control::Cancel;
+use squeezefilm::export::figure;
+use squeezefilm::export::figures;
+use squeezefilm::export::figures::compare::{DrawnRun, style};
 use squeezefilm::fidelity::Fidelity;
+use squeezefilm::recording::Recording;
+use squeezefilm::solve::{Settings, solve};
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -225,10 +233,26 @@ fn drawn(svg: &str) -> Vec<&str> {
     svg.split(apart).filter(|word| !word.is_empty() && !word.starts_with("data:") && word.len() < 200).collect()
 }
 
+/// A stored picture, by its path from docs/gallery without extension, is what is drawn now, to a hundredth of a point.
+fn same_picture(picture: &str, now: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery").join(picture).with_extension("svg");
+    if std::env::var_os("UPDATE_QUOTED").is_some() {
+        write_file(&path, |out| out.write_all(now.as_bytes())).unwrap();
+        return;
+    }
+    let stored = fs::read_to_string(path).unwrap();
+    let (now, stored) = (drawn(now), drawn(&stored));
+    // Places are above 1, stated errors and most ends of axes below.
+    let near = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= if a.abs() < 1.0 { 1e-6 * a.abs() } else { 0.01 },
+        _ => a == b,
+    };
+    let other = now.iter().zip(&stored).find(|(now, stored)| !near(now, stored));
+    assert_eq!((other, now.len()), (None, stored.len()), "{picture}.svg; docs/renew pictures draws it anew");
+}
+
 #[test]
 fn figures_of_the_gallery_are_what_is_drawn() {
-    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
-    let update = std::env::var_os("UPDATE_QUOTED").is_some();
     for (command, pictures) in PICTURES {
         let folder = tempfile::tempdir().unwrap();
         let words = command.split(' ').chain(["--figures", "svg", "--out"]);
@@ -237,23 +261,38 @@ fn figures_of_the_gallery_are_what_is_drawn() {
         let well = done.status.success() || command.starts_with("startup") && done.status.code() == Some(3);
         assert!(well, "{command}: {}", String::from_utf8_lossy(&done.stderr));
         for (file, picture) in pictures {
-            let now = fs::read_to_string(folder.path().join(file).with_extension("svg")).unwrap();
-            let path = gallery.join(picture).with_extension("svg");
-            if update {
-                write_file(&path, |out| out.write_all(now.as_bytes())).unwrap();
-                continue;
-            }
-            let stored = fs::read_to_string(path).unwrap();
-            let (now, stored) = (drawn(&now), drawn(&stored));
-            // Places are above 1, stated errors and most ends of axes below.
-            let near = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(a), Ok(b)) => (a - b).abs() <= if a.abs() < 1.0 { 1e-6 * a.abs() } else { 0.01 },
-                _ => a == b,
-            };
-            let other = now.iter().zip(&stored).find(|(now, stored)| !near(now, stored));
-            assert_eq!((other, now.len()), (None, stored.len()), "{picture}.svg; docs/renew pictures draws it anew");
+            same_picture(picture, &fs::read_to_string(folder.path().join(file).with_extension("svg")).unwrap());
         }
     }
+}
+
+#[test]
+fn frames_of_animations_are_what_is_drawn() {
+    let solved = |preset: &str| {
+        let problem = scenes::problem(preset, &[]);
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+        let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+        (problem, solution.recording)
+    };
+    let motors = ["fundamental", "levitating"].map(solved);
+    let plates = ["plate-crossover", "plate-trapped"].map(solved);
+    let motors: Vec<_> = motors.iter().map(|(problem, fields)| (problem.scenario.motor().unwrap(), fields)).collect();
+    let plates: Vec<_> = plates.iter().map(|(problem, fields)| (problem.scenario.plate().unwrap(), fields)).collect();
+    let frames = [
+        ("motor", figures::motor::moving(motors[0].0, motors[0].1, 7)),
+        ("plate", figures::plate::moving(plates[0].0, plates[0].1, 7)),
+        ("motors", figures::compare::moving_motors(&runs(&motors), 0.3)),
+        ("plates", figures::compare::moving_plates(&runs(&plates), 0.3)),
+    ];
+    for (name, figure) in frames {
+        same_picture(&format!("../../tests/figures/frame-{name}"), &figure::to_svg(&figure));
+    }
+}
+
+/// Scenes and their fields, each with the style of its place in a comparison.
+fn runs<'a, S>(solved: &[(&'a S, &'a Recording)]) -> Vec<DrawnRun<'a, S>> {
+    let run = |(index, (scene, recording))| DrawnRun { name: "run", scene, recording, style: style(index) };
+    solved.iter().copied().enumerate().map(run).collect()
 }
 
 #[test]

@@ -60,10 +60,10 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let top = |i: usize| recording.stator[i] * scale;
     let outline = along(recording, frame, 1e3, top);
     let touching = along(recording, frame, 1e3, |i| if touches(recording.contact[i]) { top(i) } else { f64::NAN });
-    let teeth: Vec<[f64; 3]> = outline.iter().map(|[x, top]| [*x, f64::MIN / 2.0, *top]).collect();
+    let teeth: Vec<[f64; 3]> = outline.iter().map(|[x, top]| [*x, f64::NEG_INFINITY, *top]).collect();
     let rotor = Lines::at(recording, frame as f64).underside(recording);
     let rotor: Vec<[f64; 2]> = rotor.iter().map(|[x, height]| [x * 1e3, height * scale]).collect();
-    let above = rotor.iter().map(|[x, y]| [*x, *y, f64::MAX / 2.0]);
+    let above = rotor.iter().map(|[x, y]| [*x, *y, f64::INFINITY]);
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
     let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
