@@ -43,7 +43,7 @@ use std::process::{Command, Stdio};
 const EXAMPLE: &str = "cargo run --release --example ";
 
 /// Commands that end with a folder, and which of the figures there are which of docs/gallery, or of another folder.
-const PICTURES: [(&str, &[(&str, &str)]); 13] = [
+const PICTURES: [(&str, &[(&str, &str)]); 17] = [
     (
         "solve fundamental --fidelity fine",
         &[("wave", "wave"), ("loads", "loads"), ("map", "map"), ("torque", "torque")],
@@ -61,7 +61,14 @@ const PICTURES: [(&str, &[(&str, &str)]); 13] = [
     ("sensitivity fundamental --fidelity fine", &[("sensitivity", "sensitivity")]),
     ("startup frequency-100khz", &[("startup", "startup")]),
     ("compare fundamental min-spacing-100nm tooth-radius-3m", &[("loads", "compare-loads")]),
-    ("compare fundamental levitating --fidelity draft", &[("waves", "../../tests/figures/compare-waves")]),
+    (
+        "compare fundamental levitating --fidelity draft",
+        &[
+            ("waves", "../../tests/figures/compare-waves"),
+            ("torque", "../../tests/figures/compare-torque"),
+            ("maps", "../../tests/figures/compare-maps"),
+        ],
+    ),
     (
         "compare plate-crossover plate-trapped --fidelity draft",
         &[
@@ -79,6 +86,26 @@ const PICTURES: [(&str, &[(&str, &str)]); 13] = [
         &[("convergence", "../../tests/figures/convergence"), ("wave", "../../tests/figures/floating-wave")],
     ),
     ("startup floating-disc --fidelity draft --cycles 40", &[("startup", "../../tests/figures/drop")]),
+    (
+        "solve floating-disc --fidelity draft",
+        &[("exact", "../../tests/figures/disc-exact"), ("profile", "../../tests/figures/disc-profile")],
+    ),
+    (
+        "stability --map spacing-frequency --cells 4 --method auto --fidelity draft",
+        &[("stability", "../../tests/figures/stability")],
+    ),
+    (
+        "fit fundamental --data table1 --skip rotor_width_0.6mm --vary film.min_spacing_nm=150:250 --vary rotor.decay_length_mm=2:8 --fidelity draft",
+        &[
+            ("fit", "../../tests/figures/fit"),
+            ("residuals", "../../tests/figures/residuals"),
+            ("correlation", "../../tests/figures/correlation"),
+        ],
+    ),
+    (
+        "fit fundamental --maximise film_load_n --vary stator.frequency_khz=20:60 --vary film.min_spacing_nm=100:400 --fidelity draft",
+        &[("optimum", "../../tests/figures/optimum")],
+    ),
 ];
 
 /// A command, and the lines of a document that are its output.
