@@ -211,11 +211,12 @@ fn a_table_of_the_rotor_is_opened_by_the_dialog_and_told_at_its_field_if_it_is_r
 }
 
 #[test]
-fn a_path_of_a_table_that_cannot_be_read_is_offered_again() {
+fn a_path_that_cannot_be_read_is_offered_again() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("absent.csv");
     let mut window = window_asking("fundamental", |_, _| Answer::NoDialog);
-    for purpose in [Purpose::Measurements, Purpose::Heights, Purpose::Csv("rotor.compliance_csv")] {
+    let csv = Purpose::Csv("rotor.compliance_csv");
+    for purpose in [Purpose::Measurements, Purpose::Heights, csv.clone(), Purpose::Lessons] {
         window.state_mut().carry_out(Command::Chosen(purpose.clone(), path.clone()));
         until(&mut window, "it is refused", |app| app.state().failed_path.is_some());
         window.state_mut().carry_out(Command::CloseModal);
@@ -225,6 +226,10 @@ fn a_path_of_a_table_that_cannot_be_read_is_offered_again() {
         assert_eq!(prompt.path, path.to_str().unwrap());
         window.state_mut().carry_out(Command::CloseModal);
     }
+    // The scene may have changed before the dialog was answered: there is no field at which to tell it.
+    window.state_mut().carry_out(Command::Proceed(Next::Preset("plate-crossover")));
+    window.state_mut().carry_out(Command::Chosen(csv, path));
+    assert!(matches!(&window.known().modal, Some(Modal::Error(why)) if why.contains("rotor.compliance_csv")));
 }
 
 #[test]

@@ -12,6 +12,7 @@ use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
 use crate::job::new_motor::NewMotorWork;
+use crate::scene::Parameter;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -200,12 +201,21 @@ impl Updater {
             Purpose::Csv(key) => {
                 let text = path.display().to_string();
                 self.edit(key, false, Change::Text(text.clone()));
-                // Why is told at the key.
-                if self.state.rejected.of(key).is_some() {
-                    self.state.failed_path = Some((purpose, text));
+                if let Some(why) = self.state.rejected.of(key).map(str::to_owned) {
+                    // Why is told at the key, unless the scene has become one without it.
+                    let scene = self.state.document.scene();
+                    match Parameter::find(key).is_some_and(|parameter| scene.has(parameter)) {
+                        true => self.state.failed_path = Some((purpose, text)),
+                        false => self.fail_at(purpose, &path, why),
+                    }
                 }
             }
-            Purpose::Lessons => self.load_lessons(&path),
+            Purpose::Lessons => {
+                self.load_lessons(&path);
+                if !path.is_dir() {
+                    self.state.failed_path = Some((purpose, path.display().to_string()));
+                }
+            }
             Purpose::Save(then) => {
                 if let Err(reason) = self.save_as(path.clone(), then) {
                     self.fail_at(Purpose::Save(None), &path, reason);
