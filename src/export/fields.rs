@@ -11,7 +11,7 @@
 //! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
 //! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`); the contact load's error is the film load's |
 //! | `min_film_thickness_nm`, `max_pressure_kpa` | frames | the least film thickness and the highest pressure at every instant |
-//! | `film_load_error_n`, `teeth_in_contact_error`, `min_film_thickness_error_nm`, `max_pressure_error_kpa` | frames | stated errors, absolute |
+//! | `film_load_error_n`, `teeth_in_contact_error`, `min_film_thickness_error_nm`, `max_pressure_error_kpa` | frames | stated errors, absolute; NaN if there are none |
 
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -55,12 +55,10 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field(size, &["node"], of(&recording.node_length, 1.0)),
     ];
     let (mut contact, mut touching_error) = (Vec::new(), None);
-    // Of a recording on one mesh there is none.
-    let of_errors = |name, errors: Vec<f64>| Field {
-        name,
-        axes: FRAMES,
-        shape: vec![errors.len()],
-        values: Box::new(errors.into_iter()),
+    // A recording on one mesh has none.
+    let of_errors = |name, errors: Vec<f64>| {
+        let none = std::iter::repeat(f64::NAN);
+        field(name, FRAMES, Box::new(errors.into_iter().chain(none).take(recording.frames)))
     };
     let (axes, film, load, error): (&'static [&'static str], _, _, _) = match &problem.scenario {
         Scenario::Motor(motor) => {

@@ -5,7 +5,7 @@ use super::estimates::finite;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
-use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
+use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Marker, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::{Accuracy, PlateResult, Status};
@@ -184,9 +184,11 @@ pub fn figure<'a>(
     let at = |row: &CycleRow| (row.cycle as f64, row.numbers.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
+    // One cycle is a point.
+    let alone = (rows.len() == 1).then(Marker::default);
     let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
         .layer(Band::new("error of the grids", band, Colour::FILM))
-        .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)))
+        .layer(Line::new("mean of the cycle", line, Style { marker: alone, ..Style::solid(Colour::FILM) }))
         .layers(steady.map(|found| periodic(found.value)));
     let instants = loads.enumerate().flat_map(|(cycle, loads)| {
         let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;

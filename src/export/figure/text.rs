@@ -17,25 +17,37 @@ pub(super) enum Script {
     Lowered,
 }
 
-/// Text in pieces, each on one script: `^{…}`, `_{…}` and the raised and lowered characters of Unicode.
+/// Text in pieces, each on one script: `^{…}`, `_{…}`, the raised and lowered characters of Unicode, the index of a symbol (`H_m`) and the
+/// exponent of a number (`10^-5`).
 pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
     let mut pieces: Vec<(Script, String)> = Vec::new();
     let mut push = |script: Script, c: char| match pieces.last_mut() {
         Some((last, piece)) if *last == script => piece.push(c),
         _ => pieces.push((script, c.to_string())),
     };
-    let mut rest = text.chars().peekable();
-    while let Some(c) = rest.next() {
+    let chars: Vec<char> = text.chars().collect();
+    let mut i = 0;
+    while let Some(&c) = chars.get(i) {
+        i += 1;
         let script = match c {
             '^' => Script::Raised,
             '_' => Script::Lowered,
             _ => Script::Normal,
         };
-        if script != Script::Normal && rest.peek() == Some(&'{') {
-            rest.next();
-            for c in rest.by_ref().take_while(|c| *c != '}') {
-                push(script, c);
-            }
+        if script != Script::Normal && chars.get(i) == Some(&'{') {
+            let group = chars[i + 1..].iter().take_while(|c| **c != '}');
+            i += 2 + group.clone().count();
+            group.for_each(|c| push(script, *c));
+            continue;
+        }
+        let bare = match script {
+            Script::Normal => 0,
+            Script::Raised => exponent(&chars[..i - 1], &chars[i..]),
+            Script::Lowered => index(&chars[..i - 1], &chars[i..]),
+        };
+        if bare > 0 {
+            chars[i..i + bare].iter().for_each(|c| push(script, if *c == '-' { '−' } else { *c }));
+            i += bare;
             continue;
         }
         match shifted(c) {
@@ -46,6 +58,25 @@ pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
         }
     }
     pieces
+}
+
+/// Characters of the exponent after a `^` that follows a digit; none elsewhere.
+fn exponent(before: &[char], after: &[char]) -> usize {
+    let sign = usize::from(matches!(after.first(), Some('-' | '−')));
+    let digits = after[sign..].iter().take_while(|c| c.is_ascii_digit()).count();
+    if digits > 0 && before.last().is_some_and(char::is_ascii_digit) { sign + digits } else { 0 }
+}
+
+/// Characters of the index after a `_` that follows a symbol of one letter; none in longer names.
+fn index(before: &[char], after: &[char]) -> usize {
+    let in_word = |c: &char| c.is_alphanumeric() || *c == '_';
+    let symbol = match before {
+        [letter] => letter.is_alphabetic(),
+        [.., last, letter] => letter.is_alphabetic() && !in_word(last),
+        [] => false,
+    };
+    let letters = after.iter().take_while(|c| in_word(c)).count();
+    if symbol && matches!(letters, 1 | 2) && !after[..letters].contains(&'_') { letters } else { 0 }
 }
 
 fn shifted(c: char) -> Option<(Script, char)> {
@@ -107,6 +138,7 @@ mod tests {
         assert_eq!(pieces("m²"), [(Script::Normal, "m".into()), (Script::Raised, "2".into())]);
         assert_eq!(pieces("10^{−3}")[1], (Script::Raised, "−3".into()));
         assert_eq!(plain("p_{a} min_spacing 10⁻³"), "pa min_spacing 10−3");
+        assert_eq!(plain("spacing H_m (nm), Q_pr, my_x, a_b_c, b_long: 10^-5 m^2"), "spacing Hm (nm), Qpr, my_x, a_b_c, b_long: 10−5 m^2");
         assert_eq!(pieces("^{open").len(), 1);
         assert!(pieces("").is_empty());
     }

@@ -13,6 +13,9 @@ use crate::problem::Motor;
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
 
+/// A groove narrower than this share of the pitch is none.
+const NO_GROOVE: f64 = 1e-9;
+
 /// The frame at which the crest of the wave is on the tooth in the middle, as in the paper's figures.
 pub fn crest_in_the_middle(recording: &Recording) -> usize {
     let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
@@ -174,17 +177,22 @@ pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
 pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scale: f64, span: [f64; 2]) -> Panel {
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
+    // Of teeth without a groove between them, one ends where the next begins.
+    let beyond = |x: &[f64], place: f64| x.last().is_none_or(|last| place > last + NO_GROOVE * recording.pitch * 1e3);
     for tooth in 0..recording.teeth {
         let plane = tooth_map(recording, tooth, frame);
         let middle = tooth as f64 * recording.pitch;
-        if tooth > 0 {
-            // Nothing in the groove.
-            x.push((middle - 0.5 * recording.pitch) * 1e3);
+        let groove = (middle - 0.5 * recording.pitch) * 1e3;
+        if tooth > 0 && beyond(&x, groove) {
+            x.push(groove);
             values.extend(y.iter().map(|_| f64::NAN));
         }
         for (i, xi) in recording.map_x.iter().enumerate() {
-            x.push((middle + xi) * 1e3);
-            values.extend(y.iter().map(|(_, j)| plane[i * recording.map_y.len() + j] * scale));
+            let place = (middle + xi) * 1e3;
+            if beyond(&x, place) {
+                x.push(place);
+                values.extend(y.iter().map(|(_, j)| plane[i * recording.map_y.len() + j] * scale));
+            }
         }
     }
     let grid = Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values };
@@ -241,18 +249,29 @@ mod tests {
     use crate::export::figure::Layer;
     use crate::recording::LineLoads;
 
-    #[test]
-    fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
-        // Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts.
-        let recording = Recording {
-            lines: LineLoads { frames: 4, teeth: 2, stored_teeth: 1, pitch: 2e-3, ..LineLoads::default() },
+    /// Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts.
+    fn two_teeth(pitch: f64) -> Recording {
+        Recording {
+            lines: LineLoads { frames: 4, teeth: 2, stored_teeth: 1, pitch, ..LineLoads::default() },
             map_x: vec![-0.5e-3, 0.5e-3],
             map_y: vec![0.0, 1e-4],
             half_width: true,
             pressure: (0..16).map(f64::from).collect(),
             ..Recording::default()
-        };
-        let panel = all_teeth_on(&recording, 1, "hPa", 0.01, [0.0, 20.0]);
+        }
+    }
+
+    #[test]
+    fn teeth_without_grooves_are_one_map() {
+        let panel = all_teeth_on(&two_teeth(1e-3), 1, "hPa", 0.01, [0.0, 20.0]);
+        let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
+        assert_eq!((map.grid.x.as_slice(), map.grid.values.len()), ([-0.5, 0.5, 1.5].as_slice(), 9));
+        assert!(map.grid.values.iter().all(|value| value.is_finite()));
+    }
+
+    #[test]
+    fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
+        let panel = all_teeth_on(&two_teeth(2e-3), 1, "hPa", 0.01, [0.0, 20.0]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         let near = |found: &[f64], expected: &[f64]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(
