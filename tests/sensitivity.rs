@@ -253,6 +253,31 @@ fn draws_out_of_range_are_drawn_again_and_counted() {
 }
 
 #[test]
+fn the_film_under_a_drawn_plate_carries_it() {
+    let scene = presets::find("floating-disc").unwrap();
+    let uncertain = uncertainties(&scene, &[("plate.mass_g", "30%"), ("plate.amplitude_um", "20%")]);
+    let found = sensitivity(&scene, &["plate.mass_g"], Fidelity::Draft);
+    let carlo = found.monte_carlo(&uncertain, 12, 1, &Cancel::new(), &|| ()).unwrap();
+    assert_eq!((carlo.draws.len(), carlo.failures.len()), (12, 0));
+    for draw in &carlo.draws {
+        let mut held = scene.clone();
+        held.set_all([
+            ("plate.mass_g", "none".to_owned()),
+            ("plate.mean_gap_um", draw.results[0].value.to_string()),
+            ("plate.amplitude_um", draw.values[1].to_string()),
+        ])
+        .unwrap();
+        let problem = Problem::try_from(&held).unwrap();
+        let solution = solve(&problem, &at(Fidelity::Fine), &mut (), &Cancel::new()).unwrap();
+        let carried = Numbers::of(&problem, &solution).get(Quantity::FilmLoad).unwrap();
+        let off = carried / (9.80665e-3 * draw.values[0]) - 1.0;
+        // F falls about as the square of the gap, nearer by as its fourth power.
+        let allowed = 4.0 * draw.results[0].error / draw.results[0].value + 2e-3;
+        assert!(off.abs() < allowed && allowed < 0.02, "{draw:?}: {off} of {allowed}");
+    }
+}
+
+#[test]
 fn threads_change_no_bit() {
     let scene = presets::find("fundamental").unwrap();
     let by = |threads: usize| {

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! of a result f. Monte Carlo draws the keys and solves every draw by the same plan, so that the error of the grids is nearly the same in all of
-//! them and does not add to their spread. It is stated beside the uncertainty, never in it.
+//! them and does not add to their spread; a plate that floats is solved by itself. The error is stated beside the uncertainty, never in it.
 
 mod monte_carlo;
 mod output;
@@ -25,8 +25,8 @@ use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
 use crate::solution::{Solution, Status};
-use crate::solve::near::Centre;
-use crate::solve::{Settings, SolveError};
+use crate::solve::near::{Centre, is_settled};
+use crate::solve::{Record, Settings, SolveError, solve};
 use output::read;
 use rayon::prelude::*;
 use serde::de::Error as _;
@@ -202,7 +202,8 @@ impl Sensitivity {
         let centre = self.centre(cancel).ok()?;
         let one = |number: usize| {
             let found = uncertainties.draw(number as u64, seed).and_then(|(values, problem, redrawn)| {
-                let results = if cancel.is_cancelled() { Vec::new() } else { solve_draw(centre, &problem, cancel)? };
+                let results =
+                    if cancel.is_cancelled() { Vec::new() } else { self.solve_draw(centre, &problem, cancel)? };
                 Ok((Draw { values, results }, redrawn))
             });
             solved();
@@ -224,11 +225,17 @@ impl Sensitivity {
         }
         Some(carlo)
     }
-}
 
-fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
-    let found = told(|| centre.solve(problem, cancel))?.ok_or("it has no periodic state on the grids of the scene")?;
-    Ok(read(problem, &found.fine))
+    fn solve_draw(&self, centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
+        // The gap at which a plate floats may be far from that in the middle: it is sought anew.
+        let found = if centre.floats() {
+            let settings = Settings { record: Record::Numbers, ..self.settings };
+            Some(told(|| solve(problem, &settings, &mut (), cancel))?).filter(|found| is_settled(found.status))
+        } else {
+            told(|| centre.solve(problem, cancel))?.map(|found| found.fine)
+        };
+        Ok(read(problem, &found.ok_or("it has no periodic state on the grids of the scene")?))
+    }
 }
 
 /// In bytes: all but what random scenes are solved from, and what follows from the scene.

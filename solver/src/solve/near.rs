@@ -84,6 +84,8 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
 /// Solves at gaps near that of the centre until the film carries the load: by a stiffness that is off by a share e, the gap of the last is off
 /// by e² of its change.
 const NEWTON: usize = 3;
+/// Where the next would be farther away than this share of the gap, the problem is not near.
+const ARRIVED: f64 = 0.01;
 
 /// A plate as it was solved, at the gap at which it floats, and the plan with the grids that were used.
 struct Floated {
@@ -98,7 +100,7 @@ fn float(plate: &Plate, plan: &Plan, floating: Option<&Afloat>, cancel: &Cancel)
     let mut solves = 1;
     loop {
         let (solved, used) = plate::periodic_near(&plate, plan, cancel)?;
-        let near = settled(solved.fine.status) && alike(plan, &used);
+        let near = is_settled(solved.fine.status) && alike(plan, &used);
         match floating.filter(|_| near && solves < NEWTON) {
             Some(afloat) => plate.mean_gap = afloat.next(&plate, plate.mean_gap, solved.fine.result.film_load.value),
             None => return Ok(Floated { solved, plate, plan: used }),
@@ -128,9 +130,9 @@ impl Centre {
                 let plan = motor_plan(motor, problem, &settings, &spec, cancel)?;
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (mut found, mut warm, mut plan) = motor::periodic_near(warm, motor, &plan, cancel)?;
-                if settled(found.fine.status) {
+                if is_settled(found.fine.status) {
                     let (again, state, exact) = motor::periodic_near(&warm, motor, &tight(&plan), cancel)?;
-                    if settled(again.fine.status) && alike(&plan, &exact) {
+                    if is_settled(again.fine.status) && alike(&plan, &exact) {
                         (found, warm, plan) = (again, state, exact);
                     }
                 }
@@ -148,9 +150,9 @@ impl Centre {
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
                 let mut found = float(plate, &plan, floating.as_ref(), cancel)?;
-                if settled(found.solved.fine.status) {
+                if is_settled(found.solved.fine.status) {
                     let exact = float(plate, &tight(&found.plan), floating.as_ref(), cancel)?;
-                    if settled(exact.solved.fine.status) && alike(&found.plan, &exact.plan) {
+                    if is_settled(exact.solved.fine.status) && alike(&found.plan, &exact.plan) {
                         found = exact;
                     }
                 }
@@ -164,7 +166,12 @@ impl Centre {
 
     /// Whether its cycle repeats: if it does not, a difference from it means nothing.
     pub fn is_settled(&self) -> bool {
-        settled(self.solved.fine.status)
+        is_settled(self.solved.fine.status)
+    }
+
+    /// Whether it is a plate under a load, at the gap at which it floats.
+    pub fn floats(&self) -> bool {
+        self.floating.is_some()
     }
 
     /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
@@ -176,7 +183,7 @@ impl Centre {
     }
 
     /// Solves a problem of the same kind near this one, by its plan and from its state: the result does not depend on what else was solved.
-    /// `None` if it has no periodic state on all of these grids: it is then not near.
+    /// `None` if it has no periodic state on all of these grids, or the plate floats at quite another gap: it is then not near.
     ///
     /// # Errors
     /// As [`super::solve`].
@@ -189,14 +196,16 @@ impl Centre {
                 let plan = self.plan.near(&own.rotor);
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (found, _, used) = motor::periodic_near(&self.warm, motor, &plan, cancel)?;
-                let near = settled(found.fine.status) && alike(&plan, &used);
+                let near = is_settled(found.fine.status) && alike(&plan, &used);
                 Ok(near.then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
             }
             Scenario::Plate(plate) => {
                 let plate = Afloat::at(plate, self.floating.map(|afloat| afloat.gap));
                 let _taken = memory::take(memory::plate(&plate, &self.plan), cancel)?;
                 let Floated { solved, plate, plan } = float(&plate, &self.plan, self.floating.as_ref(), cancel)?;
-                let near = settled(solved.fine.status) && alike(&self.plan, &plan);
+                let left = |afloat: Afloat| afloat.next(&plate, plate.mean_gap, solved.fine.result.film_load.value);
+                let arrived = self.floating.is_none_or(|afloat| (left(afloat) / plate.mean_gap - 1.0).abs() < ARRIVED);
+                let near = arrived && is_settled(solved.fine.status) && alike(&self.plan, &plan);
                 let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);
                 Ok(near.then(|| solved.map(of)))
             }
@@ -222,7 +231,8 @@ fn tight(plan: &Plan) -> Plan {
     Plan { tolerance: plan.tolerance.min(TOLERANCE), accuracy: REPEATING, ..plan.clone() }
 }
 
-fn settled(status: Status) -> bool {
+/// Whether a cycle repeats, however exactly its numbers are known.
+pub fn is_settled(status: Status) -> bool {
     matches!(status, Status::Converged | Status::NotResolved { .. })
 }
 
