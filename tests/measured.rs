@@ -108,15 +108,15 @@ fn levelling_takes_off_tilt_and_roundness_and_nothing_else() {
 
 #[test]
 fn a_grid_and_a_profile_are_read() {
-    let row = |iy: usize| (0..20).map(|ix| format!("{}", ix * iy % 7)).collect::<Vec<_>>();
-    let grid = |between: &str| {
-        let rows: Vec<String> = (0..16).map(|iy| row(iy).join(between)).collect();
+    let row = |iy: usize, point: &str| (0..20).map(|ix| format!("{}{point}5", ix * iy % 7)).collect::<Vec<_>>();
+    let grid = |between: &str, point: &str| {
+        let rows: Vec<String> = (0..16).map(|iy| row(iy, point).join(between)).collect();
         format!("# taken on a Tuesday\n# dx_um = 0.5\n# dy_mm = 0.001\n# height = nm\n{}\n", rows.join("\n"))
     };
-    for between in [",", "; ", "\t", " "] {
-        let map = HeightMap::read(&grid(between)).unwrap();
+    for (between, point) in [(",", "."), ("; ", "."), ("\t", "."), (" ", "."), ("; ", ","), ("\t", ",")] {
+        let map = HeightMap::read(&grid(between, point)).unwrap();
         assert_eq!((map.nx, map.ny, map.spacing), (20, 16, [0.5e-6, 1e-6]), "{between:?}");
-        assert!((map.heights[3 * 20 + 4] - 5e-9).abs() < 1e-20);
+        assert!((map.heights[3 * 20 + 4] - 5.5e-9).abs() < 1e-20);
     }
     let pairs: String = (0..40).map(|i| format!("{},{}\n", 0.25 * f64::from(i), i % 5)).collect();
     let map = HeightMap::read(&format!("x_um,z_nm\n{pairs}")).unwrap();
@@ -137,6 +137,9 @@ fn what_cannot_be_read_names_line_and_what_is_allowed() {
         (format!("{head}1,2,\n1,x,3\n"), &["line 5", "\"x\" is not a number"]),
         (format!("{head}1,,3\n"), &["line 4", "\"\" is not a number", "filled in"]),
         (format!("{head}1,nan\n"), &["line 4", "not a number"]),
+        (format!("{head}1,1e300\n"), &["line 4", "below 1e10", "not measured"]),
+        (format!("{head}1,5 2,5\n"), &["line 4", "\"5 2\""]),
+        (format!("{head}# dx_um = 5\n"), &["line 4", "dx_um: given twice"]),
         ("# height = inch\n".to_owned(), &["line 1", "height = inch", "allowed m, mm, um or nm"]),
         ("# dx_um = -1\n".to_owned(), &["line 1", "out of range"]),
         (format!("{head}1,2\n3,4\n"), &["2 × 2 points", "16"]),

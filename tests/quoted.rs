@@ -43,7 +43,7 @@ use std::process::{Command, Stdio};
 const EXAMPLE: &str = "cargo run --release --example ";
 
 /// Commands that end with a folder, and which of the figures there are which of docs/gallery, or of another folder.
-const PICTURES: [(&str, &[(&str, &str)]); 17] = [
+const PICTURES: [(&str, &[(&str, &str)]); 18] = [
     (
         "solve fundamental --fidelity fine",
         &[("wave", "wave"), ("loads", "loads"), ("map", "map"), ("torque", "torque")],
@@ -91,8 +91,12 @@ const PICTURES: [(&str, &[(&str, &str)]); 17] = [
         &[("exact", "../../tests/figures/disc-exact"), ("profile", "../../tests/figures/disc-profile")],
     ),
     (
-        "stability --map spacing-frequency --cells 4 --method auto --fidelity draft",
+        "stability --map load-amplitude --cells 4 --method auto --fidelity draft",
         &[("stability", "../../tests/figures/stability")],
+    ),
+    (
+        "sensitivity fundamental --fidelity draft --keys film.min_spacing_nm --uncertainty film.min_spacing_nm=20% --monte-carlo 60",
+        &[("monte-carlo", "../../tests/figures/monte-carlo")],
     ),
     (
         "fit fundamental --data table1 --skip rotor_width_0.6mm --vary film.min_spacing_nm=150:250 --vary rotor.decay_length_mm=2:8 --fidelity draft",

@@ -187,6 +187,13 @@ fn faces_that_are_pressed_into_each_other() {
 }
 
 #[test]
+fn a_contact_nearly_as_wide_as_its_ring() {
+    let at = |width: &str| motor(&[("motor.contact_radius_mm", "4.5"), ("rotor.contact_width_mm", width)]);
+    assert!(!names(&at("0.9")).contains(&"curvature"));
+    check(&at("9"), "curvature", 2.0, 0.2);
+}
+
+#[test]
 fn sliding_faster_than_sound() {
     // 0.5 m · 10 000 rpm = 523.6 m/s, and 0.19 m/s of the stator; 343.2 m/s.
     let turning = |rpm: &str| motor(&[("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", rpm)]);

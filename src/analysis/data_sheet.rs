@@ -15,7 +15,7 @@ const SOLVES: usize = 40;
 const CLOSE: f64 = 2e-3;
 
 /// The motor of `answers`, with the friction and the amplitude at which it has, once solved, the stall torque and the speed without load of the
-/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`], and what is assumed says so.
+/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`], and the description says so.
 pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
     let mut least = NewMotor::of(answers)?;
     let wanted = [(Quantity::StallTorque, "stall-torque-nm"), (Quantity::NoLoadSpeed, "no-load-speed-rpm")]
@@ -29,7 +29,8 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
         // A rotor that floats has no torque, and more friction gives it none.
         let missed = wanted.map(|wanted| {
             let Some((quantity, asked)) = wanted else { return Some(1.0) };
-            Some(asked / solved.get(quantity).filter(|found| *found > 0.0)?)
+            let found = solved.estimate(quantity).filter(|found| found.value > 0.0 && found.error < found.value)?;
+            Some(asked / found.value)
         });
         let [Some(torque), Some(speed)] = missed else { break };
         if (torque - 1.0).abs().max((speed - 1.0).abs()) < CLOSE {
@@ -44,20 +45,15 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
         let of = |quantity| numbers.get(quantity).map(|value| significant(value, 3));
         match [of(Quantity::StallTorque), of(Quantity::NoLoadSpeed)] {
-            [Some(torque), Some(speed)] => format!(", and this motor, solved, has {torque} N·m and {speed} rpm"),
-            _ => ", and this motor, solved, is not driven".to_owned(),
+            [Some(torque), Some(speed)] => format!(": solved, this one has {torque} N·m and {speed} rpm"),
+            _ => ": solved, this one is not driven".to_owned(),
         }
     });
-    for found in &mut least.assumed {
-        if [FRICTION, AMPLITUDE].contains(&found.key) {
-            found.why += &format!("; none was found that agrees with the data sheet{has}");
-        }
-    }
+    let unmet = format!("No motor was found that agrees with the data sheet{has}.");
+    least.scene.about = format!("{} {unmet}", least.scene.about);
+    least.unmet = Some(unmet);
     Ok(least)
 }
-
-const FRICTION: &str = "motor.dry_friction";
-const AMPLITUDE: &str = "stator.tangential_amplitude_um";
 
 fn solved(scene: &Scene, cancel: &Cancel) -> Option<Numbers> {
     let problem = Problem::try_from(scene).ok()?;
@@ -89,16 +85,24 @@ mod tests {
         let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n".to_owned(), "20".to_owned())]));
         let same_but_told = |answers: &Answers, told: &str| {
             let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
-            assert_eq!(found.scene, least.scene);
-            let why = found.assumed.into_iter().find(|assumed| assumed.key == FRICTION).unwrap().why;
-            assert!(why.contains("none was found that agrees") && why.ends_with(told), "{why}");
+            assert!(found.scene.same_model(&least.scene));
+            let unmet = found.unmet.unwrap();
+            assert!(found.scene.about.ends_with(&unmet) && unmet.ends_with(told), "{unmet}");
         };
-        same_but_told(&light, "is not driven");
+        same_but_told(&light, "this one is not driven.");
         // One that would need more friction than there is keeps the least.
         let strong: Answers =
             [("stall-torque-nm", "8.5")].map(|(name, value)| (name.to_owned(), value.to_owned())).into();
         let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();
-        same_but_told(&strong, "rpm");
+        same_but_told(&strong, "rpm.");
+        // A speed that the film leaves unknown is not that of the data sheet.
+        let unknown = [("load-n", "20"), ("frequency-khz", "10000"), ("no-load-speed-rpm", "10000")];
+        let unknown: Answers = [("diameter-mm", "60")]
+            .iter()
+            .chain(&unknown)
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+            .collect();
+        assert!(agreeing(&unknown, &Cancel::new()).unwrap().unmet.is_some());
         // Pressed on so heavily that all teeth touch, torque and speed depend on both.
         let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];
         let asked = [("stall-torque-nm", "0.9401"), ("no-load-speed-rpm", "49.29")];

@@ -15,7 +15,7 @@ pub use limits::{Excess, NAMES, mach};
 use crate::plan::{Choice, Decision};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution, settled};
-use limits::{Film, dense, nearness, resonance, roughness, sliding, stress};
+use limits::{Film, curvature, dense, nearness, resonance, roughness, sliding, stress};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -81,6 +81,7 @@ fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) ->
         stress(motor, contact / motor.contact_width),
         roughness(motor, closed),
         film.thinness(),
+        curvature(motor),
     ];
     found.into_iter().flatten().collect()
 }

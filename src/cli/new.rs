@@ -95,6 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }
     let motor = agreeing(&answers, &Cancel::new()).map_err(CliError::Input)?;
     told(&motor);
+    motor.unmet.iter().for_each(|words| terminal::warning(words));
     match &arguments.file {
         Some(file) => {
             motor.save(file)?;

@@ -64,7 +64,7 @@ const fn question(
 #[rustfmt::skip]
 pub static QUESTIONS: &[Question] = &[
     question("name", "Name of the motor", Accepts::Text, Some("My motor")),
-    question("diameter-mm", "Outer diameter of the stator", Accepts::Number(2.0, 1000.0, "mm"), None),
+    question("diameter-mm", "Outer diameter of the stator", Accepts::Number(2.25, 1000.0, "mm"), None),
     question("frequency-khz", "Frequency", Accepts::Key("stator.frequency_khz"), None),
     question("load-n", "Axial load on the rotor", Accepts::Key("motor.load_n"), None),
     question("waves", "Wavelengths round the ring", Accepts::Key("motor.waves"), Some("9")),
@@ -75,7 +75,7 @@ pub static QUESTIONS: &[Question] = &[
         Some("a tangential amplitude of 1 µm, or the normal amplitude divided by 1.3 if that is given")),
     question("normal-amplitude-um", "Normal amplitude of the stator", Accepts::Key("stator.normal_amplitude_um"),
         Some("1.3 times the tangential one")),
-    question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter")),
+    question("contact-width-mm", "Radial width of the contact", Accepts::Key("rotor.contact_width_mm"), Some("3 % of the diameter, up to 10 mm")),
     question("thickness-mm", "Thickness of the rotor's rim", Accepts::Key("rotor.thickness_mm"), Some("a fortieth of the diameter")),
     question("elastic-modulus-gpa", "Elastic modulus of the rotor", Accepts::Key("rotor.elastic_modulus_gpa"), Some("70, aluminium")),
     question("min-spacing-nm", "Spacing that roughness leaves", Accepts::Key("film.min_spacing_nm"), Some("200")),
@@ -165,6 +165,8 @@ pub struct NewMotor {
     pub scene: Scene,
     /// Assumptions that were made, in the order of the questions.
     pub assumed: Vec<Assumption>,
+    /// A sentence on torque or speed that no motor was found to have, if they were asked for.
+    pub unmet: Option<String>,
 }
 
 /// Friction and tangential amplitude, as multiples of the least that torque and speed of the data sheet allow.
@@ -301,7 +303,7 @@ impl NewMotor {
             Some(friction) => {
                 let why = match factors {
                     Factors::LEAST => {
-                        "stall torque over load and radius: the least that it can be, because the air takes some; the solved motor tells how much more it is"
+                        "stall torque over load and radius: the least that it can be, because the air takes some"
                     }
                     _ => "the solved motor has the stall torque of the data sheet, within 0.2 %",
                 };
@@ -317,7 +319,7 @@ impl NewMotor {
         let (tangential, why) = match (amplitude, draft.number("normal-amplitude-um")) {
             (Some(amplitude), _) if factors == Factors::LEAST => (
                 amplitude,
-                "the crests of the wave move as fast as the rotor without load: the least that it can be; the solved motor tells how much more it is",
+                "the crests of the wave move as fast as the rotor without load: the least that it can be",
             ),
             (Some(amplitude), _) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
@@ -331,13 +333,14 @@ impl NewMotor {
         draft.assume("stator.tangential_amplitude_um", tangential, why);
         let why = "1.3 times the tangential one, as in the motor of Maeno and Bogy";
         draft.take("stator.normal_amplitude_um", "normal-amplitude-um", ELLIPSE * tangential, why);
-        let why = "3 % of the diameter: how wide the lip of a rotor is";
-        draft.take("rotor.contact_width_mm", "contact-width-mm", 0.03 * diameter, why);
+        let lip = (0.03 * diameter).min(10.0);
+        let why = "3 % of the diameter, up to 10 mm: how wide the lip of a rotor is";
+        draft.take("rotor.contact_width_mm", "contact-width-mm", lip, why);
         draft.pairs.push(("rotor.model", "section".to_owned()));
         let why = "a fortieth of the diameter: a thin flange";
         draft.take("rotor.thickness_mm", "thickness-mm", diameter / 40.0, why);
         draft.take("rotor.elastic_modulus_gpa", "elastic-modulus-gpa", 70.0, "aluminium");
-        let width = draft.number("contact-width-mm").unwrap_or(0.03 * diameter);
+        let width = draft.number("contact-width-mm").unwrap_or(lip);
         draft.assume("rotor.width_mm", 2.0 * width, "twice the contact: how much of the flange bends with it");
         let why = "0.14 of the radius, as in the rotor fitted to Maeno and Bogy";
         draft.assume("rotor.decay_length_mm", 0.14 * radius, why);
@@ -357,7 +360,7 @@ impl NewMotor {
         let assumed: Vec<String> = draft.assumed.iter().filter_map(words).collect();
         draft.pairs.push(("about", format!("From a data sheet. Assumed: {}.", assumed.join(", "))));
         let scene = Scene::motor().with(&draft.pairs).map_err(|error| error.to_string())?;
-        Ok(Self { scene, assumed: draft.assumed })
+        Ok(Self { scene, assumed: draft.assumed, unmet: None })
     }
 
     /// As a preset file, which says at its head what was assumed.

@@ -2,7 +2,8 @@
 //!
 //! A *grid* begins with its spacings, each on a line of its own as `# dx_um = 0.5` and `# dy_um = 0.5`, and the unit of the heights,
 //! `# height = nm`; then a line of numbers for each y, from x = 0 on. A *profile* has a line `x_um,z_nm` and then a pair on each line.
-//! Units are m, mm, um and nm; numbers are separated by commas, semicolons, tabs or blanks. x is along the wave.
+//! Units are m, mm, um and nm; numbers are separated by commas, blanks, or semicolons or tabs, beside which a comma is a decimal sign.
+//! x is along the wave.
 
 use serde::{Deserialize, Serialize};
 
@@ -56,6 +57,8 @@ pub const FEWEST: usize = 16;
 pub const MOST: usize = 1_000_000;
 /// Most points of a grid.
 pub const POINTS: usize = 16_000_000;
+/// Numbers of this size, in any unit, stand for points that were not measured.
+const LARGEST: f64 = 1e10;
 /// By how much of a step the points of a profile may lie unevenly.
 const UNEVEN: f64 = 0.02;
 
@@ -79,16 +82,26 @@ fn metres(unit: &str) -> Option<f64> {
 }
 
 fn cells(line: &str) -> impl Iterator<Item = &str> {
-    let separators: &[char] = if line.contains([',', ';', '\t']) { &[',', ';', '\t'] } else { &[' '] };
+    let separators: &[char] = match line {
+        _ if line.contains([';', '\t']) => &[';', '\t'],
+        _ if line.contains(',') => &[','],
+        _ => &[' '],
+    };
     line.trim_end_matches(separators)
         .split(separators)
         .map(str::trim)
-        .filter(move |cell| !cell.is_empty() || separators.len() > 1)
+        .filter(move |cell| !cell.is_empty() || separators != [' '])
 }
 
 fn number(cell: &str, line: usize) -> Result<f64, HeightMapError> {
-    let what = || format!("\"{}\" is not a number; points that were not measured have to be filled in", shown(cell));
-    cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| HeightMapError::Line { line, what: what() })
+    let what = || {
+        format!(
+            "\"{}\" is not a number below {LARGEST:e}; points that were not measured have to be filled in",
+            shown(cell)
+        )
+    };
+    let value = cell.replace(',', ".").parse().ok().filter(|value: &f64| value.abs() < LARGEST);
+    value.ok_or_else(|| HeightMapError::Line { line, what: what() })
 }
 
 /// The first characters of a cell, what cannot be seen left out.
@@ -118,8 +131,11 @@ impl HeightMap {
                     continue;
                 };
                 let allowed = || at(line, format!("{} = {}: allowed m, mm, um or nm", shown(key), shown(value)));
+                let twice = || at(line, format!("{}: given twice", shown(key)));
                 if key == "height" {
-                    unit = Some(metres(value).ok_or_else(allowed)?);
+                    if unit.replace(metres(value).ok_or_else(allowed)?).is_some() {
+                        return Err(twice());
+                    }
                 } else if let Some((axis, length)) = key.split_once('_').filter(|(axis, _)| ["dx", "dy"].contains(axis))
                 {
                     let length = metres(length).ok_or_else(|| {
@@ -129,7 +145,9 @@ impl HeightMap {
                     if step <= 0.0 {
                         return Err(at(line, format!("{key} = {value} is out of range: allowed above 0")));
                     }
-                    spacing[usize::from(axis == "dy")] = Some(step);
+                    if spacing[usize::from(axis == "dy")].replace(step).is_some() {
+                        return Err(twice());
+                    }
                 }
                 continue;
             }

@@ -2,7 +2,7 @@
 
 use super::measured::Measured;
 use super::model::{Computed, Curve, Model};
-use super::starts::{best, spread};
+use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
 use super::{Stopped, Tell, search_failed};
@@ -336,7 +336,7 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
 fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> {
     let mut minima: Vec<(&[f64], Minimum)> = Vec::new();
     for (chi_squared, x, _) in found.iter().filter(|found| found.0.is_finite()) {
-        let same = |other: &&mut (&[f64], Minimum)| other.0.iter().zip(x).all(|(a, b)| (a - b).abs() < SAME);
+        let same = |other: &&mut (&[f64], Minimum)| distance(other.0, x) < SAME;
         match minima.iter_mut().find(same) {
             Some((_, minimum)) => minimum.starts += 1,
             None => {

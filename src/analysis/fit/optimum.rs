@@ -2,7 +2,7 @@
 
 use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
-use super::starts::{best, spread};
+use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
 use super::{Stopped, Tell, search_failed};
 use crate::analysis::attempt::{attempt, caught};
@@ -28,6 +28,8 @@ const RADIUS: (f64, f64) = (0.2, 5e-4);
 const MOST_POINTS: u64 = 600;
 /// An unknown this close in x to a bound is at the bound.
 const AT_BOUND: f64 = 2e-3;
+/// Places that differ by more than this share of a range are two optima.
+const ANOTHER: f64 = 0.05;
 /// Points of a line through the optimum.
 const LINE: usize = 21;
 /// A share of the optimum that a designer does not mind.
@@ -295,7 +297,7 @@ pub fn optimise(
     let starts = best(judged.collect());
     let tried = Mutex::new((0, f64::NAN));
     let count = own.len();
-    let mut reached: Option<(f64, Vec<f64>, bool)> = None;
+    let mut reached: Vec<(f64, Vec<f64>, bool)> = Vec::new();
     for start in std::iter::once(own.clone()).chain(starts) {
         let search = Search {
             model: &model,
@@ -321,13 +323,16 @@ pub fn optimise(
         let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
         let Some((cost, beyond)) = goal.judge(&solved[0], size) else { continue };
         let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
-        if reached.as_ref().is_none_or(|best| cost < best.0) {
-            reached = Some((cost, x, ended.cost_evals() < MOST_POINTS));
-        }
+        reached.push((cost, x, ended.cost_evals() < MOST_POINTS));
     }
-    let Some((_, mut x, converged)) = reached else {
+    reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut reached = reached.into_iter();
+    let Some((_, mut x, converged)) = reached.next() else {
         return Err(no_start("no point that was tried could be solved"));
     };
+    // What breaks a limit is no optimum.
+    let lesser = reached.find(|(cost, other, _)| *cost < NOTHING && distance(other, &x) > ANOTHER);
+    let lesser = lesser.map(|(cost, other, _)| (cost * size * if goal.greatest { -1.0 } else { 1.0 }, other));
     let at: Vec<Option<Bound>> = x
         .iter()
         .map(|x| match *x {
@@ -339,7 +344,20 @@ pub fn optimise(
     for (x, at) in x.iter_mut().zip(&at) {
         *x = at.map_or(*x, |at| if at == Bound::Lower { 0.0 } else { 1.0 });
     }
-    describe(&model, goal, (own, x, at, converged), cancel)
+    let mut found = describe(&model, goal, (own, x, at, converged), cancel)?;
+    if let (Some(found), Some((value, x))) = (&mut found, lesser) {
+        let at = model.unknowns.iter().zip(x).map(|(unknown, x)| {
+            let (key, value) = (unknown.parameter.key, short(unknown.value(x), 4));
+            format!("{key} = {}", unknown.parameter.with_unit(value))
+        });
+        found.warnings.push(format!(
+            "another start ended at {}, with {} = {}: more starts may find a better optimum (--starts)",
+            at.collect::<Vec<_>>().join(", "),
+            goal.quantity.name(),
+            short(value, 6)
+        ));
+    }
+    Ok(found)
 }
 
 /// The fault of a scene that cannot be solved.

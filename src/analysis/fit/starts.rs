@@ -4,6 +4,8 @@
 pub const MOST_STARTS: u16 = 10_000;
 /// Starts that are refined, beside that of the scene's own values.
 const REFINED: usize = 3;
+/// So far from each other in one direction at least: those that are nearer would lead to the same place.
+const APART: f64 = 0.2;
 
 /// `count` points that fill the unit cube of so many dimensions evenly: the additive recurrence whose step is the generalised golden
 /// ratio, the root of φ^(d+1) = φ + 1 (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). The same ones every time.
@@ -19,15 +21,33 @@ pub(super) fn spread(dimensions: usize, count: usize) -> Vec<Vec<f64>> {
     (1..=count).map(point).collect()
 }
 
-/// The points with the least numbers, best first: those that are refined.
+/// The points with the least numbers that are apart from each other, best first: those that are refined.
 pub(super) fn best(mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    judged.into_iter().take(REFINED).map(|(_, point)| point).collect()
+    let mut chosen: Vec<Vec<f64>> = Vec::new();
+    for (_, point) in judged {
+        if chosen.len() < REFINED && chosen.iter().all(|other| distance(other, &point) > APART) {
+            chosen.push(point);
+        }
+    }
+    chosen
+}
+
+/// The greatest difference between the places of two points.
+pub(super) fn distance(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_refined_is_good_and_apart() {
+        let judged = [(2.0, 0.5), (1.0, 0.1), (1.1, 0.15), (3.0, 0.9), (1.2, 0.2), (9.0, 0.7)];
+        let chosen = best(judged.map(|(cost, x)| (cost, vec![x, 0.5])).to_vec());
+        assert_eq!(chosen.iter().map(|point| point[0]).collect::<Vec<_>>(), [0.1, 0.5, 0.9]);
+    }
 
     #[test]
     fn every_part_of_the_cube_has_its_share_of_points() {

@@ -38,11 +38,13 @@ const LEAST_TOLD: f64 = 0.01;
 const THINNESS: f64 = 0.025;
 /// By how much the gas beyond the edges lengthens a side, over the gap.
 const ELONGATION: f64 = 1.3;
+/// Greatest width of the contact over its radius: at its edges the wave is a tenth faster or slower than in its middle.
+const CURVATURE: f64 = 0.2;
 /// Greatest amplitude of a plate over its mean gap.
 const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
-pub const NAMES: [&str; 10] = [
+pub const NAMES: [&str; 11] = [
     "gas-inertia",
     "isothermal",
     "slip-law",
@@ -52,6 +54,7 @@ pub const NAMES: [&str; 10] = [
     "contact-stress",
     "roughness",
     "thinness",
+    "curvature",
     "amplitude",
 ];
 
@@ -296,6 +299,18 @@ pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
         brief(rms * 1e9)
     );
     excess("roughness", value, ROUGHNESS, "", text)
+}
+
+pub(super) fn curvature(motor: &Motor) -> Option<Excess> {
+    let value = motor.contact_width / motor.contact_radius;
+    let text = format!(
+        "The contact is {} mm wide round a radius of {} mm: teeth are no rectangles there, and at the edges of the contact the wave is \
+         {} % faster and slower than in its middle.",
+        brief(motor.contact_width * 1e3),
+        brief(motor.contact_radius * 1e3),
+        brief(50.0 * value)
+    );
+    excess("curvature", value, CURVATURE, "", text)
 }
 
 pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
