@@ -595,8 +595,11 @@ fn a_cycle_is_animated() {
         let version = concat!("squeezefilm ", env!("CARGO_PKG_VERSION")).as_bytes();
         assert!(bytes.windows(version.len()).any(|part| part == version), "{name} says where it comes from");
     }
-    assert_eq!(animate(&folder.path().join("frames")).status.code(), Some(0));
-    assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), 4);
+    let frames = folder.path().join("frames");
+    assert_eq!(animate(&frames).status.code(), Some(0));
+    assert_eq!(fs::read_dir(&frames).unwrap().count(), 4);
+    fs::write(frames.join("frame-0005.png"), "").unwrap();
+    assert!(err(&animate(&frames)).contains("frame-0005.png to frame-0005.png there are frames of an earlier run"));
     for name in ["a.gif", "a.mp4"] {
         let nowhere = animate(&folder.path().join("no").join(name));
         assert_eq!(nowhere.status.code(), Some(1));

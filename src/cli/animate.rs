@@ -6,7 +6,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::{check_file, check_writable};
-use crate::export::animation::{Format, Options};
+use crate::export::animation::{Format, Options, frame_name};
 use crate::export::files::{self, Control, Solved};
 use crate::problem::Problem;
 use crate::solution::{Status, settled};
@@ -82,5 +82,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);
     terminal::note(&format!("wrote {}: {count} frames", arguments.out.display()));
+    let is_there = |number: &usize| arguments.out.join(frame_name(*number)).is_file();
+    let older = (count + 1..).take_while(is_there).count();
+    if format == Format::Folder && older > 0 {
+        let (first, last) = (frame_name(count + 1), frame_name(count + older));
+        terminal::warning(&format!("{first} to {last} there are frames of an earlier run"));
+    }
     Ok(Exit::of(&solution.status))
 }

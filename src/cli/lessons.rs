@@ -91,10 +91,11 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
             errors => counted(errors, "error", "errors"),
         };
         terminal::text(&format!(
-            "{}: {}, {} steps, {tasks} tasks: {words}\n",
+            "{}: {}, {}, {}: {words}\n",
             lesson.id,
             lesson.title,
-            lesson.steps.len()
+            counted(lesson.steps.len(), "step", "steps"),
+            counted(tasks, "task", "tasks")
         ));
         for finding in &findings {
             let kind = if finding.fault.is_error() { "error" } else { "warning" };

@@ -92,6 +92,9 @@ pub(super) fn from_input(fault: ReadError) -> CliError {
 
 fn from_standard_input() -> Result<Scene, CliError> {
     let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(from_input)?;
+    if text.trim().is_empty() {
+        return Err(CliError::Input("standard input: it is empty, or has been read: - can be given once".to_owned()));
+    }
     Ok(presets::disclaimed(Scene::from_toml(&text, "standard input")?))
 }
 

@@ -127,6 +127,11 @@ pub fn write_video(
         .map_err(|error| stopped(error, cancel))
 }
 
+/// The file of a frame in a folder, from 1 on.
+pub fn frame_name(number: usize) -> String {
+    format!("frame-{number:04}.png")
+}
+
 /// How many frames [`write_video`] writes: if the options ask for fewer than the usual number, as many as [`frames`].
 pub fn video_frames(recording: &Recording, options: &Options) -> usize {
     let (count, enough) = (frames(recording, options.frames), (SMOOTH * options.seconds).ceil() as usize);
@@ -243,7 +248,7 @@ impl Movie {
                         check(cancel)?;
                         out.write_all(&png_bytes(&pixels, None, &[]).map_err(io::Error::other)?)
                     };
-                    staged.add(format!("frame-{:04}.png", i + 1), write).map_err(stopped)?;
+                    staged.add(frame_name(i + 1), write).map_err(stopped)?;
                 }
                 return Ok(staged.commit()?);
             }

@@ -155,11 +155,11 @@ pub static PARAMETERS: &[Parameter] = &[
         "Stator's share of the variance of both faces' heights").when(ROUGH_FLOW).named("Stator's share of the roughness"),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
-        "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN, "Set film nodes along"),
-    whole("numerics.film_nodes_across", Any, (3, 501), 21, "Film nodes across the full width, both ends counted").absent(LEFT_OPEN, "Set film nodes across"),
+        "Film nodes along a tooth or plate, both ends counted; rounded up so that coarser grids fit in").absent(LEFT_OPEN, "Set film nodes along"),
+    whole("numerics.film_nodes_across", Any, (3, 501), 21, "Film nodes across the full width, both ends counted; rounded up likewise").absent(LEFT_OPEN, "Set film nodes across"),
     whole("numerics.contact_nodes", IdleOnPlate, (19, 5001), 361,
         "Contact nodes on one wavelength for --method paper, both ends counted").absent(LEFT_OPEN, "Set contact nodes"),
-    whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle").absent(LEFT_OPEN, "Set steps in a cycle")
+    whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle, rounded up so that coarser grids and all teeth fit in").absent(LEFT_OPEN, "Set steps in a cycle")
         .named("Steps in a cycle"),
     number("numerics.tolerance", "", Any, (1e-9, 1e-2), (1e-7, 1e-2), Log, 1e-4,
         "Relative change of trapped gas below which the cycle counts as repeating").absent(LEFT_OPEN, "Set tolerance of a cycle")

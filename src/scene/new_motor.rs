@@ -317,10 +317,9 @@ impl NewMotor {
             .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
         let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
         let (tangential, why) = match (amplitude, draft.number("normal-amplitude-um")) {
-            (Some(amplitude), _) if factors == Factors::LEAST => (
-                amplitude,
-                "the crests of the wave move as fast as the rotor without load: the least that it can be",
-            ),
+            (Some(amplitude), _) if factors == Factors::LEAST => {
+                (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
+            }
             (Some(amplitude), _) => {
                 (amplitude, "the solved motor has the speed without load of the data sheet, within 0.2 %")
             }

@@ -138,7 +138,10 @@ mod tests {
         assert_eq!(pieces("m²"), [(Script::Normal, "m".into()), (Script::Raised, "2".into())]);
         assert_eq!(pieces("10^{−3}")[1], (Script::Raised, "−3".into()));
         assert_eq!(plain("p_{a} min_spacing 10⁻³"), "pa min_spacing 10−3");
-        assert_eq!(plain("spacing H_m (nm), Q_pr, my_x, a_b_c, b_long: 10^-5 m^2"), "spacing Hm (nm), Qpr, my_x, a_b_c, b_long: 10−5 m^2");
+        assert_eq!(
+            plain("spacing H_m (nm), Q_pr, my_x, a_b_c, b_long: 10^-5 m^2"),
+            "spacing Hm (nm), Qpr, my_x, a_b_c, b_long: 10−5 m^2"
+        );
         assert_eq!(pieces("^{open").len(), 1);
         assert!(pieces("").is_empty());
     }
