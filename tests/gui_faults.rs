@@ -58,6 +58,29 @@ fn what_is_being_typed_is_saved_too() {
 }
 
 #[test]
+fn a_file_that_another_program_has_changed_is_not_replaced_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let scene = presets::find("fundamental").unwrap();
+    scene.save(&path).unwrap();
+    let mut window = window(|_, _| Answer::Cancelled, (scene, Some(path.clone())));
+    let other = presets::find("levitating").unwrap();
+    other.save(&path).unwrap();
+    window.type_over(Role::TextInput, FIELD, "120");
+    for (button, replaced) in [("Keep editing", false), ("Replace it", true)] {
+        window.ctrl(Key::S);
+        assert_eq!(Scene::load(&path).unwrap(), other);
+        window.click_on(button);
+        let now = Scene::load(&path).unwrap();
+        assert_eq!((now == other, window.known().document.is_dirty()), (!replaced, !replaced), "{button}");
+    }
+    // What it has written itself it knows.
+    window.type_over(Role::TextInput, FIELD, "130");
+    window.ctrl(Key::S);
+    assert_eq!(Scene::load(&path).unwrap().get(SPACING), Some(Value::Number(130.0)));
+}
+
+#[test]
 fn what_is_being_typed_is_asked_about_before_the_window_closes() {
     for by_key in [true, false] {
         let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));

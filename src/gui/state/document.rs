@@ -121,6 +121,12 @@ impl Document {
         self.path.as_deref()
     }
 
+    /// Whether its file holds something else now than what was read from it, or saved to it, last.
+    pub fn is_changed_elsewhere(&self) -> bool {
+        let other = |path: &Path| Scene::load(path).map_or(true, |scene| presets::disclaimed(scene) != self.saved);
+        self.path().filter(|path| path.exists()).is_some_and(other)
+    }
+
     /// Whether neither a file nor a preset has it.
     pub fn is_new(&self) -> bool {
         self.new
@@ -243,6 +249,32 @@ mod tests {
         let mut scene = document.scene().clone();
         scene.set("film.min_spacing_nm", nanometres).unwrap();
         scene
+    }
+
+    #[test]
+    fn a_file_is_known_to_hold_what_was_saved_until_something_else_is_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let table = folder.path().join("rotor.csv");
+        std::fs::write(&table, "wavenumber_per_m,compliance_m2_per_n\n10,1e-9\n10000,1e-10\n").unwrap();
+        let table = [("rotor.compliance_csv", table.to_str().unwrap())];
+        let with_table = Document::fundamental().unwrap().scene().with(table).unwrap();
+        let scenes = presets::BUILT_IN.iter().map(|built_in| built_in.scene().unwrap());
+        for scene in scenes.chain([with_table]) {
+            let mut document = Document::opened(scene, None);
+            document.save(&path).unwrap();
+            assert!(!document.is_changed_elsewhere(), "{}", document.scene().name);
+            let read = Document::opened(presets::disclaimed(Scene::load(&path).unwrap()), Some(path.clone()));
+            assert!(!read.is_changed_elsewhere(), "{}", document.scene().name);
+        }
+        let mut document = Document::fundamental().unwrap();
+        document.save(&path).unwrap();
+        std::fs::write(&path, "not a preset").unwrap();
+        assert!(document.is_changed_elsewhere());
+        with_spacing(&document, "300").save(&path).unwrap();
+        assert!(document.is_changed_elsewhere());
+        std::fs::remove_file(&path).unwrap();
+        assert!(!document.is_changed_elsewhere());
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::dialogs::Purpose;
 use super::document::Next;
 use crate::scene::new_motor::Answers;
+use std::path::PathBuf;
 
 /// A modal.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub enum Modal {
         /// The action that would lose them.
         next: Next,
     },
+    /// The scene's file, to be saved to and then to go on to this, holds something else now.
+    ChangedElsewhere(PathBuf, Option<Next>),
     /// Descriptions of work that closing the window would end.
     Unfinished(Vec<String>),
     /// A path to type.

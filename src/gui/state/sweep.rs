@@ -316,12 +316,14 @@ impl SweepState {
                     self.swept = Some(Swept { sweep, rows, published, number, running, failure, started, before });
                 }
                 SweepMessage::Solved(row) => {
-                    if let Some(Swept { rows, .. }) = &mut self.swept {
-                        rows.insert(rows.partition_point(|other| other.point < row.point), *row);
+                    if let Some(swept) = &mut self.swept {
+                        swept.rows.push(*row);
                     }
                 }
             }
         }
+        // Once for all: a large map has rows that are better not moved for each that comes in between.
+        self.swept.iter_mut().for_each(|swept| swept.rows.sort_by_key(|row| row.point));
         let Some(end) = end else { return };
         let building = self.building();
         self.task = None;

@@ -138,6 +138,9 @@ impl Updater {
             self.leave_lesson();
         }
         match self.state.document.path().map(Path::to_path_buf) {
+            Some(path) if self.state.document.is_changed_elsewhere() => {
+                self.state.modal = Some(Modal::ChangedElsewhere(path, then));
+            }
             Some(path) => {
                 if let Err(reason) = self.save_to(&path, then) {
                     self.fail_at(Purpose::Save(None), &path, reason);

@@ -22,6 +22,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
         match modal {
             Modal::Error(message) => error(ui, message),
             Modal::Unsaved { name, next } => unsaved(ui, name, next),
+            Modal::ChangedElsewhere(path, then) => changed_elsewhere(ui, path, then.as_ref()),
             Modal::Unfinished(work) => unfinished(ui, work),
             Modal::Path(prompt) => path(ui, prompt, cx),
             Modal::NewMotor(answers) => new_motor::show(ui, answers, cx),
@@ -87,16 +88,39 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
 
 fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
     heading(ui, &format!("Save the changes to “{name}”?"));
+    let answers = [
+        ("Save", vec![Command::Save(Some(next.clone()))]),
+        ("Don't save", vec![Command::DiscardThen(next.clone())]),
+        ("Keep editing", Vec::new()),
+    ];
+    buttons(ui, answers)
+}
+
+fn changed_elsewhere(ui: &mut Ui, path: &Path, then: Option<&Next>) -> Answer {
+    let file = path.file_name().unwrap_or_default().display();
+    heading(ui, &format!("“{file}” has changed since it was opened or saved here"));
+    ui.add(egui::Label::new("Saving replaces what another program has written there.").wrap());
+    ui.add_space(12.0);
+    let save = Purpose::Save(then.cloned());
+    let answers = [
+        ("Save under another name…", vec![Command::Ask(save.clone())]),
+        ("Replace it", vec![Command::Chosen(save, path.to_owned())]),
+        ("Keep editing", Vec::new()),
+    ];
+    buttons(ui, answers)
+}
+
+/// A row of buttons, the first of which has the keyboard: what the one that is clicked does.
+fn buttons<const N: usize>(ui: &mut Ui, answers: [(&str, Vec<Command>); N]) -> Answer {
     ui.horizontal_wrapped(|ui| {
-        let save = first_button(ui, "Save");
-        let discard = ui.button("Don't save");
-        let keep = ui.button("Keep editing");
-        let answers = [
-            (save, vec![Command::Save(Some(next.clone()))]),
-            (discard, vec![Command::DiscardThen(next.clone())]),
-            (keep, Vec::new()),
-        ];
-        answers.into_iter().find(|(button, _)| button.clicked()).map(|(_, commands)| commands)
+        let mut clicked = None;
+        for (i, (text, commands)) in answers.into_iter().enumerate() {
+            let button = if i == 0 { first_button(ui, text) } else { ui.button(text) };
+            if button.clicked() {
+                clicked = Some(commands);
+            }
+        }
+        clicked
     })
     .inner
 }
