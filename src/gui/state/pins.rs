@@ -291,12 +291,12 @@ pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
 }
 
-/// The name of a scene with the one or two keys that tell it apart from another.
+/// The name of a scene with the one or two keys that tell it apart from another. What it does not have is not named.
 pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
-    let differing = rows.iter().filter(|row| row.differs()).map(|row| {
-        let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
-        format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
+    let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
+        let value = row.values[1].as_ref()?;
+        Some(format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned())
     });
     let differing: Vec<String> = differing.collect();
     (1..=2).contains(&differing.len()).then(|| format!("{}, {}", scene.name, differing.join(", ")))
@@ -340,6 +340,14 @@ mod tests {
         let labels: Vec<&str> = pins.runs.iter().map(|run| run.label.as_str()).collect();
         assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
         assert!(matches!(&pins.note, Some(Note::Remark(text)) if text.contains("already")));
+    }
+
+    #[test]
+    fn what_a_scene_does_not_have_is_not_in_its_name() {
+        let given = presets::find("plate-crossover").unwrap();
+        let floating = given.with([("plate.mean_gap_um", "none"), ("plate.load_n", "1")]).unwrap();
+        let name = told_apart(&floating, &given).unwrap();
+        assert!(name.ends_with(" 1 N") && !name.contains("none") && !name.contains("gap"), "{name}");
     }
 
     #[test]
