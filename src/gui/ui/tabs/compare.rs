@@ -33,9 +33,7 @@ const HEADS: [f32; 2] = [11.0, 7.5];
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs.is_empty() && pins.waiting.is_empty() {
-        if pins.can_restore() {
-            cx.button(ui, "Bring the pins back", "Those that were removed together", PinCommand::Restore);
-        }
+        restore_button(ui, cx);
         return introduction(ui, cx);
     }
     chips(ui, cx);
@@ -79,6 +77,16 @@ fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
+/// Brings back what was removed last, if there is something.
+fn restore_button(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let (name, about) = match cx.state.pins.removed() {
+        0 => return,
+        1 => ("Bring the pin back", "The one that was removed last"),
+        _ => ("Bring the pins back", "Those that were removed together"),
+    };
+    cx.button(ui, name, about, PinCommand::Restore);
+}
+
 /// The pins, as the legend of all drawings.
 fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
@@ -96,6 +104,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
             cx.button(ui, "Remove all", about, PinCommand::Clear);
             export_button(ui, COMPARISON, cx);
         }
+        restore_button(ui, cx);
     });
     ui.add_space(2.0);
     ui.horizontal_wrapped(|ui| {
