@@ -157,13 +157,12 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
     let focused = ui.memory(|memory| memory.has_focus(id));
-    // A name that is longer than the field ends with "…" until it is typed over.
+    // A name that is longer than the field is cut until it is typed over.
     let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
         let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
-        let mut job = egui::text::LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
-        if !focused {
-            job.wrap = egui::text::TextWrapping::truncate_at_width(width);
-        }
+        let text = text.as_str();
+        let text = if focused { text.to_owned() } else { cut(text, |text| text_width(ui, text) <= width) };
+        let job = egui::text::LayoutJob::simple_singleline(text, font, colour);
         ui.fonts_mut(|fonts| fonts.layout_job(job))
     };
     let field = egui::TextEdit::singleline(&mut text)
@@ -186,6 +185,19 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     } else if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, text));
     }
+}
+
+/// `text`, or as much of it as fits, with "…" in it: names of pins begin alike, and more is kept of the end.
+fn cut(text: &str, fits: impl Fn(&str) -> bool) -> String {
+    if fits(text) {
+        return text.to_owned();
+    }
+    let chars: Vec<char> = text.chars().collect();
+    let kept = |count: usize| {
+        let (head, tail) = (&chars[..count / 3], &chars[chars.len() - (count - count / 3)..]);
+        head.iter().chain(&['…']).chain(tail).collect::<String>()
+    };
+    (0..chars.len()).rev().map(kept).find(|text| fits(text)).unwrap_or_default()
 }
 
 /// Results and parameters of all pins.
@@ -312,4 +324,18 @@ fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
             ui.end_row();
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cut;
+
+    #[test]
+    fn what_is_cut_keeps_its_end() {
+        let shown = |text: &str, most: usize| cut(text, |text| text.chars().count() <= most);
+        let pins = ["100", "150"].map(|spacing| format!("Fundamental case, minimum spacing H_m {spacing} nm"));
+        assert_eq!(pins.each_ref().map(|pin| shown(pin, 16)), ["Funda…H_m 100 nm", "Funda…H_m 150 nm"]);
+        assert_eq!(shown(&pins[0], 100), pins[0]);
+        assert_eq!((shown("µµµ", 1), shown("µµµ", 0)), ("…".to_owned(), String::new()));
+    }
 }
