@@ -25,7 +25,7 @@ pub enum Page {
 pub struct Pin {
     /// Identifier, never used for another pin.
     pub id: u64,
-    /// Index of its colour.
+    /// Index of its colour and dashes.
     pub slot: usize,
     /// Scales and curves of its cycle.
     pub curves: RunCurves,

@@ -6,15 +6,17 @@ use crate::digits::{capitalised, raised};
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label, shown};
-use crate::gui::state::pins::{Note, Page, fidelity};
+use crate::gui::state::pins::{Note, Page, Pin, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::parts::first_button;
-use crate::gui::ui::theme::run_colour;
+use crate::gui::ui::plot::stroked;
+use crate::gui::ui::theme::{run_colour, run_dash};
 use crate::gui::ui::views::overlay;
 use crate::gui::ui::{glossary, keys};
-use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
+use eframe::egui::{self, Color32, Id, Key, RichText, Sense, Stroke, TextStyle, Ui, vec2};
+use egui_plot::LineStyle;
 
 /// Widest field for a label, in heights of the text.
 const WIDEST_LABEL: f32 = 16.0;
@@ -109,8 +111,7 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.add_space(2.0);
     ui.horizontal_wrapped(|ui| {
         for (pin, run) in pins.pins.iter().zip(&pins.runs) {
-            let colour = run_colour(pin.slot, cx.state.dark);
-            chip(ui, pin.id, run, colour, run.scene == *cx.state.document.scene(), cx);
+            chip(ui, pin, run, run.scene == *cx.state.document.scene(), cx);
         }
         for waiting in &pins.waiting {
             frame(ui, cx.colours.quiet).show(ui, |ui| {
@@ -128,19 +129,28 @@ fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
     egui::Frame::new().fill(fill).stroke((1.0, colour)).corner_radius(5).inner_margin(egui::Margin::same(CHIP_MARGIN))
 }
 
-fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool, cx: &DrawContext<'_>) {
+fn chip(ui: &mut Ui, pin: &Pin, run: &ComparedRun, present: bool, cx: &DrawContext<'_>) {
+    let (id, colour, dash) = (pin.id, run_colour(pin.slot, cx.state.dark), run_dash(pin.slot));
     let em = ui.text_style_height(&TextStyle::Body);
     let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    // A square, or room for some dashes.
+    let swatch = if dash == LineStyle::Solid { 0.8 } else { 2.0 } * em;
     // All but the label.
-    let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
+    let rest = 2.0 * f32::from(CHIP_MARGIN) + swatch + 0.2 * em + CHIP_GAP + button("✕");
+    let rest = rest + if present { 0.0 } else { button("Open") };
     let label = text_width(ui, &run.label) + 4.0;
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
     // In one piece, so that it is a whole that goes to the next line.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
     let parts = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
-        let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
-        ui.painter().rect_filled(swatch, 2.0, colour);
+        let (swatch, _) = ui.allocate_exact_size(vec2(swatch, 0.8 * em), Sense::hover());
+        if dash == LineStyle::Solid {
+            ui.painter().rect_filled(swatch, 2.0, colour);
+        } else {
+            let ends = [swatch.left_center(), swatch.right_center()];
+            ui.painter().extend(stroked(&ends, Stroke::new(2.0, colour), dash));
+        }
         name_field(ui, id, run, label, cx);
         if !present {
             let open = ("Open", "Makes this the present scene; undo brings back what was");
