@@ -156,6 +156,9 @@ fn pins_are_renamed_opened_and_removed() {
     // What is left is what differences are from.
     assert!(window.known().pins.results.iter().all(|row| row.cells[0].difference_percent.is_none()));
     window.get_by_label("Compare (1)");
+    window.click_on("Bring the pin back");
+    assert_eq!(labels(window.state())[0], "as published");
+    assert!(window.query_by_label("Bring the pin back").is_none());
 }
 
 #[test]

@@ -156,7 +156,7 @@ pub enum PinCommand {
     Remove(u64),
     /// Removes all pins.
     Clear,
-    /// Brings back the pins that `Clear` removed.
+    /// Brings back the pins that were removed last, by `Remove` or `Clear`.
     Restore,
     /// Makes the scene of a pin the present scene: one edit.
     Open(u64),

@@ -25,7 +25,7 @@ pub enum Page {
 pub struct Pin {
     /// Identifier, never used for another pin.
     pub id: u64,
-    /// Index of its colour.
+    /// Index of its colour and dashes.
     pub slot: usize,
     /// Scales and curves of its cycle.
     pub curves: RunCurves,
@@ -93,8 +93,8 @@ pub struct Pins {
     pub all_parameters: bool,
     /// Outcome of the last request, if it would not be visible otherwise.
     pub note: Option<Note>,
-    /// Pins taken away by "Remove all", kept until there is a new pin.
-    cleared: Option<Box<Self>>,
+    /// The pins that were removed last, one or all, kept until there is a new pin.
+    removed: Option<Box<Self>>,
 }
 
 impl Pins {
@@ -108,7 +108,7 @@ impl Pins {
     }
 
     fn number(&mut self) -> u64 {
-        self.cleared = None;
+        self.removed = None;
         self.next += 1;
         self.next
     }
@@ -130,8 +130,11 @@ impl Pins {
         if run.solved.is_err() {
             return;
         }
+        let all = [Some(&*self), self.removed.as_deref()];
         let taken = |slot: usize| {
-            self.pins.iter().any(|pin| pin.slot == slot) || self.waiting.iter().any(|other| other.slot == Some(slot))
+            all.iter().flatten().any(|of| {
+                of.pins.iter().any(|pin| pin.slot == slot) || of.waiting.iter().any(|other| other.slot == Some(slot))
+            })
         };
         let slot = match stored {
             Some((label, slot)) => {
@@ -248,36 +251,53 @@ impl Pins {
         }
     }
 
-    /// Removes a pin; cancels one that is being solved, or will be.
+    /// Removes a pin; cancels one that is being solved, or will be. [`Self::bring_back`] undoes it.
     pub fn remove(&mut self, id: u64) {
-        self.waiting.retain(|waiting| waiting.id != id);
-        if let Some(i) = self.place(id) {
-            self.pins.remove(i);
-            self.runs.remove(i);
+        self.take(|pin| pin == id);
+    }
+
+    /// Removes all pins, also those being solved; [`Self::bring_back`] undoes it.
+    pub fn clear(&mut self) {
+        self.take(|_| true);
+    }
+
+    /// Takes away the pins whose numbers `goes`.
+    fn take(&mut self, goes: impl Fn(u64) -> bool) {
+        let mut removed = Self::default();
+        for (pin, run) in std::mem::take(&mut self.pins).into_iter().zip(std::mem::take(&mut self.runs)) {
+            let to = if goes(pin.id) { &mut removed } else { &mut *self };
+            to.pins.push(pin);
+            to.runs.push(run);
+        }
+        for mut waiting in std::mem::take(&mut self.waiting) {
+            if goes(waiting.id) {
+                waiting.task = None;
+                removed.waiting.push(waiting);
+            } else {
+                self.waiting.push(waiting);
+            }
+        }
+        if removed.pins.len() + removed.waiting.len() > 0 {
+            self.removed = Some(Box::new(removed));
             self.note = None;
             self.tabulate();
         }
     }
 
-    /// Removes all pins, also those being solved; [`Self::restore_cleared`] brings them back.
-    pub fn clear(&mut self) {
-        let fresh = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
-        let mut cleared = std::mem::replace(self, fresh);
-        cleared.waiting.iter_mut().for_each(|waiting| waiting.task = None);
-        cleared.cleared = None;
-        self.cleared = Some(Box::new(cleared));
+    /// How many removed pins can be brought back.
+    pub fn removed(&self) -> usize {
+        self.removed.as_ref().map_or(0, |removed| removed.pins.len() + removed.waiting.len())
     }
 
-    /// Whether removed pins can be brought back.
-    pub fn can_restore(&self) -> bool {
-        self.cleared.is_some()
-    }
-
-    /// Brings back what [`Self::clear`] took away; those that were being solved wait for their turn again.
-    pub fn restore_cleared(&mut self) {
-        if let Some(cleared) = self.cleared.take() {
-            *self = Self { page: self.page, all_parameters: self.all_parameters, ..*cleared };
+    /// Brings back what was removed last, at its place; those that were being solved wait for their turn again.
+    pub fn bring_back(&mut self) {
+        let Some(removed) = self.removed.take() else { return };
+        let Self { pins, runs, waiting, .. } = *removed;
+        for (pin, run) in pins.into_iter().zip(runs) {
+            self.insert(pin.id, Some((run.label.clone(), pin.slot)), run);
         }
+        self.waiting.extend(waiting);
+        self.waiting.sort_by_key(|waiting| waiting.id);
     }
 
     fn tabulate(&mut self) {
@@ -291,12 +311,12 @@ pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
 }
 
-/// The name of a scene with the one or two keys that tell it apart from another.
+/// The name of a scene with the one or two keys that tell it apart from another. What it does not have is not named.
 pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
-    let differing = rows.iter().filter(|row| row.differs()).map(|row| {
-        let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
-        format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
+    let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
+        let value = row.values[1].as_ref()?;
+        Some(format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned())
     });
     let differing: Vec<String> = differing.collect();
     (1..=2).contains(&differing.len()).then(|| format!("{}, {}", scene.name, differing.join(", ")))
@@ -343,6 +363,14 @@ mod tests {
     }
 
     #[test]
+    fn what_a_scene_does_not_have_is_not_in_its_name() {
+        let given = presets::find("plate-crossover").unwrap();
+        let floating = given.with([("plate.mean_gap_um", "none"), ("plate.load_n", "1")]).unwrap();
+        let name = told_apart(&floating, &given).unwrap();
+        assert!(name.ends_with(" 1 N") && !name.contains("none") && !name.contains("gap"), "{name}");
+    }
+
+    #[test]
     fn a_colour_is_used_again_and_names_stay_unique() {
         let mut pins = Pins::default();
         for spacing in ["2", "3", "4"] {
@@ -355,6 +383,7 @@ mod tests {
         assert_eq!(slots, [0, 2, 1]);
         let last = pins.pins[2].id;
         assert!(last > second);
+        assert_eq!(pins.removed(), 0);
         pins.rename(last, "one");
         let first = pins.pins[0].id;
         pins.rename(first, "one");
@@ -365,11 +394,23 @@ mod tests {
         pins.clear();
         assert!(pins.runs.is_empty() && pins.results.is_empty());
         // All come back, until there is another one.
-        pins.restore_cleared();
-        assert_eq!((pins.runs.len(), pins.results[0].cells.len()), (3, 3));
-        assert!(!pins.can_restore());
+        assert_eq!(pins.removed(), 3);
+        pins.bring_back();
+        assert_eq!((pins.runs.len(), pins.results[0].cells.len(), pins.removed()), (3, 3, 0));
+        // One comes back to its place, with its name and its colour.
+        let told = |pins: &Pins| -> Vec<(u64, usize, String)> {
+            pins.pins.iter().zip(&pins.runs).map(|(pin, run)| (pin.id, pin.slot, run.label.clone())).collect()
+        };
+        let before = told(&pins);
+        let middle = pins.pins[1].id;
+        pins.remove(middle);
+        assert_eq!((pins.runs.len(), pins.results[0].cells.len(), pins.removed()), (2, 2, 1));
+        // What is not there cannot be removed.
+        pins.remove(middle);
+        pins.bring_back();
+        assert_eq!((told(&pins), pins.results[0].cells.len()), (before, 3));
         pins.clear();
         pins.add(solved("plate-viscous", &[], Fidelity::Draft));
-        assert!(!pins.can_restore());
+        assert_eq!(pins.removed(), 0);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::glossary::{self, Explained};
 use super::hint::{Hint, text_width};
-use super::plot::{between, dots, framed, level, line, marks, numbered, tick, upright};
+use super::plot::{between, dots, framed, level, line, marks, numbered, stroked, tick, upright};
 use super::theme::on_screen;
 use crate::digits::{power_of_ten, raised, short};
 use crate::export::figure::{self, Axis, Colour, Dash, Direction, Layer, Mark, Panel, Scale, Shape, ends};
@@ -212,10 +212,6 @@ fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
     }
 }
 
-fn dashed(ends: &[egui::Pos2], colour: Color32, length: f32) -> Vec<egui::Shape> {
-    egui::Shape::dashed_line(ends, Stroke::new(2.0, colour), length, 0.6 * length)
-}
-
 fn dashes(dash: Dash) -> LineStyle {
     match dash {
         Dash::Solid => LineStyle::Solid,
@@ -278,11 +274,11 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
                 Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
                     let ends = [left, left + vec2(SAMPLE * em, 0.0)];
                     // A solid one is one dash.
-                    painter.extend(match dashes(style.dash) {
-                        LineStyle::Dotted { spacing } => egui::Shape::dotted_line(&ends, colour, spacing, 1.2),
-                        LineStyle::Dashed { length } => dashed(&ends, colour, length),
-                        LineStyle::Solid => dashed(&ends, colour, 1e6),
-                    });
+                    let dash = match dashes(style.dash) {
+                        LineStyle::Solid => LineStyle::Dashed { length: 1e6 },
+                        dash => dash,
+                    };
+                    painter.extend(stroked(&ends, Stroke::new(2.0, colour), dash));
                 }
                 Layer::Points(figure::Points { marker, .. }) => {
                     let (at, radius) = (left + vec2(0.5 * SAMPLE * em, 0.0), 0.25 * em);

@@ -3,7 +3,7 @@
 use super::paint::widened;
 use crate::gui::derived::scales::span;
 use crate::ticks::Steps;
-use eframe::egui::{self, Color32, Id};
+use eframe::egui::{self, Color32, Id, Pos2, Shape, Stroke};
 use egui_plot::{
     AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse, PlotUi,
     Points, VLine,
@@ -68,6 +68,15 @@ pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: 
     thin(points, size, &mut kept);
     kept.extend(points.last());
     Line::new("", PlotPoints::from(kept)).color(colour).width(width).style(style).allow_hover(false)
+}
+
+/// A line outside of a plot, with the dashes of those in one.
+pub(super) fn stroked(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
+    match style {
+        LineStyle::Dotted { spacing } => Shape::dotted_line(points, stroke.color, spacing, 0.6 * stroke.width),
+        LineStyle::Dashed { length } => Shape::dashed_line(points, stroke, length, 0.6 * length),
+        LineStyle::Solid => vec![Shape::line(points.to_vec(), stroke)],
+    }
 }
 
 /// Keeps of a curve of this size the points that straight lines between others would miss, but for the last one (Ramer 1972).

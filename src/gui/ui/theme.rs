@@ -2,6 +2,7 @@
 
 use crate::export::figure::{Colour, Colours};
 use eframe::egui::{self, Color32, FontData, FontFamily};
+use egui_plot::LineStyle;
 
 /// Colours with a meaning, for one of the two themes. Distinguishable with the common colour deficiencies (Okabe–Ito).
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +49,12 @@ pub fn run_colour(slot: usize, dark: bool) -> Color32 {
     const LIGHT: [u32; 7] = [0x0072b2, 0xd55e00, 0x008a64, 0xb04c8a, 0xa67600, 0x525cc8, 0x22262c];
     let colours = if dark { DARK } else { LIGHT };
     rgb(colours[slot % colours.len()])
+}
+
+/// Dashes of that run: those that have a colour again have others.
+pub fn run_dash(slot: usize) -> LineStyle {
+    let dashes = [LineStyle::Solid, LineStyle::dashed_loose(), LineStyle::dotted_dense(), LineStyle::dashed_dense()];
+    dashes[slot / Colour::CYCLE.len() % dashes.len()]
 }
 
 /// Stands for the accent colour of the window in the description of a chart.
@@ -176,4 +183,18 @@ pub mod mathematics {
     pub const DESCENT: f32 = 0.21;
     /// Width of lines: of fractions and roots.
     pub const RULE: f32 = 0.07;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_one_colour_have_other_dashes() {
+        for dark in [false, true] {
+            let looks: Vec<_> = (0..28).map(|slot| (run_colour(slot, dark), run_dash(slot))).collect();
+            assert!(looks[..7].iter().all(|(_, dash)| *dash == LineStyle::Solid));
+            assert!(looks.iter().enumerate().all(|(i, look)| !looks[..i].contains(look)));
+        }
+    }
 }

@@ -26,7 +26,7 @@ impl Updater {
             PinCommand::Rename(id, name) => self.state.pins.rename(id, &name),
             PinCommand::Remove(id) => self.state.pins.remove(id),
             PinCommand::Clear => self.state.pins.clear(),
-            PinCommand::Restore => self.state.pins.restore_cleared(),
+            PinCommand::Restore => self.state.pins.bring_back(),
             PinCommand::Open(id) => {
                 if let Some(scene) = self.state.pins.run(id).map(|run| run.scene.clone()) {
                     self.change_scene(scene);

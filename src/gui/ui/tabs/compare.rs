@@ -6,15 +6,17 @@ use crate::digits::{capitalised, raised};
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label, shown};
-use crate::gui::state::pins::{Note, Page, fidelity};
+use crate::gui::state::pins::{Note, Page, Pin, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::parts::first_button;
-use crate::gui::ui::theme::run_colour;
+use crate::gui::ui::plot::stroked;
+use crate::gui::ui::theme::{run_colour, run_dash};
 use crate::gui::ui::views::overlay;
 use crate::gui::ui::{glossary, keys};
-use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
+use eframe::egui::{self, Color32, Id, Key, RichText, Sense, Stroke, TextStyle, Ui, vec2};
+use egui_plot::LineStyle;
 
 /// Widest field for a label, in heights of the text.
 const WIDEST_LABEL: f32 = 16.0;
@@ -33,9 +35,7 @@ const HEADS: [f32; 2] = [11.0, 7.5];
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs.is_empty() && pins.waiting.is_empty() {
-        if pins.can_restore() {
-            cx.button(ui, "Bring the pins back", "Those that were removed together", PinCommand::Restore);
-        }
+        restore_button(ui, cx);
         return introduction(ui, cx);
     }
     chips(ui, cx);
@@ -79,6 +79,16 @@ fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
+/// Brings back what was removed last, if there is something.
+fn restore_button(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let (name, about) = match cx.state.pins.removed() {
+        0 => return,
+        1 => ("Bring the pin back", "The one that was removed last"),
+        _ => ("Bring the pins back", "Those that were removed together"),
+    };
+    cx.button(ui, name, about, PinCommand::Restore);
+}
+
 /// The pins, as the legend of all drawings.
 fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
@@ -96,12 +106,12 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
             cx.button(ui, "Remove all", about, PinCommand::Clear);
             export_button(ui, COMPARISON, cx);
         }
+        restore_button(ui, cx);
     });
     ui.add_space(2.0);
     ui.horizontal_wrapped(|ui| {
         for (pin, run) in pins.pins.iter().zip(&pins.runs) {
-            let colour = run_colour(pin.slot, cx.state.dark);
-            chip(ui, pin.id, run, colour, run.scene == *cx.state.document.scene(), cx);
+            chip(ui, pin, run, run.scene == *cx.state.document.scene(), cx);
         }
         for waiting in &pins.waiting {
             frame(ui, cx.colours.quiet).show(ui, |ui| {
@@ -119,19 +129,28 @@ fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
     egui::Frame::new().fill(fill).stroke((1.0, colour)).corner_radius(5).inner_margin(egui::Margin::same(CHIP_MARGIN))
 }
 
-fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool, cx: &DrawContext<'_>) {
+fn chip(ui: &mut Ui, pin: &Pin, run: &ComparedRun, present: bool, cx: &DrawContext<'_>) {
+    let (id, colour, dash) = (pin.id, run_colour(pin.slot, cx.state.dark), run_dash(pin.slot));
     let em = ui.text_style_height(&TextStyle::Body);
     let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    // A square, or room for some dashes.
+    let swatch = if dash == LineStyle::Solid { 0.8 } else { 2.0 } * em;
     // All but the label.
-    let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
+    let rest = 2.0 * f32::from(CHIP_MARGIN) + swatch + 0.2 * em + CHIP_GAP + button("✕");
+    let rest = rest + if present { 0.0 } else { button("Open") };
     let label = text_width(ui, &run.label) + 4.0;
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
     // In one piece, so that it is a whole that goes to the next line.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
     let parts = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
-        let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
-        ui.painter().rect_filled(swatch, 2.0, colour);
+        let (swatch, _) = ui.allocate_exact_size(vec2(swatch, 0.8 * em), Sense::hover());
+        if dash == LineStyle::Solid {
+            ui.painter().rect_filled(swatch, 2.0, colour);
+        } else {
+            let ends = [swatch.left_center(), swatch.right_center()];
+            ui.painter().extend(stroked(&ends, Stroke::new(2.0, colour), dash));
+        }
         name_field(ui, id, run, label, cx);
         if !present {
             let open = ("Open", "Makes this the present scene; undo brings back what was");
@@ -148,13 +167,12 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
     let focused = ui.memory(|memory| memory.has_focus(id));
-    // A name that is longer than the field ends with "…" until it is typed over.
+    // A name that is longer than the field is cut until it is typed over.
     let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
         let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
-        let mut job = egui::text::LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
-        if !focused {
-            job.wrap = egui::text::TextWrapping::truncate_at_width(width);
-        }
+        let text = text.as_str();
+        let text = if focused { text.to_owned() } else { cut(text, |text| text_width(ui, text) <= width) };
+        let job = egui::text::LayoutJob::simple_singleline(text, font, colour);
         ui.fonts_mut(|fonts| fonts.layout_job(job))
     };
     let field = egui::TextEdit::singleline(&mut text)
@@ -177,6 +195,19 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     } else if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, text));
     }
+}
+
+/// `text`, or as much of it as fits, with "…" in it: names of pins begin alike, and more is kept of the end.
+fn cut(text: &str, fits: impl Fn(&str) -> bool) -> String {
+    if fits(text) {
+        return text.to_owned();
+    }
+    let chars: Vec<char> = text.chars().collect();
+    let kept = |count: usize| {
+        let (head, tail) = (&chars[..count / 3], &chars[chars.len() - (count - count / 3)..]);
+        head.iter().chain(&['…']).chain(tail).collect::<String>()
+    };
+    (0..chars.len()).rev().map(kept).find(|text| fits(text)).unwrap_or_default()
 }
 
 /// Results and parameters of all pins.
@@ -303,4 +334,18 @@ fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
             ui.end_row();
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cut;
+
+    #[test]
+    fn what_is_cut_keeps_its_end() {
+        let shown = |text: &str, most: usize| cut(text, |text| text.chars().count() <= most);
+        let pins = ["100", "150"].map(|spacing| format!("Fundamental case, minimum spacing H_m {spacing} nm"));
+        assert_eq!(pins.each_ref().map(|pin| shown(pin, 16)), ["Funda…H_m 100 nm", "Funda…H_m 150 nm"]);
+        assert_eq!(shown(&pins[0], 100), pins[0]);
+        assert_eq!((shown("µµµ", 1), shown("µµµ", 0)), ("…".to_owned(), String::new()));
+    }
 }

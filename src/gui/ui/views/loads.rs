@@ -35,23 +35,29 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
         let width = shown.of.contact_width;
         if let Some(Frame { recording, of: motor, lines, .. }) = shown.first.as_deref() {
             for field in [&lines.contact, &lines.film] {
-                pressure(plot, (recording, motor.contact_width), field, 1e3, (style.palette.quiet, 0.0));
+                pressure(
+                    plot,
+                    (recording, motor.contact_width),
+                    field,
+                    1e3,
+                    (style.palette.quiet, LineStyle::Solid, 0.0),
+                );
             }
         }
-        pressure(plot, (shown.recording, width), &shown.lines.contact, 1e3, (contact, 0.35));
-        pressure(plot, (shown.recording, width), &shown.lines.film, 1e3, (film, 0.0));
+        pressure(plot, (shown.recording, width), &shown.lines.contact, 1e3, (contact, LineStyle::Solid, 0.35));
+        pressure(plot, (shown.recording, width), &shown.lines.film, 1e3, (film, LineStyle::Solid, 0.0));
         under_pointer(plot, shown.view.cursor_x.map(|x| x * 1e3), style.palette.accent);
     })
 }
 
-/// The line loads of all teeth as pressures \[kPa\], over a contact of this width \[m\], with an area of this opacity below; a metre is `metre` on
-/// the axis.
+/// The line loads of all teeth as pressures \[kPa\], over a contact of this width \[m\], with these dashes, and an area of this opacity below; a
+/// metre is `metre` on the axis.
 pub(super) fn pressure(
     plot: &mut PlotUi<'_>,
     (recording, width): (&Recording, f64),
     loads: &[f64],
     metre: f64,
-    (colour, opacity): (Color32, f32),
+    (colour, dash, opacity): (Color32, LineStyle, f32),
 ) {
     // Nothing rather than a line at zero where a tooth does not touch.
     let nodes = recording.x.len().max(1);
@@ -63,6 +69,6 @@ pub(super) fn pressure(
             let columns: Vec<[f64; 3]> = points.iter().map(|at| [at[0], at[1], 0.0]).collect();
             plot.add(between(&columns, colour.gamma_multiply(opacity)));
         }
-        plot.line(line(&points, colour, 1.6, LineStyle::Solid));
+        plot.line(line(&points, colour, 1.6, dash));
     }
 }

@@ -13,8 +13,8 @@ use crate::gui::derived::scales::{Curve, RunCurves, span, with_margin};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
-use crate::gui::ui::plot::{level, line, under_pointer};
-use crate::gui::ui::theme::run_colour;
+use crate::gui::ui::plot::{level, line, stroked, under_pointer};
+use crate::gui::ui::theme::{run_colour, run_dash};
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Lines};
@@ -35,6 +35,7 @@ struct Pinned<'a, T> {
     pin: &'a Pin,
     label: &'a str,
     colour: Color32,
+    dash: LineStyle,
     recording: &'a Recording,
     of: &'a T,
     place: f64,
@@ -47,7 +48,12 @@ impl<T> Pinned<'_, T> {
         let stamp = Stamp { run: (self.pin.id, Fidelity::Draft), place: self.place, tooth: 0, x, range };
         let axes = field::draw(ui, style, rect, self.recording, name, stamp);
         let strip = Rect::from_min_max(pos2(rect.left() - 9.0, rect.top()), pos2(rect.left() - 4.0, rect.bottom()));
-        style.painter.rect_filled(strip, 1.0, self.colour);
+        if self.dash == LineStyle::Solid {
+            style.painter.rect_filled(strip, 1.0, self.colour);
+        } else {
+            let ends = [strip.center_top(), strip.center_bottom()];
+            style.painter.extend(stroked(&ends, Stroke::new(strip.width(), self.colour), self.dash));
+        }
         let [low, high] = range.map(|pressure| number(pressure / 1e3));
         named(ui, rect, &format!("Pressure map of {}, colours from {low} to {high} kPa", self.label), Sense::hover());
         axes
@@ -62,11 +68,12 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if !has_fields(recording) {
             continue;
         }
-        let (label, colour, place) = (&*run.label, run_colour(pin.slot, cx.state.dark), cx.state.view.place(recording));
+        let (label, place) = (&*run.label, cx.state.view.place(recording));
+        let (colour, dash) = (run_colour(pin.slot, cx.state.dark), run_dash(pin.slot));
         let lines = Lines::at(recording, place);
         match &run.problem.scenario {
-            Scenario::Motor(of) => motors.push(Pinned { pin, label, colour, recording, of, place, lines }),
-            Scenario::Plate(of) => plates.push(Pinned { pin, label, colour, recording, of, place, lines }),
+            Scenario::Motor(of) => motors.push(Pinned { pin, label, colour, dash, recording, of, place, lines }),
+            Scenario::Plate(of) => plates.push(Pinned { pin, label, colour, dash, recording, of, place, lines }),
         }
     }
     let mixed = !motors.is_empty() && !plates.is_empty();
@@ -219,7 +226,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
-        let kept: Vec<_> = runs.iter().map(|run| (run.colour, of(&run.pin.curves))).collect();
+        let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, of(&run.pin.curves))).collect();
         over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
 
@@ -251,15 +258,15 @@ fn over_cycle(
     style: &PlotStyle,
     place: Rect,
     title: &str,
-    curves: &[(Color32, &Curve)],
+    curves: &[(Color32, LineStyle, &Curve)],
     (unit, period): (f64, f64),
     cx: &DrawContext<'_>,
 ) {
     let traces: Vec<_> = curves
         .iter()
-        .map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, behind: false })
+        .map(|(colour, dash, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, dash: *dash })
         .collect();
-    let range = span(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]).flatten());
+    let range = span(curves.iter().map(|(.., curve)| curve.range()).chain([[0.0, 0.0]]).flatten());
     let word = title.split(',').next().unwrap_or(title);
     let short = title.replace(" on one wave", "");
     let series =
@@ -300,11 +307,12 @@ fn draw_surfaces(
         };
         for tooth in 0..run.recording.teeth {
             let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            style.painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.colour));
+            let top: Vec<_> = top.map(|(i, w)| at(tooth, i, *w)).collect();
+            style.painter.extend(stroked(&top, Stroke::new(1.0, run.colour), run.dash));
         }
         let underside = run.lines.underside(run.recording);
-        let underside = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
-        style.painter.line(underside, Stroke::new(2.2, run.colour));
+        let underside: Vec<_> = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
+        style.painter.extend(stroked(&underside, Stroke::new(2.2, run.colour), run.dash));
     }
     axes.cursor(style, cursor);
     axes
@@ -331,7 +339,7 @@ fn draw_pressure(
         for run in runs {
             let metre = along.metre(run.recording.length) * written;
             let loads = [&run.lines.contact, &run.lines.film][field];
-            pressure(plot, (run.recording, run.of.contact_width), loads, metre, (run.colour, 0.16));
+            pressure(plot, (run.recording, run.of.contact_width), loads, metre, (run.colour, run.dash, 0.16));
         }
         under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     })
@@ -385,7 +393,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
             plot.hline(level(1e-3 * run.of.gas.ambient_pressure, style.palette.quiet, 1.0));
             let to_axis = 1e-3 * along.metre(run.of.length) * written;
             let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
-            plot.line(line(&points, run.colour, 1.8, LineStyle::Solid));
+            plot.line(line(&points, run.colour, 1.8, run.dash));
         }
         under_pointer(plot, cursor.map(|x| x * written), style.palette.accent);
     });
@@ -414,7 +422,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.colour, &run.pin.curves.film)).collect();
+    let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, &run.pin.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
     over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
     draw_loops(ui, &style, right, runs, cx.state.view.phase);
@@ -436,7 +444,7 @@ fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: Rect, runs: &[Pinned<'_, Pl
     let kept = runs.iter().filter_map(|run| {
         let (curves, _) = run.pin.curves.scales.tooth(0)?;
         let at = move |phase: f64| [curves.thickness.at(phase) / run.of.mean_gap, 1e-3 * run.pin.curves.film.at(phase)];
-        Some((run.colour, Box::new(at) as _))
+        Some((run.colour, run.dash, Box::new(at) as _))
     });
     let kept: Vec<Loop<'_>> = kept.collect();
     show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), (&kept, &[]), phase);

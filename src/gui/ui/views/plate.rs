@@ -166,11 +166,11 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFra
     let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
-    let trace = |curve, lag, colour, behind| Trace { curve, lag, offset: 0.0, colour, behind };
+    let trace = |curve, lag, colour, dash| Trace { curve, lag, offset: 0.0, colour, dash };
     let first = shown.first.as_ref().and_then(|first| first.scales.tooth(0));
-    let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, true));
+    let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, LineStyle::dashed_dense()));
     let legend = style.at_first(first.as_ref());
-    let present = trace(curve, lag, style.palette.film, false);
+    let present = trace(curve, lag, style.palette.film, LineStyle::Solid);
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
@@ -202,7 +202,7 @@ fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a P
     let of = |shown: &'a PlateFrame<'a>, colour: Color32| -> Option<Loop<'a>> {
         let ((curves, _), area) = (shown.scales.tooth(0)?, shown.of.area());
         let at = move |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
-        Some((colour, Box::new(at)))
+        Some((colour, LineStyle::Solid, Box::new(at)))
     };
     let first = shown.first.as_deref().and_then(|first| of(first, style.palette.quiet));
     let legend = style.at_first(first.as_ref());
@@ -211,8 +211,8 @@ fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a P
     show_loops(ui, style, place, ("gap, µm", ranges), (&loops, legend.as_slice()), shown.phase());
 }
 
-/// A curve over the phase, and its colour.
-pub(super) type Loop<'a> = (Color32, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
+/// A curve over the phase, after its colour and its dashes.
+pub(super) type Loop<'a> = (Color32, LineStyle, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
 
 /// Curves of mean gauge pressure \[kPa\] against the gap over the phase, and where they are at `phase`.
 /// `along`: name of the axis of the gap, and the ranges of both.
@@ -236,9 +236,9 @@ pub(super) fn show_loops(
     let name = "Mean pressure against the gap";
     Inset { name, rect, bounds, below: Some(along) }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));
-        for (colour, at) in loops {
+        for (colour, dash, at) in loops {
             let points: Vec<_> = (0..=LOOP_SAMPLES).map(|i| at(f64::from(i) / f64::from(LOOP_SAMPLES))).collect();
-            plot.line(line(&points, *colour, 1.6, LineStyle::Solid));
+            plot.line(line(&points, *colour, 1.6, *dash));
             plot.points(dots("", vec![at(phase)], *colour, 3.5));
         }
     });

@@ -17,8 +17,7 @@ pub(super) struct Trace<'a> {
     /// Added to the values.
     pub(super) offset: f64,
     pub(super) colour: Color32,
-    /// Whether it belongs to the run compared with, and is dashed.
-    pub(super) behind: bool,
+    pub(super) dash: LineStyle,
 }
 
 /// A small chart over the cycle.
@@ -63,8 +62,7 @@ impl Series<'_> {
                 let point =
                     |phase: f64| [phase * scale, (trace.offset + trace.curve.at(phase + trace.lag)) / self.unit];
                 let points: Vec<_> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
-                let style = if trace.behind { LineStyle::dashed_dense() } else { LineStyle::Solid };
-                plot.line(line(&points, trace.colour, 1.6, style));
+                plot.line(line(&points, trace.colour, 1.6, trace.dash));
                 plot.points(dots("", vec![point(now)], trace.colour, 3.5));
             }
         });

@@ -8,6 +8,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::problem::Motor;
 use eframe::egui::{Rect, Ui, pos2};
+use egui_plot::LineStyle;
 
 /// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
 pub(super) fn draw(
@@ -42,12 +43,12 @@ pub(super) fn draw(
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
     // The same tooth of the run that this one is compared with, behind it.
-    let quiet = style.palette.quiet;
+    let (quiet, dashed, solid) = (style.palette.quiet, LineStyle::dashed_dense(), LineStyle::Solid);
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
     let behind = style.at_first(first);
-    let trace = |curve, lag, offset, colour, behind| Trace { curve, lag, offset, colour, behind };
-    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.of.spacing(), quiet, true));
-    let present = trace(&curves.thickness, lag, -shown.of.spacing(), style.text, false);
+    let trace = |curve, lag, offset, colour, dash| Trace { curve, lag, offset, colour, dash };
+    let before = first.map(|(first, (curves, lag))| trace(&curves.thickness, lag, -first.of.spacing(), quiet, dashed));
+    let present = trace(&curves.thickness, lag, -shown.of.spacing(), style.text, solid);
     let ranges = before.iter().chain([&present]).map(|trace| trace.curve.range().map(|value| value + trace.offset));
     let [low, high] = span(ranges.flatten());
     let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
@@ -63,9 +64,9 @@ pub(super) fn draw(
     };
     series.show(ui, style, gap_chart, cx);
     let before = first
-        .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, true)));
+        .map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, 0.0, quiet, dashed)));
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
-    let present = present.map(|(curve, colour)| trace(curve, lag, 0.0, colour, false));
+    let present = present.map(|(curve, colour)| trace(curve, lag, 0.0, colour, solid));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
     let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
     let unit = if shown.ranges.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
