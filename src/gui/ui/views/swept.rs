@@ -21,15 +21,19 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::{PlotStyle, colour_between};
-use crate::gui::ui::plot::{self, between, line};
+use crate::gui::ui::plot::{self, line};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::scene::Scale;
 use crate::solution::StoppedBy;
 use crate::ticks::Steps;
 use eframe::egui::{
-    Color32, CursorIcon, FontId, Id, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, vec2,
+    self, Color32, CursorIcon, FontId, Id, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, vec2,
 };
-use egui_plot::{LineStyle, PlotMemory, PlotPoint, PlotResponse, PlotUi, Text};
+use egui_plot::{
+    LineStyle, PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotMemory, PlotPoint, PlotResponse, PlotTransform,
+    PlotUi, Text,
+};
+use std::ops::RangeInclusive;
 
 /// Radius of the ring round the point that is pointed at.
 const RING: f32 = 7.0;
@@ -319,16 +323,62 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
     (shown.response, pointed)
 }
 
+/// Cells, by their corners, in their colours: one item, since a large map has too many.
+struct Cells {
+    base: PlotItemBase,
+    cells: Vec<([[f64; 2]; 2], Color32)>,
+}
+
+impl PlotItem for Cells {
+    fn shapes(&self, _: &Ui, transform: &PlotTransform, shapes: &mut Vec<egui::Shape>) {
+        let mut mesh = egui::Mesh::default();
+        for (corners, colour) in &self.cells {
+            let [low, high] = corners.map(|[x, y]| transform.position_from_point(&PlotPoint::new(x, y)));
+            mesh.add_colored_rect(Rect::from_two_pos(low, high), *colour);
+        }
+        shapes.push(egui::Shape::mesh(mesh));
+    }
+
+    fn initialize(&mut self, _: RangeInclusive<f64>) {}
+
+    fn color(&self) -> Color32 {
+        Color32::TRANSPARENT
+    }
+
+    fn allow_hover(&self) -> bool {
+        false
+    }
+
+    fn geometry(&self) -> PlotGeometry<'_> {
+        PlotGeometry::None
+    }
+
+    fn bounds(&self) -> PlotBounds {
+        let mut bounds = PlotBounds::NOTHING;
+        for [x, y] in self.cells.iter().flat_map(|(corners, _)| corners) {
+            bounds.extend_with(&PlotPoint::new(*x, *y));
+        }
+        bounds
+    }
+
+    fn base(&self) -> &PlotItemBase {
+        &self.base
+    }
+
+    fn base_mut(&mut self) -> &mut PlotItemBase {
+        &mut self.base
+    }
+}
+
 /// The cells of a map in their colours, and lines of equal value, each with its value once, in this font.
 fn ground(plot: &mut PlotUi<'_>, drawn: &Drawn, font: FontId) {
     let [low, high] = span(drawn.values.iter().copied());
     let part = |value: f64| if high > low { (value - low) / (high - low) } else { 0.0 };
     let colour = colour_between([low, high]);
     let rows = drawn.edges[1].len().saturating_sub(1).max(1);
-    for (k, value) in drawn.values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-        let [[left, bottom], [right, top]] = drawn.cell(k / rows, k % rows);
-        plot.add(between(&[[left, bottom, top], [right, bottom, top]], colour(*value)));
-    }
+    let known = drawn.values.iter().enumerate().filter(|(_, value)| value.is_finite());
+    let cells = known.map(|(k, value)| (drawn.cell(k / rows, k % rows), colour(*value)));
+    plot.add(Cells { base: PlotItemBase::new(String::new()), cells: cells.collect() });
     let ticks = Steps::new([low, high], LEVELS);
     let mut written: Vec<Rect> = Vec::new();
     for (level, pieces) in &drawn.lines {
