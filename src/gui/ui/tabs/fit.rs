@@ -61,8 +61,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if let Some((scene, found)) = state.found.as_ref() {
             ui.add_space(6.0);
             let height = (SHARE * height).max(LEAST_LINES * ui.text_style_height(&TextStyle::Body));
-            let stale = state.stale(cx.state.document.scene());
-            cx.alarm(ui, stale.then(|| format!("Fitted to “{}” before the scene changed; fit again", scene.name)));
+            let (name, stale) = (scene.headline(), state.stale(cx.state.document.scene()));
+            cx.alarm(ui, stale.then(|| format!("Fitted to “{name}” before the scene changed; fit again")));
             let another = state.asks_for_another();
             cx.alarm(ui, another.then(|| format!("Found for another question: {}", question(found))));
             // Both are built once for what was found.

@@ -138,7 +138,7 @@ const INTRODUCTION: &[&str] = &[
 
 /// State of the sweep: whether it is of the present scene, and how many points failed.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
-    let name = &swept.sweep.scene().name;
+    let name = swept.sweep.scene().headline();
     let stale = swept.stale(cx.state.document.scene());
     cx.alarm(ui, stale.then(|| format!("Swept on “{name}” before the scene changed; sweep again")));
     if let Some(failure) = &swept.failure {
