@@ -218,6 +218,10 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     window.run_steps(3);
     assert!(!swept(window.state()).running && swept(window.state()).rows.len() == part);
     window.click_on("Continue");
+    assert!(swept(window.state()).running);
+    window.press(Key::Escape);
+    until(&mut window, "Escape ends it too", |app| !swept(app).running);
+    window.click_on("Continue");
     until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running);
 
     let sweep = &swept(window.state()).sweep;
