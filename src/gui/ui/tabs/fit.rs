@@ -311,13 +311,13 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
             let at = scan.at.map(|bound| format!("at its {} bound", bound.name()));
-            let flat = scan.flat.map(|(from, to)| {
-                let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+            let (value, flat) = scan.told();
+            let flat = flat.map(|[from, to]| {
+                let ends = format!("from {from} to {}", parameter.with_unit(to));
                 format!("the result stays within {} of the optimum {ends}", percent(found.flatness()))
             });
             let beside: Vec<String> = at.into_iter().chain(flat).collect();
-            let value = parameter.with_unit(significant(scan.value, 4));
-            row(ui, label(parameter), parameter.about, value, beside.join("; "));
+            row(ui, label(parameter), parameter.about, parameter.with_unit(value), beside.join("; "));
         }
     });
     take(ui, cx);
