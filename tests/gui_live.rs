@@ -126,6 +126,9 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
     window.click_on("Cancel the start-up");
     until(&mut window, "it has ended", |app| !starting(app).work.running());
     window.get_by_label_contains("Cancelled after cycle");
+    // The scene that it was started on was an edited one, the present one is not.
+    window.ctrl(Key::Z);
+    window.get_by_label_contains("minimum spacing H_m 150 nm” before the scene changed; start again");
     // One that goes on does not keep the window open.
     window.click_on("Start from rest");
     drop(window);

@@ -208,11 +208,22 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     until(&mut window, "some points", |app| {
         app.state().sweep.swept.as_ref().is_some_and(|swept| !swept.rows.is_empty())
     });
+    let place = window.get_by_label("Cancel the sweep").rect().center();
     window.get_by_label("Cancel the sweep").click();
     until(&mut window, "the end", |app| !swept(app).running);
     let part = swept(window.state()).rows.len();
     assert!(part > 0 && part < 1000, "{part}");
     window.get_by_label_contains("Cancelled");
+    // A second click in the same place is one too many, and does nothing.
+    window.drag_at(place);
+    window.step();
+    window.drop_at(place);
+    window.run_steps(3);
+    assert!(!swept(window.state()).running && swept(window.state()).rows.len() == part);
+    window.click_on("Continue");
+    assert!(swept(window.state()).running);
+    window.press(Key::Escape);
+    until(&mut window, "Escape ends it too", |app| !swept(app).running);
     window.click_on("Continue");
     until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running);
 

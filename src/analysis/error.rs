@@ -9,12 +9,12 @@ pub enum AnalysisError {
     /// Invalid request, or a table that cannot be used: the option, key or line, its value, and what is allowed.
     #[error("{0}")]
     Input(String),
-    /// Invalid fields of one key that is swept.
+    /// Invalid fields of what is swept.
     #[error("{told}")]
     Field {
-        /// Message with the key, as [`Self::Input`].
+        /// Message for the command line, as [`Self::Input`].
         told: String,
-        /// Message without the key, for display beside the fields.
+        /// Message without key or option, for display beside the fields.
         in_place: String,
     },
     /// A key or value of a scene.

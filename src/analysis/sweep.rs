@@ -128,9 +128,9 @@ impl Sweep {
         let found = part.points(&axes).len();
         if found > MOST_POINTS {
             let parts = if part.of() == 1 { String::new() } else { format!(" in one of {} parts", part.of()) };
-            return Err(AnalysisError::Input(format!(
-                "vary: {found} points{parts}: allowed up to {MOST_POINTS}, or as many in each part of sweep --part"
-            )));
+            let in_place = format!("{found} points{parts}: allowed up to {MOST_POINTS}");
+            let told = format!("vary: {in_place}, or as many in each part of sweep --part");
+            return Err(AnalysisError::Field { told, in_place });
         }
         let mut fault = None;
         // Of a larger sweep some points, which are those of every part.
@@ -427,6 +427,9 @@ mod tests {
             let error = sweep("fundamental", vary).unwrap_err().to_string();
             assert!(error.contains(words), "{vary:?}: {error}");
         }
+        // The window has no option --part.
+        let many = sweep("fundamental", &["motor.load_per_wave_n=1:2:400", "film.min_spacing_nm=10:20:400"]);
+        assert_eq!(many.unwrap_err().in_place(), "160000 points: allowed up to 100000");
     }
 
     #[test]

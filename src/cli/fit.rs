@@ -280,11 +280,12 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     ]);
     for line in &found.lines {
         let parameter = line.unknown.parameter;
+        let (value, flat) = line.told();
         columns.row([
             parameter.key.to_owned(),
-            parameter.with_unit(significant(line.value, 4)),
+            parameter.with_unit(value),
             bounds((line.unknown.from, line.unknown.to), parameter),
-            line.flat.map_or_else(|| "–".to_owned(), |flat| bounds(flat, parameter)),
+            flat.map_or_else(|| "–".to_owned(), |ends| parameter.with_unit(ends.join(" … "))),
             at_bound(line.at).to_owned(),
         ]);
     }

@@ -73,7 +73,7 @@ pub enum Command {
     TypePath(String),
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
-    /// Cancels the running solve.
+    /// Cancels the running solve; if there is none, what was started in the tab that is shown.
     CancelSolve,
     /// Shows this in the middle of the window.
     Show(Tab),

@@ -9,7 +9,7 @@ use crate::analysis::attempt::{attempt, caught};
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
-use crate::digits::{percent, short};
+use crate::digits::{percent, short, significant};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::{Scene, quantity_text, show_text};
@@ -192,6 +192,14 @@ pub struct Scan {
     /// The range round the optimum in which all limits are kept, and the number stays within [`Optimum::flatness`] of it; `None` if they are
     /// not kept at the optimum itself.
     pub flat: Option<(f64, f64)>,
+}
+
+impl Scan {
+    /// The value and the ends of [`Self::flat`], to as many digits: what is rounded alike stays in order.
+    pub fn told(&self) -> (String, Option<[String; 2]>) {
+        let told = |value| significant(value, 4);
+        (told(self.value), self.flat.map(|(from, to)| [told(from), told(to)]))
+    }
 }
 
 /// The problem as the library wants it.
@@ -534,6 +542,14 @@ mod tests {
         let broken = [(0.0, Some(1.0)), (1.0, None)];
         let found = [true, false].map(|upwards| edge((&broken, &[true; 2]), (0, 1.0, FLAT), upwards));
         assert_eq!(found, [0.0; 2]);
+    }
+
+    #[test]
+    fn a_range_as_it_is_told_holds_its_optimum() {
+        let unknown = Unknown::new(&Scene::motor(), &"film.min_spacing_nm=100:400".parse().unwrap()).unwrap();
+        let (points, kept) = (Vec::new(), Vec::new());
+        let scan = Scan { unknown, value: 166.84, at: None, points, kept, flat: Some((166.84, 168.0)) };
+        assert_eq!(scan.told(), ("166.8".to_owned(), Some(["166.8", "168.0"].map(str::to_owned))));
     }
 
     #[test]

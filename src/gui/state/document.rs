@@ -143,6 +143,13 @@ impl Document {
         format!("{}{mark}", show_text(&self.scene.title(&self.saved)))
     }
 
+    /// The scene with the title and the description that tell what was changed since it was saved.
+    pub fn titled(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        scene.retitle(&self.saved);
+        scene
+    }
+
     /// Replaces the scene by an edited one. Edits of one `dragging` parameter are undone together.
     pub fn edit(&mut self, next: Scene, key: &'static str, dragging: bool) {
         if next != self.scene {
@@ -394,5 +401,14 @@ mod tests {
         document.edit(named, "name", false);
         document.save(&path).unwrap();
         assert_eq!(document.scene().name, "Mine");
+    }
+
+    #[test]
+    fn a_title_tells_what_was_changed() {
+        let mut document = Document::fundamental().unwrap();
+        document.edit(with_spacing(&document, "80"), "film.min_spacing_nm", false);
+        assert_eq!(document.titled().headline(), "Fundamental case, minimum spacing H_m 80 nm");
+        assert!(document.undo());
+        assert_eq!(&document.titled(), document.scene());
     }
 }

@@ -92,7 +92,7 @@ const SCENE: &[Shortcut] = &[
         ..History.on(CTRL_SHIFT, Key::Z, "Redo", || Command::Redo)
     },
     Window.on(CTRL, Key::D, "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
-    Idle.on(NONE, Key::Escape, "Stop solving", || Command::CancelSolve),
+    Idle.on(NONE, Key::Escape, "Stop solving, or what the tab computes", || Command::CancelSolve),
 ];
 
 const LESSONS: &[Shortcut] = &[

@@ -79,7 +79,7 @@ impl Updater {
         if self.state.fit.work.running() {
             return;
         }
-        let scene = self.state.document.scene().clone();
+        let scene = self.state.document.titled();
         // What is wrong with a key is said at the key.
         let state = &self.state.fit;
         let (Ok(bounds), Ok(goal)) = (state.asked(&scene), state.goal(&scene)) else { return };

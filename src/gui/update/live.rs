@@ -128,12 +128,11 @@ impl Updater {
     }
 
     pub(super) fn start_from_rest(&mut self) {
-        let Some(problem) = self.problem() else { return };
+        let Some(posed) = self.posed() else { return };
         // Three grids of every tooth: a finer one takes minutes.
         let fidelity = self.state.document.target().min(Fidelity::Standard);
-        let scene = self.state.document.scene().clone();
+        let Posed { scene, problem } = posed.clone();
         if scene.floats() {
-            let posed = Posed { scene: scene.clone(), problem };
             let work = DropWork { posed, fidelity };
             if let Some(task) = self.start_work("The plate cannot be dropped", work, Duration::ZERO) {
                 self.state.dropped = Some(Dropped::new(task, scene, fidelity));
@@ -143,7 +142,6 @@ impl Updater {
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
-        let posed = Posed { scene: scene.clone(), problem: problem.clone() };
         let work = StartupWork { posed, settings };
         if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {
             self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count));

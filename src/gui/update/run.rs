@@ -3,7 +3,7 @@
 use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
 use crate::citation;
-use crate::gui::command::Command;
+use crate::gui::command::{Command, StartupCommand};
 use crate::gui::state::background::Background;
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::gui::state::document::{Document, Next};
@@ -63,7 +63,16 @@ impl Updater {
             }
             Command::CancelSolve => {
                 self.solver.cancel();
-                state.activity.running = None;
+                if state.activity.running.take().is_none() {
+                    match state.view.tab {
+                        Tab::Sweep => state.sweep.cancel(),
+                        Tab::Fit => state.fit.work.cancel(),
+                        Tab::Sensitivity => state.sensitivity.cancel(),
+                        Tab::Startup => self.start_up(StartupCommand::Cancel),
+                        Tab::Tradeoff => self.carry_out(Command::CancelMeasure),
+                        _ => {}
+                    }
+                }
             }
             Command::Show(tab) => state.view.tab = tab,
             Command::Pin(command) => self.pin(command),

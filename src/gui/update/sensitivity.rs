@@ -10,7 +10,7 @@ use std::sync::Arc;
 impl Updater {
     pub(super) fn sensitivity(&mut self, command: SensitivityCommand) {
         let document = &self.state.document;
-        let (scene, fidelity) = (document.scene().clone(), document.target());
+        let (scene, fidelity) = (document.titled(), document.target());
         let state = &mut self.state.sensitivity;
         match command {
             SensitivityCommand::Start => {

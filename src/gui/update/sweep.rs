@@ -36,10 +36,8 @@ impl Updater {
         let fidelity = self.state.sweep.form.as_ref().map(|form| form.fidelity).unwrap_or_default();
         // What is wrong with an axis is said at the axis.
         let Ok(vary) = self.state.sweep.asked(scene) else { return };
-        let mut swept = scene.clone();
-        swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        self.begin_sweep(SweepWork::New(swept, vary, settings));
+        self.begin_sweep(SweepWork::New(self.state.document.titled(), vary, settings));
     }
 
     fn begin_sweep(&mut self, points: SweepWork) {

@@ -3,7 +3,6 @@
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
 use crate::job::tradeoff::TradeoffWork;
-use crate::job::work::Posed;
 use std::time::Duration;
 
 /// A measurement is drawn anew at most this often: what draws it is measured too.
@@ -15,12 +14,11 @@ impl Updater {
         if self.state.tradeoff.as_ref().is_some_and(|measured| measured.work.running()) {
             return;
         }
-        let Some(problem) = self.problem() else { return };
-        let scene = self.state.document.scene().clone();
-        let (mut candidates, effort) = (self.platform.measure)(&problem);
+        let Some(posed) = self.posed() else { return };
+        let scene = posed.scene.clone();
+        let (mut candidates, effort) = (self.platform.measure)(&posed.problem);
         with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
-        let posed = Posed { scene: scene.clone(), problem };
         let work = TradeoffWork { posed, candidates, effort, now };
         if let Some(task) = self.start_work("The measurement cannot be started", work, MEASURE_INTERVAL) {
             self.state.tradeoff = Some(TradeoffState::new(task, scene, now()));

@@ -8,7 +8,7 @@ use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
 use crate::job::export::Files;
 use crate::job::task::{BackgroundTask, TaskOf};
-use crate::job::work::Work;
+use crate::job::work::{Posed, Work};
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
@@ -68,9 +68,9 @@ impl Updater {
         self.state.fail(error);
     }
 
-    /// The problem of the scene, in SI units; `None`, with an error message, if it is refused.
-    pub(super) fn problem(&mut self) -> Option<Problem> {
-        Problem::try_from(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
+    /// The scene, titled, and its problem; `None`, with an error message, if it is refused.
+    pub(super) fn posed(&mut self) -> Option<Posed> {
+        Posed::try_from(self.state.document.titled()).map_err(|error| self.state.fail(error)).ok()
     }
 
     /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted, for as long as is allowed.

@@ -61,8 +61,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         if let Some((scene, found)) = state.found.as_ref() {
             ui.add_space(6.0);
             let height = (SHARE * height).max(LEAST_LINES * ui.text_style_height(&TextStyle::Body));
-            let stale = state.stale(cx.state.document.scene());
-            cx.alarm(ui, stale.then(|| format!("Fitted to “{}” before the scene changed; fit again", scene.name)));
+            let (name, stale) = (scene.headline(), state.stale(cx.state.document.scene()));
+            cx.alarm(ui, stale.then(|| format!("Fitted to “{name}” before the scene changed; fit again")));
             let another = state.asks_for_another();
             cx.alarm(ui, another.then(|| format!("Found for another question: {}", question(found))));
             // Both are built once for what was found.
@@ -311,13 +311,13 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
             let at = scan.at.map(|bound| format!("at its {} bound", bound.name()));
-            let flat = scan.flat.map(|(from, to)| {
-                let ends = format!("from {} to {}", significant(from, 3), parameter.with_unit(significant(to, 3)));
+            let (value, flat) = scan.told();
+            let flat = flat.map(|[from, to]| {
+                let ends = format!("from {from} to {}", parameter.with_unit(to));
                 format!("the result stays within {} of the optimum {ends}", percent(found.flatness()))
             });
             let beside: Vec<String> = at.into_iter().chain(flat).collect();
-            let value = parameter.with_unit(significant(scan.value, 4));
-            row(ui, label(parameter), parameter.about, value, beside.join("; "));
+            row(ui, label(parameter), parameter.about, parameter.with_unit(value), beside.join("; "));
         }
     });
     take(ui, cx);

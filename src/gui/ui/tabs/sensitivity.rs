@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
             return cx.introduce(ui, INTRODUCTION);
         };
-        let (name, stale) = (&found.scene().name, state.stale(cx.state.document.scene()));
+        let (name, stale) = (found.scene().headline(), state.stale(cx.state.document.scene()));
         cx.alarm(ui, stale.then(|| format!("Computed for “{name}” before the scene changed; compute again")));
         cx.warn(ui, &found.warnings);
         let output = state.output.min(found.outputs.len() - 1);

@@ -15,7 +15,7 @@ use crate::gui::ui::panels::parameters::GROUPS;
 use crate::gui::ui::parts::first_button;
 use crate::gui::ui::theme::outline_fields;
 use crate::gui::ui::views::swept::{self, Plotted};
-use eframe::egui::{Role, Ui};
+use eframe::egui::{Button, Role, Ui};
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -79,10 +79,13 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     let swept = cx.state.sweep.swept.as_ref();
     let running = swept.filter(|swept| swept.running);
     let building = cx.state.sweep.building();
+    let busy = building || running.is_some();
     ui.horizontal_wrapped(|ui| {
-        if building || running.is_some() {
+        // It stays where it was pressed: a second click neither goes on with the sweep nor starts another.
+        if busy || swept.is_some_and(|swept| !swept.complete()) {
             let about = "Ends it; what is solved stays, and it can go on";
-            cx.button(ui, "Cancel the sweep", about, SweepCommand::Cancel);
+            let button = ui.add_enabled(busy, Button::new("Cancel the sweep"));
+            cx.on_click(&button.hint(about), SweepCommand::Cancel);
         }
         match running {
             _ if building => drop(ui.label("Its points are being made")),
@@ -91,7 +94,6 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 cx.progress(ui, 190.0, swept.share(), &text, swept.left(cx.now));
             }
             None => {
-                // First, where "Cancel" has been: a second click loses nothing.
                 if let Some(swept) = swept.filter(|swept| !swept.complete()) {
                     let about = format!("{} of {} points are solved", swept.rows.len(), swept.sweep.len());
                     cx.button(ui, "Continue", about, SweepCommand::Continue);
@@ -138,7 +140,7 @@ const INTRODUCTION: &[&str] = &[
 
 /// State of the sweep: whether it is of the present scene, and how many points failed.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
-    let name = &swept.sweep.scene().name;
+    let name = swept.sweep.scene().headline();
     let stale = swept.stale(cx.state.document.scene());
     cx.alarm(ui, stale.then(|| format!("Swept on “{name}” before the scene changed; sweep again")));
     if let Some(failure) = &swept.failure {

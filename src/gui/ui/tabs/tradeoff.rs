@@ -84,7 +84,8 @@ const INTRODUCTION: &[&str] = &[
 /// State of the measurement: whether it is of the present scene, was cancelled, or failed.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
-        cx.alarm(ui, [format!("Measured on “{}” before the scene changed; measure again", measured.scene.name)]);
+        let name = measured.scene.headline();
+        cx.alarm(ui, [format!("Measured on “{name}” before the scene changed; measure again")]);
     } else if measured.work.cancelled {
         let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
