@@ -170,6 +170,7 @@ fn without_a_file_dialog_the_path_is_typed() {
     std::fs::write(&other, "not a preset").unwrap();
     edit_spacing(&mut window, "90");
     window.ctrl(Key::S);
+    window.click_on("Replace it");
     for (file, good) in [("absent.toml", false), ("typed.toml", true)] {
         window.key_press_modifiers(Modifiers::COMMAND, Key::O);
         await_path(&mut window);

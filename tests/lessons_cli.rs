@@ -31,7 +31,7 @@ fn a_check_that_cannot_fail_or_cannot_hold_is_told() {
     let good = folder(GOOD);
     let output = run(&["lessons", "check", good.path().to_str().unwrap()]);
     assert!(output.status.success(), "{}", out(&output));
-    assert!(out(&output).contains("mine: A lesson of my own, 1 steps, 1 tasks: all done by try, none by wrong"));
+    assert!(out(&output).contains("mine: A lesson of my own, 1 step, 1 task: all done by try, none by wrong"));
     let changes = [
         (
             "check = \"mean_load_ratio > 2 and mean_load_ratio > 100 * start.mean_load_ratio\"",

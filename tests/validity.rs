@@ -188,7 +188,8 @@ fn faces_that_are_pressed_into_each_other() {
 
 #[test]
 fn a_contact_nearly_as_wide_as_its_ring() {
-    let at = |width: &str| motor(&[("motor.contact_radius_mm", "4.5"), ("rotor.contact_width_mm", width)]);
+    let ring = [("motor.contact_radius_mm", "4.5"), ("stator.tooth_width_mm", "0.4")];
+    let at = |width: &str| motor(&[&ring[..], &[("rotor.contact_width_mm", width)]].concat());
     assert!(!names(&at("0.9")).contains(&"curvature"));
     check(&at("9"), "curvature", 2.0, 0.2);
 }
