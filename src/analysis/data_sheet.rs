@@ -43,9 +43,11 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     }
     // If the time is up, it is not known.
     let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
-        let of = |quantity| numbers.get(quantity).map(|value| significant(value, 3));
+        let known = |quantity| numbers.estimate(quantity).filter(|found| found.error < found.value);
+        let of = |quantity| known(quantity).map(|found| significant(found.value, 3));
         match [of(Quantity::StallTorque), of(Quantity::NoLoadSpeed)] {
             [Some(torque), Some(speed)] => format!(": solved, this one has {torque} N·m and {speed} rpm"),
+            _ if of(Quantity::StallTorque).is_some() => ": how fast this one turns is not known".to_owned(),
             _ => ": solved, this one is not driven".to_owned(),
         }
     });
@@ -102,7 +104,8 @@ mod tests {
             .chain(&unknown)
             .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
             .collect();
-        assert!(agreeing(&unknown, &Cancel::new()).unwrap().unmet.is_some());
+        let unmet = agreeing(&unknown, &Cancel::new()).unwrap().unmet.unwrap();
+        assert!(unmet.ends_with("not known."), "{unmet}");
         // Pressed on so heavily that all teeth touch, torque and speed depend on both.
         let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];
         let asked = [("stall-torque-nm", "0.9401"), ("no-load-speed-rpm", "49.29")];

@@ -198,8 +198,10 @@ impl Sensitivity {
         cancel: &Cancel,
         solved: &(dyn Fn() + Sync),
     ) -> Option<MonteCarlo> {
+        // The gap at which a plate floats may be far from that in the middle: it is sought anew, and needs no centre.
+        let floats = self.problem.scenario.plate().is_some_and(|plate| plate.load.is_some());
         // Known, unless this was carried here: then it is solved as it was before.
-        let centre = self.centre(cancel).ok()?;
+        let centre = if floats { None } else { Some(self.centre(cancel).ok()?) };
         let one = |number: usize| {
             let found = uncertainties.draw(number as u64, seed).and_then(|(values, problem, redrawn)| {
                 let results =
@@ -226,15 +228,18 @@ impl Sensitivity {
         Some(carlo)
     }
 
-    fn solve_draw(&self, centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
-        // The gap at which a plate floats may be far from that in the middle: it is sought anew.
-        let found = if centre.floats() {
+    fn solve_draw(&self, centre: Option<&Centre>, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
+        let Some(centre) = centre else {
             let settings = Settings { record: Record::Numbers, ..self.settings };
-            Some(told(|| solve(problem, &settings, &mut (), cancel))?).filter(|found| is_settled(found.status))
-        } else {
-            told(|| centre.solve(problem, cancel))?.map(|found| found.fine)
+            let found = told(|| solve(problem, &settings, &mut (), cancel))?;
+            return if is_settled(found.status) {
+                Ok(read(problem, &found))
+            } else {
+                Err("its cycle does not repeat".to_owned())
+            };
         };
-        Ok(read(problem, &found.ok_or("it has no periodic state on the grids of the scene")?))
+        let found = told(|| centre.solve(problem, cancel))?;
+        Ok(read(problem, &found.ok_or("it has no periodic state on the grids of the scene")?.fine))
     }
 }
 

@@ -201,7 +201,8 @@ impl Variation {
         let of = |problem: &&Problem| {
             let found = told(|| centre.solve(problem, cancel));
             solved(jobs.len());
-            let found = found?.ok_or("a solve beside it has no periodic state on the same grids")?;
+            let found = found?
+                .ok_or("a solve beside it has no periodic state on the same grids, or floats at quite another gap")?;
             Ok(read(problem, &found, numbers))
         };
         let mut found: Vec<Result<Nested<Vec<f64>>, String>> = jobs.par_iter().map(of).collect();

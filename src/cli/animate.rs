@@ -6,6 +6,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::{check_file, check_writable};
+use crate::digits::counted;
 use crate::export::animation::{Format, Options, frame_name};
 use crate::export::files::{self, Control, Solved};
 use crate::problem::Problem;
@@ -85,8 +86,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let is_there = |number: &usize| arguments.out.join(frame_name(*number)).is_file();
     let older = (count + 1..).take_while(is_there).count();
     if format == Format::Folder && older > 0 {
-        let (first, last) = (frame_name(count + 1), frame_name(count + older));
-        terminal::warning(&format!("{first} to {last} there are frames of an earlier run"));
+        let older = counted(older, "frame", "frames");
+        terminal::warning(&format!("{older} of an earlier run there, from {} on", frame_name(count + 1)));
     }
     Ok(Exit::of(&solution.status))
 }

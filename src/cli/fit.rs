@@ -87,7 +87,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LINE", conflicts_with_all = ["maximise", "minimise"])]
     skip: Vec<String>,
 
-    /// Number of starts: the values of the preset, which are refined, and points spread over the bounds, of which the best three are
+    /// Number of starts: the values of the preset, which are refined, and points spread over the bounds, of which up to three are, the best that are apart
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS))]
     starts: u16,
 

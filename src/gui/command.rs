@@ -63,6 +63,8 @@ pub enum Command {
     Typed(Purpose, PathBuf),
     /// Saves to the scene's file, or asks for one; then does this.
     Save(Option<Next>),
+    /// Saves to the scene's file, whatever another program has written there; then does this.
+    Replace(Option<Next>),
     /// Closes the window although work goes on; asks about unsaved changes.
     QuitAnyway,
     /// Discards unsaved changes, then does this.

@@ -169,11 +169,6 @@ impl Centre {
         is_settled(self.solved.fine.status)
     }
 
-    /// Whether it is a plate under a load, at the gap at which it floats.
-    pub fn floats(&self) -> bool {
-        self.floating.is_some()
-    }
-
     /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
     pub fn left_out(&self) -> f64 {
         match &self.solved.fine.outcome {

@@ -2,7 +2,7 @@
 //!
 //! A *grid* begins with its spacings, each on a line of its own as `# dx_um = 0.5` and `# dy_um = 0.5`, and the unit of the heights,
 //! `# height = nm`; then a line of numbers for each y, from x = 0 on. A *profile* has a line `x_um,z_nm` and then a pair on each line.
-//! Units are m, mm, um and nm; numbers are separated by commas, blanks, or semicolons or tabs, beside which a comma is a decimal sign.
+//! Units are m, mm, um and nm; numbers are separated by commas, blanks, or semicolons or tabs. A comma that separates nothing is a decimal sign.
 //! x is along the wave.
 
 use serde::{Deserialize, Serialize};

@@ -305,7 +305,8 @@ pub fn optimise(
     let starts = best(judged.collect());
     let tried = Mutex::new((0, f64::NAN));
     let count = own.len();
-    let mut reached: Vec<(f64, Vec<f64>, bool)> = Vec::new();
+    // The cost, with what breaking a limit adds to it, the point, and whether the search ended by itself.
+    let mut reached: Vec<([f64; 2], Vec<f64>, bool)> = Vec::new();
     for start in std::iter::once(own.clone()).chain(starts) {
         let search = Search {
             model: &model,
@@ -330,17 +331,17 @@ pub fn optimise(
         // Of limits that are kept to a thousandth of their value.
         let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
         let Some((cost, beyond)) = goal.judge(&solved[0], size) else { continue };
-        let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
-        reached.push((cost, x, ended.cost_evals() < MOST_POINTS));
+        let broken = NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
+        reached.push(([cost, broken], x, ended.cost_evals() < MOST_POINTS));
     }
-    reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+    reached.sort_by(|([a, a_broken], ..), ([b, b_broken], ..)| (a + a_broken).total_cmp(&(b + b_broken)));
     let mut reached = reached.into_iter();
     let Some((_, mut x, converged)) = reached.next() else {
         return Err(no_start("no point that was tried could be solved"));
     };
     // What breaks a limit is no optimum.
-    let lesser = reached.find(|(cost, other, _)| *cost < NOTHING && distance(other, &x) > ANOTHER);
-    let lesser = lesser.map(|(cost, other, _)| (cost * size * if goal.greatest { -1.0 } else { 1.0 }, other));
+    let lesser = reached.find(|([_, broken], other, _)| *broken == 0.0 && distance(other, &x) > ANOTHER);
+    let lesser = lesser.map(|([cost, _], other, _)| (cost * size * if goal.greatest { -1.0 } else { 1.0 }, other));
     let at: Vec<Option<Bound>> = x
         .iter()
         .map(|x| match *x {

@@ -2,7 +2,7 @@
 
 /// Most starts of a search.
 pub const MOST_STARTS: u16 = 10_000;
-/// Starts that are refined, beside that of the scene's own values.
+/// Starts that are refined at most, beside that of the scene's own values.
 const REFINED: usize = 3;
 /// So far from each other in one direction at least: those that are nearer would lead to the same place.
 const APART: f64 = 0.2;

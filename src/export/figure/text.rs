@@ -69,14 +69,15 @@ fn exponent(before: &[char], after: &[char]) -> usize {
 
 /// Characters of the index after a `_` that follows a symbol of one letter; none in longer names.
 fn index(before: &[char], after: &[char]) -> usize {
-    let in_word = |c: &char| c.is_alphanumeric() || *c == '_';
+    let in_word = |c: &char| c.is_alphanumeric() && shifted(*c).is_none() || *c == '_';
     let symbol = match before {
         [letter] => letter.is_alphabetic(),
         [.., last, letter] => letter.is_alphabetic() && !in_word(last),
         [] => false,
     };
     let letters = after.iter().take_while(|c| in_word(c)).count();
-    if symbol && matches!(letters, 1 | 2) && !after[..letters].contains(&'_') { letters } else { 0 }
+    let is_index = matches!(letters, 1 | 2) && after[..letters].iter().all(|c| c.is_alphabetic());
+    if symbol && is_index { letters } else { 0 }
 }
 
 fn shifted(c: char) -> Option<(Script, char)> {
@@ -139,8 +140,8 @@ mod tests {
         assert_eq!(pieces("10^{−3}")[1], (Script::Raised, "−3".into()));
         assert_eq!(plain("p_{a} min_spacing 10⁻³"), "pa min_spacing 10−3");
         assert_eq!(
-            plain("spacing H_m (nm), Q_pr, my_x, a_b_c, b_long: 10^-5 m^2"),
-            "spacing Hm (nm), Qpr, my_x, a_b_c, b_long: 10−5 m^2"
+            plain("spacing H_m (nm), Q_pr, H_m², A_10, my_x, a_b_c, b_long: 10^-5 m^2"),
+            "spacing Hm (nm), Qpr, Hm2, A_10, my_x, a_b_c, b_long: 10−5 m^2"
         );
         assert_eq!(pieces("^{open").len(), 1);
         assert!(pieces("").is_empty());

@@ -47,6 +47,7 @@ impl Updater {
             Command::Typed(purpose, path) => self.typed(purpose, path),
             Command::OpenPathPrompt => self.prompt(vec![Purpose::Open, Purpose::Save(None)]),
             Command::Save(then) => self.save(then),
+            Command::Replace(then) => self.replace(then),
             Command::QuitAnyway => self.proceed_with_document(Next::Quit),
             Command::DiscardThen(next) => self.discard_then(next),
             Command::CloseModal => state.modal = state.covered.take(),

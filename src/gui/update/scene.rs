@@ -141,6 +141,13 @@ impl Updater {
             Some(path) if self.state.document.is_changed_elsewhere() => {
                 self.state.modal = Some(Modal::ChangedElsewhere(path, then));
             }
+            _ => self.replace(then),
+        }
+    }
+
+    /// As [`Self::save`], also where another program has changed the file.
+    pub(super) fn replace(&mut self, then: Option<Next>) {
+        match self.state.document.path().map(Path::to_path_buf) {
             Some(path) => {
                 if let Err(reason) = self.save_to(&path, then) {
                     self.fail_at(Purpose::Save(None), &path, reason);

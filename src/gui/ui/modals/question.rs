@@ -101,10 +101,9 @@ fn changed_elsewhere(ui: &mut Ui, path: &Path, then: Option<&Next>) -> Answer {
     heading(ui, &format!("“{file}” has changed since it was opened or saved here"));
     ui.add(egui::Label::new("Saving replaces what another program has written there.").wrap());
     ui.add_space(12.0);
-    let save = Purpose::Save(then.cloned());
     let answers = [
-        ("Save under another name…", vec![Command::Ask(save.clone())]),
-        ("Replace it", vec![Command::Chosen(save, path.to_owned())]),
+        ("Save under another name…", vec![Command::Ask(Purpose::Save(then.cloned()))]),
+        ("Replace it", vec![Command::Replace(then.cloned())]),
         ("Keep editing", Vec::new()),
     ];
     buttons(ui, answers)
