@@ -44,11 +44,13 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     // If the time is up, it is not known.
     let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
         let known = |quantity| numbers.estimate(quantity).filter(|found| found.error < found.value);
-        let of = |quantity| known(quantity).map(|found| significant(found.value, 3));
-        match [of(Quantity::StallTorque), of(Quantity::NoLoadSpeed)] {
-            [Some(torque), Some(speed)] => format!(": solved, this one has {torque} N·m and {speed} rpm"),
-            _ if of(Quantity::StallTorque).is_some() => ": how fast this one turns is not known".to_owned(),
-            _ => ": solved, this one is not driven".to_owned(),
+        match [Quantity::StallTorque, Quantity::NoLoadSpeed].map(known) {
+            _ if numbers.get(Quantity::NoLoadSpeed).is_none() => ": solved, this one is not driven".to_owned(),
+            [Some(torque), Some(speed)] => {
+                let [torque, speed] = [torque, speed].map(|found| significant(found.value, 3));
+                format!(": solved, this one has {torque} N·m and {speed} rpm")
+            }
+            _ => ": of this one, torque or speed are not known".to_owned(),
         }
     });
     let unmet = format!("No motor was found that agrees with the data sheet{has}.");
