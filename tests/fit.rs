@@ -362,6 +362,23 @@ fn the_optimum_is_that_of_a_fine_sweep() {
 }
 
 #[test]
+fn a_lesser_optimum_is_told_unless_it_breaks_a_limit() {
+    let motor = scene("fundamental", &[]);
+    let vary = bounds(&["motor.load_per_wave_n=0.1:20", "film.min_spacing_nm=20:1000"]);
+    let told = |limits: &[Limit]| {
+        let goal = Goal::new(&motor, "max_efficiency", true, limits).unwrap();
+        let found = optimise(&motor, &vary, &goal, &DRAFT, (5, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+        let other = found.warnings.iter().find_map(|text| Some(text.split_once("with max_efficiency = ")?.1));
+        let other = other.map(|text| text.split_once(':').unwrap().0.parse::<f64>().unwrap());
+        (found.value.value, other)
+    };
+    // One is at the greatest spacing, another at a sixth of it.
+    let (best, other) = told(&[]);
+    assert!(other.is_some_and(|other| (0.85..best).contains(&other)), "{best} {other:?}");
+    assert_eq!(told(&["max_power_w>100".parse().unwrap()]).1, None);
+}
+
+#[test]
 fn an_optimum_keeps_its_limits() {
     let motor = scene("fundamental", &[]);
     let limit: Limit = "alpha<0.2".parse().unwrap();

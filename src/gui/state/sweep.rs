@@ -307,6 +307,7 @@ impl SweepState {
     pub fn drain(&mut self) {
         let Some((task, started)) = &self.task else { return };
         let (News { messages, end }, started) = (task.drain(), *started);
+        let came_in = !messages.is_empty();
         for message in messages {
             match message {
                 SweepMessage::Built(sweep) => {
@@ -322,8 +323,10 @@ impl SweepState {
                 }
             }
         }
-        // Once for all: a large map has rows that are better not moved for each that comes in between.
-        self.swept.iter_mut().for_each(|swept| swept.rows.sort_by_key(|row| row.point));
+        // Once for all that came in: the rows of a large map are better not moved for each of them.
+        if came_in {
+            self.swept.iter_mut().for_each(|swept| swept.rows.sort_by_key(|row| row.point));
+        }
         let Some(end) = end else { return };
         let building = self.building();
         self.task = None;
