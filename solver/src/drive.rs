@@ -384,7 +384,7 @@ impl<'a> Scaled<'a> {
         Estimate { value: 1.0, error: if self.drive.1 > 0.0 { self.load.error / self.load.value } else { 0.0 } }
     }
 
-    /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
+    /// A share of `unit`. Contact that was missed may be anywhere, and all of it moves the share by `most`.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
         // Where all contact pulls one way on every grid, there is none near where it would turn.
         let one_way = 1.0 - share.value.abs() + share.error < ROUNDING;
@@ -392,8 +392,7 @@ impl<'a> Scaled<'a> {
         let unseen = if one_way { 0.0 } else { self.unseen * size + self.misplaced * size.max(1.0 - size) };
         let shape = share.error * self.doubt + unseen;
         let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * shape };
-        let of_unit = if self.drive.0.load() > 0.0 { share.value.abs() } else { most };
-        Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }
+        Estimate { value: unit.value * share.value, error: shape + most * unit.error }
     }
 
     /// Error of a speed ratio that no grid shows.
@@ -432,14 +431,14 @@ impl<'a> Scaled<'a> {
         let (unit, per_radius) = (self.torque(), 1.0 / self.motor.contact_radius);
         let force = unit * per_radius;
         let (at, loss) = near[1].1[0];
-        let driven = unit.value > 0.0 && efficiency(v, at, loss).is_some();
+        let driven = efficiency(v, at, loss).filter(|_| unit.value > 0.0);
         OperatingPoint {
             speed,
             torque: scaled(unit, 1.0, &|_, (s0, _), _| s0),
             output: scaled(force, speed.abs(), &|v, (s0, _), _| v * s0 * per_ratio),
             friction: scaled(force, v0 + speed.abs(), &|v, (s0, s1), _| s1 * v0 - v * s0 * per_ratio),
             efficiency: driven
-                .then(|| scaled(self.loss_scale(), 1.0, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0))),
+                .map(|found| scaled(self.loss_scale(), found, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0))),
         }
     }
 
@@ -458,7 +457,9 @@ impl<'a> Scaled<'a> {
             let (found, others) = marks.as_ref()?;
             Some(judged(mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
         };
-        let marked = |unit: Estimate, mark: fn(&Marks) -> f64| Some(self.scaled(unit, judged(mark)?, 1.0));
+        let marked = |unit: Estimate, mark: fn(&Marks) -> f64, most: fn(&Marks) -> f64| {
+            Some(self.scaled(unit, judged(mark)?, most(&marks.as_ref()?.0)))
+        };
         // What grids agree on at one speed by chance they do not agree on beside it.
         let no_load = || {
             let v = judged(|marks| marks.no_load)?;
@@ -481,11 +482,11 @@ impl<'a> Scaled<'a> {
         let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
         Performance {
             max_torque: unit,
-            stall_torque: marked(unit, |marks| marks.stall).unwrap_or_else(|| nothing(unit)),
+            stall_torque: marked(unit, |marks| marks.stall, |_| 1.0).unwrap_or_else(|| nothing(unit)),
             no_load_speed: no_load(),
-            max_power: marked(power, |marks| marks.output.1).unwrap_or_else(|| nothing(power)),
+            max_power: marked(power, |marks| marks.output.1, |marks| marks.output.0).unwrap_or_else(|| nothing(power)),
             max_power_speed: place(|marks| marks.output.0, &|v, (s0, _), _| v * s0),
-            max_efficiency: marked(self.loss_scale(), |marks| marks.efficiency.1),
+            max_efficiency: marked(self.loss_scale(), |marks| marks.efficiency.1, |marks| marks.efficiency.1),
             max_efficiency_speed: place(|marks| marks.efficiency.0, &|v, at, loss| {
                 efficiency(v, at, loss).unwrap_or(0.0)
             }),

@@ -22,6 +22,7 @@
 
 mod accept;
 mod cell;
+mod comments;
 pub mod compliance;
 mod convert;
 pub mod edges;

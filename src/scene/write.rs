@@ -1,11 +1,14 @@
 //! Writes a scene as TOML text, and to disk. All keys are written, absent optional ones as comments. Numbers have the fewest digits that
 //! read back to the same bits.
 
+use super::comments::carried;
 use super::error::{Fault, FaultKind, SCHEMA, SceneError};
 use super::parameter::{Parameter, ParameterKind};
+use super::parse::LARGEST_FILE;
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
+use crate::input;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write as _;
@@ -54,8 +57,20 @@ impl Scene {
     /// The faults of [`Scene::check`], as such a file would not load; [`FaultKind::Unwritable`] if the folder or the file
     /// cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
+        self.save_instead_of(path, None)
+    }
+
+    /// Likewise, with the comments of the file `before`, which the scene was read from.
+    ///
+    /// # Errors
+    /// Those of [`Scene::save`]. A file `before` that cannot be read has no comments.
+    pub fn save_instead_of(&self, path: &Path, before: Option<&Path>) -> Result<(), SceneError> {
         self.check()?;
-        write_file(path, |out| out.write_all(self.to_toml().as_bytes())).map_err(|error| {
+        let mut text = self.to_toml();
+        if let Some(old) = before.and_then(|before| input::read_text(before, LARGEST_FILE).ok()) {
+            text = carried(&text, &old);
+        }
+        write_file(path, |out| out.write_all(text.as_bytes())).map_err(|error| {
             let what = FaultKind::Unwritable(error.source.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })

@@ -111,7 +111,8 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     let underside =
         |run: &MotorRun<'_>, i: usize| run.recording.stator[i] + run.recording.film_thickness[i] - run.scene.spacing();
     let all = runs.iter().flat_map(|run| {
-        (0..run.recording.stator.len()).flat_map(move |i| [run.recording.stator[i], underside(run, i)])
+        let heights = (0..run.recording.stator.len()).flat_map(move |i| [run.recording.stator[i], underside(run, i)]);
+        heights.chain([run.scene.spacing()])
     });
     let [low, high] = with_margin(span(all, 0.0), 0.08);
     let (unit, scale) = prefixed(high.max(-low), "m");

@@ -55,7 +55,9 @@ fn x_axis(recording: &Recording) -> Axis {
 pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let underside = |i: usize| recording.stator[i] + recording.film_thickness[i] - motor.spacing();
     let all = || 0..recording.stator.len().min(recording.film_thickness.len());
-    let [low, high] = with_margin(span(all().flat_map(|i| [recording.stator[i], underside(i)]), 0.0), 0.08);
+    // A stator that does not move is drawn on the scale of the roughness.
+    let heights = all().flat_map(|i| [recording.stator[i], underside(i)]).chain([motor.spacing()]);
+    let [low, high] = with_margin(span(heights, 0.0), 0.08);
     let (unit, scale) = prefixed(high.max(-low), "m");
     let y = Axis::new("displacement", &unit)
         .fixed((low - 0.06 * (high - low)) * scale, (high + 0.06 * (high - low)) * scale);

@@ -5,6 +5,19 @@ use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
 use crate::solution::{OperatingPoint, Performance};
 
+/// Curves that stay below this share of what their axis would show are shown alone.
+const LOW: f64 = 0.4;
+
+/// The end of an axis above what it shows.
+fn top(highest: f64) -> f64 {
+    if highest > 0.0 { 1.08 * highest } else { 1.0 }
+}
+
+/// The end of an axis that could go up to `whole`, but for curves that go up to `highest` alone.
+fn whole_or(whole: f64, highest: f64) -> f64 {
+    if highest > 0.0 && highest < LOW * whole { top(highest) } else { whole }
+}
+
 /// Torque–speed curves with the film and without, power and heat, efficiency; the rotor speed of the scene is marked.
 pub fn torque(curves: &TorqueCurves) -> Figure {
     let (wet, dry) = (&curves.with_film, &curves.without_film);
@@ -13,9 +26,12 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     };
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
     let fastest = curves.rpm(curves.stator_speed).max(f64::MIN_POSITIVE);
+    let present = curves.rpm(wet.present.speed);
+    let driven = [wet, dry].into_iter().filter_map(|found| found.no_load_speed);
+    let driven = driven.map(|speed| curves.rpm(speed.value)).fold(0.0, f64::max);
     // What brakes the rotor is below the axes.
     let panel = |title: &str, y: Axis, highest: f64| {
-        let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
+        let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, whole_or(fastest, driven.max(present)));
         Panel::new(title, x, y.fixed(0.0, highest)).legend(Legend::Above).layer(rest(0.0, ""))
     };
     let line = |name: &str, of: &Performance, style: Style, value: &dyn Fn(&OperatingPoint) -> f64| {
@@ -27,8 +43,8 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
         let OperatingPoint { torque, speed, .. } = point;
         [curves.rpm(*speed), torque.value - torque.error, torque.value + torque.error]
     });
-    let top = |value: f64| if value > 0.0 { 1.08 * value } else { 1.0 };
-    let torque = panel("(a) torque", Axis::new("torque", "N·m"), top(greatest))
+    let torque = whole_or(top(greatest), most(|point| point.torque.value));
+    let torque = panel("(a) torque", Axis::new("torque", "N·m"), torque)
         .layer(Band::new("", errors, Colour::FILM))
         .layer(line("without film", dry, dry_style, &|point| point.torque.value))
         .layer(line("with film", wet, wet_style, &|point| point.torque.value));
@@ -39,10 +55,10 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
         .layer(line("output", wet, wet_style, &|point| point.output.value))
         .layer(line("friction heat", wet, heat_style, &|point| point.friction.value));
     let percent = |point: &OperatingPoint| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);
-    let efficiency = panel("(c) efficiency", Axis::new("efficiency", "%"), 100.0)
+    let highest = most(|point| point.efficiency.map_or(0.0, |share| 100.0 * share.value));
+    let efficiency = panel("(c) efficiency", Axis::new("efficiency", "%"), whole_or(100.0, highest))
         .layer(line("without film", dry, dry_style, &percent))
         .layer(line("with film", wet, wet_style, &percent));
-    let present = curves.rpm(wet.present.speed);
     let mark = (0.0..=fastest).contains(&present).then(|| Mark::vertical(present, ""));
     let panels = [(torque, 34.0), (power, 34.0), (efficiency, 26.0)];
     let panels = panels.map(|(panel, height)| panel.height(height).layers(mark.clone())).into();

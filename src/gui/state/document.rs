@@ -239,7 +239,7 @@ impl Document {
             scene.made_from(&self.saved);
         }
         let scene = presets::disclaimed(scene);
-        scene.save(path)?;
+        scene.save_instead_of(path, self.path())?;
         self.saved = scene.clone();
         self.scene = scene;
         self.path = Some(absolute(path));

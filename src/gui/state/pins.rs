@@ -123,7 +123,7 @@ impl Pins {
     fn insert(&mut self, id: u64, stored: Option<(String, usize)>, mut run: ComparedRun) {
         let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
         if let Some(twin) = twin {
-            self.note = Some(Note::Remark(format!("“{}” is this run already", twin.label)));
+            self.note = Some(Note::Remark(format!("Not pinned twice: “{}” is the same run", twin.label)));
             return;
         }
         self.note = run.solved.as_ref().err().map(|reason| Note::Failure(format!("{}: {reason}", run.label)));
@@ -316,7 +316,7 @@ pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
     let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
         let value = row.values[1].as_ref()?;
-        Some(format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned())
+        Some(format!("{} {value} {}", row.parameter.words(), scene.unit(row.parameter)).trim_end().to_owned())
     });
     let differing: Vec<String> = differing.collect();
     (1..=2).contains(&differing.len()).then(|| format!("{}, {}", scene.name, differing.join(", ")))
@@ -359,7 +359,7 @@ mod tests {
         let name = &presets::find("plate-crossover").unwrap().name;
         let labels: Vec<&str> = pins.runs.iter().map(|run| run.label.as_str()).collect();
         assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
-        assert!(matches!(&pins.note, Some(Note::Remark(text)) if text.contains("already")));
+        assert!(matches!(&pins.note, Some(Note::Remark(text)) if text.contains("same run")));
     }
 
     #[test]

@@ -148,22 +148,25 @@ fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     .inner
 }
 
+/// How far the top of a slanted word leans beyond its end, as a share of the height of the text.
+const LEAN: f32 = 0.15;
+
 fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let painter = ui.painter();
     let blank = painter.layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour);
     let space = blank.size().x.max(0.25 * look.size);
     let style = |colour: Color32| MathStyle { size: look.size, colour, display: false };
     let mut atoms = Vec::new();
-    // Whether white space came before, and before that a number.
-    let (mut apart, mut number) = (true, false);
+    // Whether white space came before, and before that a number. A slanted word leans over what follows it.
+    let (mut apart, mut number, mut lean) = (true, false, 0.0);
     for part in parts {
         match part {
             // Numbers are filled in by whoever knows the run.
             Inline::Number(_) => {}
             Inline::Math(formula) => {
                 let set = Typeset::of(painter, &formula.nodes, style(look.colour));
-                atoms.push(Atom { set, space: apart.then_some(space), glued: false });
-                (apart, number) = (false, false);
+                atoms.push(Atom { set, space: apart.then_some(space + lean), glued: false });
+                (apart, number, lean) = (false, false, 0.0);
             }
             Inline::Text { text, style: kind } => {
                 let mut rest = text.as_str();
@@ -184,7 +187,9 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                         Style::Code => set(look.colour).with_ground(ui.visuals().extreme_bg_color),
                     };
                     let glued = number && (word.starts_with(|c: char| c.is_ascii_digit()) || is_unit(word));
-                    atoms.push(Atom { set, space: apart.then_some(space), glued });
+                    let before = if *kind == Style::Slanted { 0.0 } else { lean };
+                    atoms.push(Atom { set, space: apart.then_some(space + before), glued });
+                    lean = if *kind == Style::Slanted { LEAN * look.size } else { 0.0 };
                     (apart, number) = (false, word.ends_with(|c: char| c.is_ascii_digit()));
                 }
             }

@@ -34,7 +34,7 @@ pub(super) struct Raw {
 impl Reader<'_> {
     pub(super) fn step(&mut self, raw: &Raw) -> Option<Step> {
         let block = |kind: &str| raw.blocks.iter().find(|(found, _)| *found == kind).map(|(_, piece)| piece);
-        let setup = self.table(SETUP, SETUP_KEYS, block(SETUP), |reader, table| Some(reader.setup(table)));
+        let setup = self.table(SETUP, SETUP_KEYS, block(SETUP), |reader, table| Some(reader.setup(&raw.title, table)));
         let setup = setup.unwrap_or_default();
         let Some(scene) = self.scene.clone() else {
             if !setup.faulty {
@@ -60,7 +60,7 @@ impl Reader<'_> {
         Some(Step { title: raw.title.clone(), body, scene, sets, light, look, tab, show, question, task, observe })
     }
 
-    fn setup(&mut self, table: &Table<'_>) -> Setup {
+    fn setup(&mut self, title: &str, table: &Table<'_>) -> Setup {
         let faults = self.faults.len();
         let mut setup = Setup::default();
         let preset = self.string(table, "preset");
@@ -82,6 +82,10 @@ impl Reader<'_> {
         if let Some(mut scene) = self.scene.clone() {
             if let Err(error) = scene.set_all(&changes) {
                 self.key_fault(table.line_of("set"), SETUP, "set", format!(": {error}"));
+            }
+            if !changes.is_empty() {
+                // What the preset says of itself is not true of it any more.
+                (scene.name, scene.about) = (title.to_owned(), String::new());
             }
             self.scene = Some(scene);
         }

@@ -191,8 +191,8 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
     let heads = [
         ("Parameter", "Parameter"),
         ("Value", "Parameter"),
-        ("% for 1 % more", "Elasticity"),
         ("Uncertainty", "Uncertainty of a parameter"),
+        ("% for 1 % more", "Elasticity"),
         ("Share", "Share of the variance"),
     ];
     parts::table(ui, "sensitivities", heads.len(), 14.0, |ui| {
@@ -203,6 +203,7 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
             let parameter = by.parameter;
             ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
             ui.label(format!("{} {}", short(by.at, 10), parameter.unit).trim_end().to_owned());
+            field(ui, parameter, 6.0 * em, cx);
             match (&by.slopes, found.elasticity(output, column)) {
                 (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
                 (Ok(_), None) => drop(ui.label("–")),
@@ -214,7 +215,6 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
                     );
                 }
             }
-            field(ui, parameter, 6.0 * em, cx);
             ui.label(propagated.share(parameter).map_or_else(String::new, percent));
             ui.end_row();
         }

@@ -73,7 +73,8 @@ impl Plotted<'_> {
     fn words(&self, row: &SweepRow) -> String {
         let mut lines: Vec<String> = Vec::new();
         for (axis, value) in self.swept.sweep.axes().iter().zip(&row.values) {
-            lines.push(format!("{} {} {}", label(axis.parameter), short(*value, DIGITS), axis.parameter.unit));
+            let unit = self.swept.sweep.scene().unit(axis.parameter);
+            lines.push(format!("{} {} {unit}", label(axis.parameter), short(*value, DIGITS)));
         }
         let unit = self.quantity.unit(self.swept.sweep.problem());
         let name = capitalised(self.quantity.words());
@@ -285,7 +286,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
         let below = row.translate(vec2(0.0, row.height()));
         style.title_with_ends(below, quantity.words(), &[&title], ends.each_ref().map(String::as_str));
     }
-    let up = format!("↑ {}, {}", label(y.parameter), y.parameter.unit);
+    let up = format!("↑ {}, {}", label(y.parameter), swept.sweep.scene().unit(y.parameter));
     ui.label(up.trim_end_matches(", ")).hint(about(y));
     let here = plotted.present.and_then(|values| <[f64; 2]>::try_from(values).ok());
     let ring = Points::new("present", here, Colour::BLACK, Marker { size: 7.5, ..Marker::hollow(Shape::Circle) });
