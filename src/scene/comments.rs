@@ -63,7 +63,8 @@ fn put(decor: &mut Decor, homeless: &mut String) {
 /// What stands there, and comments behind it, on lines of their own.
 fn joined(there: Option<&str>, comments: &str) -> String {
     let there = there.unwrap_or_default();
-    let comments = if there.is_empty() || there.ends_with("\n\n") { comments.trim_start_matches('\n') } else { comments };
+    let comments =
+        if there.is_empty() || there.ends_with("\n\n") { comments.trim_start_matches('\n') } else { comments };
     format!("{there}{comments}")
 }
 
