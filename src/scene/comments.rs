@@ -63,14 +63,19 @@ fn put(decor: &mut Decor, homeless: &mut String) {
 /// What stands there, and comments behind it, on lines of their own.
 fn joined(there: Option<&str>, comments: &str) -> String {
     let there = there.unwrap_or_default();
-    let comments =
-        if there.is_empty() || there.ends_with("\n\n") { comments.trim_start_matches('\n') } else { comments };
+    let comments = if there.is_empty() || there == "\n" || there.ends_with("\n\n") {
+        comments.trim_start_matches('\n')
+    } else {
+        comments
+    };
     format!("{there}{comments}")
 }
 
 /// The lines of `decor`, at the key `leaf`, without those that this program writes; nothing if no comment is left.
 fn foreign(leaf: &str, decor: Option<&str>) -> String {
-    let lines = decor.unwrap_or_default().lines().map(str::trim);
+    // What is behind the last line break indents what follows.
+    let decor = decor.unwrap_or_default();
+    let lines = decor.rsplit_once('\n').map_or(decor, |(lines, _)| lines).split('\n').map(str::trim);
     let lines: Vec<&str> = lines.filter(|line| !is_absent(line) && !is_ours(leaf, line)).collect();
     let comment = lines.iter().any(|line| line.starts_with('#'));
     if comment { lines.join("\n") + "\n" } else { String::new() }

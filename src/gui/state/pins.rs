@@ -367,7 +367,7 @@ mod tests {
         let given = presets::find("plate-crossover").unwrap();
         let floating = given.with([("plate.mean_gap_um", "none"), ("plate.load_n", "1")]).unwrap();
         let name = told_apart(&floating, &given).unwrap();
-        assert!(name.ends_with(" 1 N") && !name.contains("none") && !name.contains("gap"), "{name}");
+        assert!(name.ends_with(" 1 N/m") && !name.contains("none") && !name.contains("gap"), "{name}");
     }
 
     #[test]
