@@ -368,6 +368,23 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
 }
 
 #[test]
+fn a_plate_that_its_face_throws_up_says_so_and_is_not_taken_in_the_hand() {
+    // Its reach ends at no round number of nanometres.
+    let scene = presets::find("floating-disc").unwrap().with([("plate.mass_g", "4000")]).unwrap();
+    let mut window = window::open(Document::opened(scene, None), 900.0, Platform::default());
+    window.ctrl(HOLD);
+    until(&mut window, "it is held", |app| app.state().hold.is_some());
+    window.get_by_label_contains("It does not float: its mean gap");
+    window.click_on("Let go");
+    until(&mut window, "it is above the slider", |app| gap(app) > 3.5);
+    for _ in 0..20 {
+        window.run_steps(1);
+        assert!(held(window.state()).free.is_some());
+    }
+    window.get_by_label_contains("has struck the plate");
+}
+
+#[test]
 fn keys_and_slider_move_it_within_its_reach_only() {
     let mut window = window("plate-crossover", HOLD);
     for _ in 0..4 {

@@ -250,6 +250,36 @@ fn the_mean_pressure_of_a_plate_let_go_has_the_mean_force() {
     }
 }
 
+#[test]
+fn the_mean_force_on_a_plate_let_go_does_not_shake_with_the_vibration() {
+    let (plate, gap) = floating(&[]);
+    let mut hold = dropped(&plate, gap);
+    hold.fall(400.0 / plate.frequency, true).unwrap();
+    // Read ten times in each cycle.
+    let forces: Vec<f64> = (0..40).map(|_| hold.fall(0.1 / plate.frequency, true).unwrap().force).collect();
+    let load = plate.load.unwrap();
+    assert!(forces.iter().all(|force| (force / load - 1.0).abs() < 0.1), "{forces:?}");
+    assert!(!hold.free().struck);
+}
+
+#[test]
+fn a_face_that_strikes_the_plate_throws_it_no_higher_than_its_own_speed_does() {
+    let (plate, gap) = floating(&[("plate.mass_g", "2000")]);
+    let mut hold = dropped(&plate, gap);
+    let (cycle, mut highest) = (1.0 / plate.frequency, 0.0f64);
+    for _ in 0..400 {
+        hold.fall(cycle, true).unwrap();
+        highest = highest.max(hold.height());
+    }
+    let speed = std::f64::consts::TAU * plate.frequency * plate.amplitude;
+    let most = speed * speed / (2.0 * GRAVITY);
+    println!("{highest} of {most}, {:?}", hold.free());
+    assert!(hold.free().struck && highest > 5.0 * gap && highest < most, "{highest} of {most}");
+    // Whoever takes it in the hand forgets that.
+    hold.advance(gap, cycle).unwrap();
+    assert!(!hold.free().struck);
+}
+
 /// What a solve of such a plate says of its slow motion.
 fn said(set: &[(&str, &str)]) -> SlowMotion {
     let problem = scenes::problem("floating-disc", set);

@@ -87,6 +87,13 @@ fn lessons_are_printed_a_page_for_each() {
         // Numbers that a text quotes are those of runs.
         assert!(!html.contains('{') || !html.contains("load_ratio_max /"), "{name}");
     }
+    // A folder without lessons leaves them as they are.
+    let before = std::fs::read(out.join("worksheets.pdf")).unwrap();
+    for nothing in [folder.path().join("no such folder"), out.clone()] {
+        let output = run(&["lessons", "print", nothing.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(std::fs::read(out.join("worksheets.pdf")).unwrap(), before);
+    }
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let (worksheets, answers) = (read("worksheets.html"), read("answers.html"));
     assert!(worksheets.contains("class=\"room\"") && !worksheets.contains("Boyle's law gives 203 kPa"));

@@ -7,6 +7,7 @@
 //! next, until its height is not resolved.
 
 use crate::control::Cancel;
+use crate::digits::counted;
 use crate::estimate::{Estimate, extrapolate, left};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
@@ -45,6 +46,19 @@ pub struct Cycle {
     pub speed: f64,
     /// Whether it rested on its roughness in this cycle.
     pub rests: bool,
+}
+
+/// What is to be known of a plate that its face has struck, before it came to rest on it; `None` if it has not.
+pub fn struck(cycles: &[Cycle]) -> Option<String> {
+    let hit = cycles.iter().filter(|cycle| cycle.rests).count();
+    let rests = cycles.last().is_some_and(|cycle| cycle.rests);
+    let cycles = counted(hit, "cycle", "cycles");
+    let words = || {
+        format!(
+            "The vibrating face has struck the plate, which took the face's speed, in {cycles}: how a real plate comes off is not part of the model"
+        )
+    };
+    (hit > 0 && !rests).then(words)
 }
 
 /// How a fall ended.

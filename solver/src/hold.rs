@@ -11,7 +11,8 @@
 //! ```
 //!
 //! marched by the rule of Verlet, which is of second order, with the film's force at the end of each step. It bounces on the film, and settles where
-//! the film carries it ([`mod@crate::plate::floating`]); without vibration it sinks until it rests on its roughness.
+//! the film carries it ([`mod@crate::plate::floating`]); without vibration it sinks until it rests on its roughness. Where the gap would become less
+//! than that roughness leaves, the plate strikes the face and takes its speed, which may throw it up to (a ω)²/2g high.
 //!
 //! A step of the scheme carries W, which is Z half a step ahead (`film::stepper`). Where the next step is longer or shorter, W is
 //! taken that much further ahead: W = Z + (W − Z) Δt'/Δt. Steps grow twofold at most.
@@ -84,8 +85,9 @@ pub struct Hold {
     gap: f64,
     time: f64,
     free: Free,
-    /// Pressure over ambient pressure under the unknown nodes of the finer grid, mean over the last fall.
-    mean_ratio: Vec<f64>,
+    /// Of a plate that was let go, over the last cycle of the vibration, and over the present one so far.
+    cycle: Integrals,
+    running: Integrals,
     /// By how much steps are shorter than usual.
     finer: f64,
 }
@@ -101,6 +103,34 @@ pub struct Free {
     pub phase: f64,
     /// Steps in which it rested on its roughness.
     pub rests: u64,
+    /// Whether it has done so while the face vibrated: it was struck.
+    pub struck: bool,
+}
+
+/// Integrals over a time.
+#[derive(Clone, Debug, Default)]
+struct Integrals {
+    /// The time \[s\].
+    time: f64,
+    /// Of the force \[N s; of a strip N s/m\].
+    impulse: f64,
+    /// Of pressure over ambient pressure under the unknown nodes of the finer grid \[s\].
+    ratio: Vec<f64>,
+}
+
+impl Integrals {
+    /// Adds `step` \[s\] with this force and these pressure ratios.
+    fn add(&mut self, step: f64, force: f64, ratio: impl ExactSizeIterator<Item = f64>) {
+        self.ratio.resize(ratio.len(), 0.0);
+        self.time += step;
+        self.impulse += step * force;
+        self.ratio.iter_mut().zip(ratio).for_each(|(sum, ratio)| *sum += step * ratio);
+    }
+
+    fn clear(&mut self) {
+        (self.time, self.impulse) = (0.0, 0.0);
+        self.ratio.clear();
+    }
 }
 
 impl Free {
@@ -119,7 +149,8 @@ impl Hold {
         let fine = HeldFilm::new(plate, plan, &coarse.finer(plan.spectral));
         Self {
             coarse: HeldFilm::new(plate, plan, coarse),
-            mean_ratio: vec![1.0; fine.state.trapped.len()],
+            cycle: Integrals::default(),
+            running: Integrals::default(),
             fine,
             gap: plate.mean_gap,
             time: 0.0,
@@ -155,7 +186,7 @@ impl Hold {
     /// [`FilmError`] if a step has no solution to working precision.
     pub fn advance(&mut self, gap: f64, duration: f64) -> Result<(), FilmError> {
         let (from, to) = (self.gap, Self::within_reach(&self.plate, gap));
-        self.free = Free::default();
+        self.held();
         if !(duration.is_finite() && duration > 0.0) {
             self.gap = to;
             for level in [&mut self.coarse, &mut self.fine] {
@@ -179,6 +210,13 @@ impl Hold {
         Ok(())
     }
 
+    /// Takes the plate in the hand.
+    fn held(&mut self) {
+        self.free = Free::default();
+        self.cycle.clear();
+        self.running.clear();
+    }
+
     /// The longest step \[s\] that the film may take, at most `most`, and `least` whatever leaks.
     fn longest_step(&self, most: f64, least: f64) -> f64 {
         let greatest_ratio = self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap));
@@ -198,8 +236,8 @@ impl Hold {
     }
 
     /// Lets the plate move freely for `duration` \[s\] of film time from its present position and speed, above a face that vibrates or
-    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force; the pressure
-    /// of which that is the force is [`Self::mean_pressure`].
+    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force over the last cycle
+    /// of the vibration, or without vibration that of the last step; the pressure of which that is the force is [`Self::mean_pressure`].
     ///
     /// # Errors
     /// [`FilmError`] if a step has no solution to working precision.
@@ -208,8 +246,7 @@ impl Hold {
         let (mass, omega) = (load / GRAVITY, TAU * self.plate.frequency);
         let gas = self.plate.gas.ambient_pressure * self.plate.area();
         let wanted = if vibrates { self.plate.amplitude } else { 0.0 };
-        let (mut force, mut impulse, mut done) = (self.reading().force, 0.0, 0.0);
-        self.mean_ratio.fill(0.0);
+        let (mut force, mut done) = (self.reading().force, 0.0);
         while done < duration {
             let free = self.free;
             let moving = free.amplitude > 0.0 || wanted > 0.0;
@@ -234,34 +271,39 @@ impl Hold {
             };
             let ((_, halfway), (mut free, end)) = (at(0.5), at(1.0));
             let least = self.plate.min_spacing;
-            self.add_ratio(0.5 * step / duration);
+            self.integrate(0.5 * step, force);
             self.step([halfway.max(least), end.max(least)], step)?;
-            self.add_ratio(0.5 * step / duration);
-            let before = std::mem::replace(&mut force, self.reading().force);
-            impulse += 0.5 * step * (before + force);
+            force = self.reading().force;
+            self.integrate(0.5 * step, force);
             free.speed = speed + 0.5 * step * (force / mass - GRAVITY);
             if end <= least {
                 // It goes with the face that it rests on.
                 free.speed = omega * free.amplitude * free.phase.sin();
                 free.rests += 1;
+                free.struck |= free.amplitude > 0.0;
+            }
+            if !moving || free.phase >= TAU {
+                std::mem::swap(&mut self.cycle, &mut self.running);
+                self.running.clear();
             }
             free.phase %= TAU;
             self.free = free;
         }
-        if done == 0.0 {
-            self.add_ratio(1.0);
-        }
-        let mean = if duration > 0.0 { impulse / duration } else { force };
+        let mean = self.lately().map_or(force, |lately| lately.impulse / lately.time);
         let ambient = self.plate.gas.ambient_pressure;
         let (ratio, mean_pressure) = (mean / gas, ambient * (1.0 + mean / gas));
         Ok(Reading { gap: self.height(), force: mean, ratio, mean_pressure, ..self.reading() })
     }
 
-    /// Adds the pressure over ambient pressure, times `weight`, to its mean over a fall.
-    fn add_ratio(&mut self, weight: f64) {
-        for (mean, z) in self.mean_ratio.iter_mut().zip(&self.fine.state.trapped) {
-            *mean += weight * z / self.gap;
-        }
+    /// Adds `step` \[s\] with the present state to the integrals of this cycle.
+    fn integrate(&mut self, step: f64, force: f64) {
+        let gap = self.gap;
+        self.running.add(step, force, self.fine.state.trapped.iter().map(|z| z / gap));
+    }
+
+    /// The last cycle, or as much as there is of the first; `None` of a plate that was not let go.
+    fn lately(&self) -> Option<&Integrals> {
+        [&self.cycle, &self.running].into_iter().find(|lately| lately.time > 0.0)
     }
 
     /// Whether it neither moves nor is shaken.
@@ -281,7 +323,8 @@ impl Hold {
 
     /// Puts it to rest at `gap` \[m\], wherever that is, with gas at ambient pressure.
     pub fn rest_at(&mut self, gap: f64) {
-        (self.gap, self.time, self.free) = (gap, 0.0, Free::default());
+        (self.gap, self.time) = (gap, 0.0);
+        self.held();
         for level in [&mut self.coarse, &mut self.fine] {
             level.rest(gap);
         }
@@ -322,9 +365,13 @@ impl Hold {
         self.at_nodes(|unknown| self.fine.state.trapped[unknown] / self.gap)
     }
 
-    /// Absolute pressure at the same nodes \[Pa\], mean over the last [`Self::fall`].
+    /// Absolute pressure at the same nodes \[Pa\], mean over the time of which [`Self::fall`] gives the force.
     pub fn mean_pressure(&self) -> impl Iterator<Item = f64> {
-        self.at_nodes(|unknown| self.mean_ratio[unknown])
+        let lately = self.lately();
+        self.at_nodes(move |unknown| match lately {
+            Some(lately) => lately.ratio[unknown] / lately.time,
+            None => self.fine.state.trapped[unknown] / self.gap,
+        })
     }
 
     /// Absolute pressure \[Pa\] at the nodes, of its `ratio` to ambient pressure at those where it is unknown.

@@ -12,7 +12,7 @@ use crate::estimate::Estimate;
 use crate::export::fall::{floats, object, validity};
 use crate::export::files::{self, Folder};
 use crate::export::json;
-use crate::fall::{Cycle, Fall, fall};
+use crate::fall::{Cycle, Fall, fall, struck};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -99,6 +99,9 @@ fn text(
     if let Some(gap) = floats {
         let told = format!("The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm.");
         text.push_str(&paragraph(&told, "\n", ""));
+    }
+    if let Some(words) = struck(cycles) {
+        text.push_str(&paragraph(&format!("{words}."), "\n", ""));
     }
     text.push_str(&limits(validity));
     text

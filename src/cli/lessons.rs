@@ -107,6 +107,10 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
 
 fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
     let (lessons, faults) = read(folder);
+    if lessons.is_empty() {
+        // What was read is told already; handouts of before stay.
+        return Err(CliError::Input("there is no lesson to print: nothing was written".to_owned()));
+    }
     let cancel = cancel_on_interrupt();
     let mut staged = Staged::new(out)?;
     for (name, title, answers) in [("worksheets", "Worksheets", false), ("answers", "Answers", true)] {

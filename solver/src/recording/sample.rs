@@ -410,7 +410,8 @@ pub fn middle_gradient(recording: &Recording, tooth: usize, xi: f64, place: f64)
         let before = i.checked_sub(1).and_then(at);
         let side = |end: [f64; 2]| (end[0] - x, (end[1] - p) / (end[0] - x));
         match (before.map(side), at(i + 1).map(side)) {
-            (None, Some(_)) if recording.half_length => Some(0.0),
+            // In the middle of a plate of which half is stored; the rim of a ring's hole is an end.
+            (None, Some(_)) if recording.half_length && x == 0.0 => Some(0.0),
             (Some((back, a)), Some((ahead, b))) => Some((ahead * a - back * b) / (ahead - back)),
             (one, other) => one.or(other).map(|(_, slope)| slope),
         }
@@ -489,6 +490,10 @@ mod tests {
             let found = middle_gradient(&half, 0, x, 0.0).unwrap();
             assert!((found + 8.0 * x).abs() < 1e-12, "{x}: {found}");
         }
+        // Half of a ring begins at the rim of its hole, where pressure falls as it does beside it.
+        let ring = map(vec![0.5, 0.6, 0.8, 1.0], true);
+        let [rim, beside] = [0.5, 0.55].map(|x| middle_gradient(&ring, 0, x, 0.0).unwrap());
+        assert!((rim + 4.4).abs() < 1e-12 && beside < -4.4, "{rim} {beside}");
     }
 
     #[test]

@@ -337,6 +337,24 @@ mod tests {
     }
 
     #[test]
+    fn comments_of_its_file_go_with_a_document_and_not_with_the_file_it_replaces() {
+        let folder = tempfile::tempdir().unwrap();
+        let [ours, theirs] = ["ours.toml", "theirs.toml"].map(|name| folder.path().join(name));
+        for path in [&ours, &theirs] {
+            let text = format!("# {}\n{}", path.display(), Scene::motor().to_toml());
+            std::fs::write(path, text).unwrap();
+        }
+        let mut document = Document::opened(Scene::load(&ours).unwrap(), Some(ours.clone()));
+        for (spacing, to) in [("90", &ours), ("80", &theirs)] {
+            document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
+            document.save(to).unwrap();
+            let written = std::fs::read_to_string(to).unwrap();
+            assert!(written.starts_with(&format!("# {}\nschema", ours.display())), "{written}");
+            assert_eq!(&Scene::load(to).unwrap(), document.scene());
+        }
+    }
+
+    #[test]
     fn what_was_made_is_unsaved_until_it_is_saved_and_reset_to_what_it_was() {
         let folder = tempfile::tempdir().unwrap();
         let scene = with_spacing(&Document::fundamental().unwrap(), "90");

@@ -69,17 +69,20 @@ impl Updater {
         let problem = run.map(|run| &run.problem).or(state.problem.as_ref());
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
         let plate = match problem.map(|problem| &problem.scenario) {
-            Some(Scenario::Plate(plate)) if known => Some(plate),
+            // One that does not float is held where it would rest.
+            Some(Scenario::Plate(plate)) if known && scene.floats() && run.is_none() => Some(plate.resting()),
+            Some(Scenario::Plate(plate)) if known => Some(plate.clone()),
             _ => None,
         };
         // A run on finer grids knows the mean gap better; a plate that has been moved since stays as it is.
-        let known_better = |hold: &HoldState| plate.is_some_and(|plate| *plate != hold.plate) && hold.is_untouched();
+        let known_better =
+            |hold: &HoldState| plate.as_ref().is_some_and(|plate| *plate != hold.plate) && hold.is_untouched();
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene) || known_better(hold)) {
             state.hold = None;
         }
         if state.view.tab == Tab::Hold
             && state.hold.is_none()
-            && let Some(plate) = plate.cloned()
+            && let Some(plate) = plate
         {
             let wake = self.ctx.clone();
             let slow = slowed(&plate, FIRST_SECONDS);

@@ -32,10 +32,12 @@ pub struct Snapshot {
     pub x: Vec<f64>,
     /// Nodes along y ≥ 0, across the plate, from the middle \[m\].
     pub y: Vec<f64>,
-    /// Absolute pressure \[Pa\], `[ix][iy]`; of a plate that was let go the mean since the snapshot before, as the force is.
+    /// Absolute pressure \[Pa\], `[ix][iy]`; of a plate that was let go the mean over the last cycle, as the force is.
     pub pressure: Vec<f64>,
     /// Speed of the film's time over the speed that was asked for: below 1 if marching takes too long for it.
     pub pace: f64,
+    /// Whether the vibrating face has struck the plate since it was let go.
+    pub struck: bool,
     /// Why the film was put to rest, if its march failed.
     pub failure: Option<String>,
 }
@@ -122,7 +124,7 @@ impl Follower {
         }
         self.number += 1;
         let snapshot = self.snapshot(failure);
-        // Of a plate that vibrates, the gap without the vibration, and the mean force and pressure since the last snapshot, are shown.
+        // Of a plate that vibrates, the gap without the vibration, and the mean force and pressure over the last cycle, are shown.
         match mean {
             Some(reading) => Snapshot { reading, pressure: self.hold.mean_pressure().collect(), ..snapshot },
             None => snapshot,
@@ -138,6 +140,7 @@ impl Follower {
             y: grid.y.nodes.clone(),
             pressure: self.hold.pressure().collect(),
             pace: self.pace,
+            struck: self.hold.free().struck,
             failure,
         }
     }

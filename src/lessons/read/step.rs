@@ -85,7 +85,7 @@ impl Reader<'_> {
             }
             if !changes.is_empty() {
                 // What the preset says of itself is not true of it any more.
-                (scene.name, scene.about) = (title.to_owned(), String::new());
+                (scene.name, scene.about) = (format!("Lesson: {title}"), String::new());
             }
             self.scene = Some(scene);
         }

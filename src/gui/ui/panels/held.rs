@@ -23,13 +23,15 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         );
         ui.add_space(4.0);
         headline(ui, "", "Force", &uncertain(Estimate { value: reading.force, error: reading.error }), unit);
-        cx.note(ui, "force of the film on the plate, positive if it pushes");
+        let free = hold.free.is_some();
+        let mean = if free { "; mean over a cycle of the vibration" } else { "" };
+        cx.note(ui, format!("force of the film on the plate, positive if it pushes{mean}"));
         ui.add_space(4.0);
         let [least, most] = hold.force_range;
         number(ui, cx, "Since it was at rest", &span(least, most), unit);
         number(ui, cx, area, &shown(reading.ratio), "");
         section(ui, "Gap");
-        number(ui, cx, "Held gap", &shown(reading.gap * 1e6), "µm");
+        number(ui, cx, if free { "Gap, mean" } else { "Held gap" }, &shown(reading.gap * 1e6), "µm");
         number(ui, cx, "Mean gap", &shown(plate.mean_gap * 1e6), "µm");
         section(ui, "Film pressure");
         number(ui, cx, "Mean pressure", &shown(reading.mean_pressure * 1e-3), "kPa");

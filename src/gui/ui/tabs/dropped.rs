@@ -1,9 +1,9 @@
 //! A plate under a load, dropped on its vibration: its height over time, until it floats or rests.
 
-use crate::digits::significant;
+use crate::digits::{percent, significant};
 use crate::estimate::Estimate;
 use crate::export::fall::panel;
-use crate::fall::Fall;
+use crate::fall::{Fall, struck};
 use crate::gui::command::StartupCommand;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::dropped::Dropped;
@@ -12,6 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::panels::menu::export_button;
 use crate::solution::{Outcome, Status};
+use crate::startup::Settings;
 use eframe::egui::{self, Color32, RichText};
 
 /// Height of the chart, a share of the tab.
@@ -80,6 +81,7 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
         let (time, height) = (significant(1e3 * cycle.time, 3), cycle.height);
         format!("{time} ms: height {} µm", height * 1e6)
     });
+    let hit = struck(&dropped.cycles).map_or_else(String::new, |words| format!(". {words}"));
     let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
         format!("; the periodic solve, in which it does not shake, has {} µm (dashed)", gap * 1e6)
     });
@@ -91,10 +93,15 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
             let rests = last.is_some_and(|cycle| cycle.rests);
             match status {
                 Status::Converged if rests => (format!("{at}. It rests on its roughness"), cx.colours.alarm),
-                Status::Converged => (format!("{at}. It floats{aim}"), cx.colours.good),
+                Status::Converged => {
+                    let within = percent(Settings::default().tolerance);
+                    (format!("{at}. It floats, within {within} of where it settles{aim}{hit}"), cx.colours.good)
+                }
                 Status::Cancelled => (format!("Cancelled at {at}"), cx.colours.quiet),
-                Status::NotConverged { .. } => (format!("{at}. It still moves{aim}"), cx.colours.alarm),
-                Status::NotResolved { .. } => (format!("{at}. It is not resolved any further{aim}"), cx.colours.alarm),
+                Status::NotConverged { .. } => (format!("{at}. It still moves{aim}{hit}"), cx.colours.alarm),
+                Status::NotResolved { .. } => {
+                    (format!("{at}. It is not resolved any further{aim}{hit}"), cx.colours.alarm)
+                }
             }
         }
     }

@@ -47,8 +47,11 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         let [least, most] = hold.reach().map(|gap| gap * 1e6);
-        // As the slider rounds it: a plate that falls is not taken in the hand.
-        let mut gap = egui::emath::round_to_decimals(hold.target * 1e6, GAP_DECIMALS);
+        // As the slider rounds it, the ends of its range too: a plate that falls, however high, is not taken in the hand.
+        let digits = 10f64.powi(GAP_DECIMALS as i32);
+        let (least, most) = ((least * digits).ceil() / digits, (most * digits).floor() / digits);
+        let gap = egui::emath::round_to_decimals(hold.target * 1e6, GAP_DECIMALS);
+        let mut gap = gap.max(least).min(most);
         let label = glossary::term(ui, "Gap", "Gap");
         let slider = |gap| Slider::new(gap, least..=most).max_decimals(GAP_DECIMALS).smart_aim(false);
         let moved = slide(ui, &mut gap, slider, BESIDE_GAP).map(|slider| slider.labelled_by(label.id));
@@ -101,5 +104,11 @@ fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let now = &hold.now;
     let longer = 1.0 / now.pace.max(1e-3);
     let slow = (now.pace < SLOW).then(|| format!("This computer takes {longer:.1} times as long as that"));
-    cx.alarm(ui, slow.iter().chain(&now.failure));
+    let floating = hold.plate.load.is_some() && hold.plate == hold.plate.resting();
+    let rests = floating
+        .then(|| "It does not float: its mean gap here is that at which it would rest on its roughness".to_owned());
+    let struck = now.struck.then(|| {
+        "The vibrating face has struck the plate, which took the face's speed: how a real plate comes off is not part of the model".to_owned()
+    });
+    cx.alarm(ui, slow.iter().chain(&rests).chain(&struck).chain(&now.failure));
 }

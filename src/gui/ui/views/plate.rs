@@ -184,11 +184,15 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFra
     series.show(ui, style, place, cx);
 }
 
-/// Velocity across the film under the pointer, or else half-way between the middle and the end of the plate.
+/// Velocity across the film under the pointer, or else half-way between the middle and the end of the plate, or between the rims of a ring.
 fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>) {
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
     let [left, right] = shown.x_range();
-    let xi = shown.view.cursor_x.unwrap_or(0.5 * right).clamp(left, right);
+    let usual = match shown.of.spans()[..] {
+        [_, [inner, outer]] => 0.5 * (inner + outer),
+        _ => 0.5 * right,
+    };
+    let xi = shown.view.cursor_x.unwrap_or(usual).clamp(left, right);
     let frames = shown.recording.frames.max(1) as f64;
     let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
     let of = Place { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
