@@ -84,6 +84,9 @@ pub fn check_for_results(folder: &Path) -> Result<(), WriteError> {
     check_writable(folder)
 }
 
+/// Why a file is spared.
+const INPUT: &str = "it is an input of this command, and would be replaced: give another folder";
+
 /// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Staged {
@@ -94,6 +97,8 @@ pub struct Staged {
     targets: Vec<PathBuf>,
     /// Their contents, where they are offered as downloads.
     contents: Vec<Vec<u8>>,
+    /// Files that are not replaced.
+    spared: Vec<PathBuf>,
     /// The scratch folder and its lock; `None` where files are offered as downloads. On drop the lock is released first.
     scratch: Option<(Lock, TempDir)>,
 }
@@ -114,7 +119,7 @@ impl Staged {
 
     fn within(folder: &Path, made: bool) -> io::Result<Self> {
         let (targets, contents) = (Vec::new(), Vec::new());
-        let mut staged = Self { folder: folder.to_owned(), made, targets, contents, scratch: None };
+        let mut staged = Self { folder: folder.to_owned(), made, targets, contents, spared: Vec::new(), scratch: None };
         if !HAS_FILES {
             return Ok(staged);
         }
@@ -129,6 +134,11 @@ impl Staged {
             }
         }
         Ok(staged)
+    }
+
+    /// Replaces none of these files, unless by one of the same content.
+    pub fn sparing(self, spared: Vec<PathBuf>) -> Self {
+        Self { spared, ..self }
     }
 
     /// The path in the scratch folder of the new content of a target, or of its older file.
@@ -180,8 +190,9 @@ impl Staged {
             return Ok(std::mem::take(&mut self.targets));
         }
         // A target may have become impossible to replace since it was staged.
-        for path in &self.targets {
-            replaceable(path).map_err(|source| WriteError { path: path.clone(), source })?;
+        for (i, path) in self.targets.iter().enumerate() {
+            let spared = || if self.spares(i) { Err(io::Error::new(ErrorKind::AlreadyExists, INPUT)) } else { Ok(()) };
+            replaceable(path).and_then(|()| spared()).map_err(|source| WriteError { path: path.clone(), source })?;
         }
         for (i, path) in self.targets.iter().enumerate() {
             let replaced = set_aside(path, &self.scratch(i, OLD)).and_then(|()| fs::rename(self.scratch(i, NEW), path));
@@ -192,6 +203,13 @@ impl Staged {
         }
         self.made = false;
         Ok(std::mem::take(&mut self.targets))
+    }
+
+    /// Whether a target would replace a file that is spared by another content.
+    fn spares(&self, index: usize) -> bool {
+        let target = &self.targets[index];
+        let same = |other: &PathBuf| same_file::is_same_file(other, target).unwrap_or(false);
+        self.spared.iter().any(same) && fs::read(target).ok() != fs::read(self.scratch(index, NEW)).ok()
     }
 
     /// Undoes what a commit has done to a target.

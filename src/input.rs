@@ -2,9 +2,18 @@
 
 use crate::platform::handed_over;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 const MEGABYTE: u64 = 1_000_000;
+
+/// The files that were read.
+static READ: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The files that this process has read so far: no command replaces its own input.
+pub fn read_so_far() -> Vec<PathBuf> {
+    READ.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
 
 /// Why a file is not read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -36,6 +45,11 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     if about.len() > limit * MEGABYTE {
         return Err(ReadError::TooLarge(limit));
     }
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if !read.iter().any(|other| other == path) {
+        read.push(path.to_owned());
+    }
+    drop(read);
     // The limit is checked again, because the length may be zero, as under /proc, or change while the file is read.
     bytes_of(std::fs::File::open(path).map_err(system)?, limit)
 }

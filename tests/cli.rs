@@ -698,8 +698,43 @@ fn sizes_that_a_preset_does_not_give_are_told() {
         .unwrap();
     let solve = ["solve", path.to_str().unwrap(), "--fidelity", "draft", "--set", "plate.frequency_khz=30"];
     let told = err(&run(&solve)).to_owned();
-    assert!(told.contains("does not give them: plate.radius_mm = 10 mm\n"), "{told}");
+    let assumed = "assumed, since they are not given: plate.radius_mm = 10 mm, film.gas = custom";
+    assert!(told.contains(assumed) && !told.contains("frequency_khz =") && !told.contains("min_spacing"), "{told}");
+    let vary = ["--vary", "plate.amplitude_um=4,5"];
+    assert!(
+        err(&run(&[&["sweep", path.to_str().unwrap(), "--fidelity", "draft"][..], &vary].concat())).contains(assumed)
+    );
     assert!(!err(&run(&["solve", "floating-disc", "--fidelity", "draft"])).contains("assumed"));
+    // What a change brings with it is not given either.
+    let changes = ["--set", "plate.mass_g=none", "--set", "plate.amplitude_um=0.5", "--set", "film.temperature_c=30"];
+    let told = err(&run(&[&["solve", "floating-disc", "--fidelity", "draft"][..], &changes].concat())).to_owned();
+    assert!(told.contains("floating-disc: assumed, since they are not given: plate.mean_gap_um = 1 µm\n"), "{told}");
+}
+
+#[test]
+fn a_command_replaces_none_of_its_inputs() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, scene, data) = (folder.path(), folder.path().join("scene.toml"), folder.path().join("fit.csv"));
+    let words = |path: &Path| path.to_str().unwrap().to_owned();
+    let written = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=150"]).stdout;
+    let noted = [b"# With the worn rotor.\n", &written[..]].concat();
+    fs::write(&scene, &noted).unwrap();
+    fs::write(&data, "motor.load_per_wave_n,alpha\n2,0.3\n3,0.2\n").unwrap();
+    let kept = fs::read(&data).unwrap();
+    let into = ["--fidelity", "draft", "--out", &words(out)];
+    let vary = ["--vary", "film.min_spacing_nm=50:1000", "--data", &words(&data)];
+    let (scene_word, fit) = (words(&scene), [&["fit", "fundamental"][..], &vary, &into].concat());
+    for (arguments, path) in [([&["solve", &scene_word][..], &into].concat(), &scene), (fit, &data)] {
+        let output = run(&arguments);
+        let told = err(&output);
+        assert!(!output.status.success() && told.contains(path.file_name().unwrap().to_str().unwrap()), "{told}");
+        assert!(told.contains("it is an input of this command"), "{told}");
+    }
+    assert!(fs::read(&scene).unwrap() == noted && fs::read(&data).unwrap() == kept);
+    assert!(!out.join("summary.json").exists());
+    // What would be written again as it is, is no loss.
+    fs::write(&scene, &written).unwrap();
+    done(&[&["solve", &scene_word][..], &into].concat());
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input::{self, ReadError};
 use crate::memory;
 use crate::platform::{on_interrupt, timed};
-use crate::scene::{Scene, Value, presets};
+use crate::scene::{Parameter, Scene, Value, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -34,9 +34,20 @@ pub(super) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene of a PRESET argument with the changes made, and a name that says so.
+    /// The scene of a PRESET argument with the changes made, and a name that says so. What nobody has given is told.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
-        self.original_and_changed(preset).map(|(_, scene)| scene)
+        let (original, scene) = self.original_and_changed(preset)?;
+        let named = |parameter: &&'static Parameter| self.changes.iter().any(|(key, _)| key == parameter.key);
+        let assumed = presets::assumed(preset, &original, &scene).into_iter().filter(|parameter| !named(parameter));
+        let assumed = assumed.filter_map(|parameter| {
+            let value = scene.get(parameter.key).filter(|value| value.as_number() != Some(0.0))?;
+            Some(format!("{} = {}", parameter.key, parameter.with_unit(value)))
+        });
+        let assumed: Vec<String> = assumed.collect();
+        if !assumed.is_empty() {
+            terminal::note(&format!("{preset}: assumed, since they are not given: {}", assumed.join(", ")));
+        }
+        Ok(scene)
     }
 
     /// The scenes of several PRESET arguments, likewise.

@@ -14,7 +14,7 @@ use crate::export::json::{self, Summary};
 use crate::memory;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::scene::presets::{self, BUILT_IN};
+use crate::scene::presets::BUILT_IN;
 use crate::solution::{Status, settled};
 use crate::solve::{Settings, check, solve};
 use clap::Args;
@@ -91,17 +91,6 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             if !exits.is_empty() && !arguments.common.output.json {
                 terminal::text("\n");
             }
-        }
-        let changed = |key| arguments.common.scene.changes.iter().any(|(changed, _)| changed == key);
-        let assumed = presets::not_given(preset, scene).into_iter().filter(|parameter| !changed(parameter.key));
-        let assumed: Vec<String> = assumed
-            .filter_map(|parameter| {
-                let value = scene.get(parameter.key)?.as_number().filter(|value| *value != 0.0)?;
-                Some(format!("{} = {}", parameter.key, parameter.with_unit(value)))
-            })
-            .collect();
-        if !assumed.is_empty() {
-            terminal::note(&format!("assumed, since the preset does not give them: {}", assumed.join(", ")));
         }
         match one(arguments, scene, problem, &settings, &cancel, folder.as_ref(), command) {
             Ok((exit, object)) => {

@@ -16,6 +16,7 @@ use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
 use crate::fall::Fall;
 use crate::fidelity::Fidelity;
+use crate::input::read_so_far;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::Scene;
@@ -85,7 +86,10 @@ pub struct Files<'a> {
 impl<'a> Files<'a> {
     /// None yet, for this folder.
     pub fn new(folder: &'a Folder<'a>) -> Result<Self, WriteError> {
-        Ok(Self { staged: Staged::new(folder.path)?, folder })
+        let staged = Staged::new(folder.path)?;
+        // A command does not replace what it was given.
+        let staged = if folder.command.is_empty() { staged } else { staged.sparing(read_so_far()) };
+        Ok(Self { staged, folder })
     }
 
     /// Adds a file as `write` writes it.

@@ -71,19 +71,25 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
-/// Numbers of a motor or a plate that the file of a PRESET argument does not give, so that `scene` has those of the paper, or of the default
-/// strip; empty for a built-in preset.
-pub fn not_given(name_or_path: &str, scene: &Scene) -> Vec<&'static Parameter> {
+/// Numbers and choices of `scene` that nobody has given, so that they are those of the paper, or of the default strip: the file of a PRESET argument
+/// does not have them, or `original`, the scene that it describes, has no such key. Built-in presets give all of theirs.
+pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'static Parameter> {
     let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
     let text = (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten();
-    let Some(file) = text.and_then(|text| text.parse::<toml::Table>().ok()) else { return Vec::new() };
-    let given = |key: &str| {
-        key.split_once('.').is_some_and(|(table, name)| file.get(table).is_some_and(|t| t.get(name).is_some()))
+    let file = text.and_then(|text| text.parse::<toml::Table>().ok());
+    let given = |parameter: &'static Parameter| {
+        let written =
+            |file: &toml::Table| file.get(parameter.table()).is_some_and(|t| t.get(parameter.leaf()).is_some());
+        file.as_ref().is_none_or(written) && original.has(parameter)
     };
-    let number =
-        |parameter: &Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
-    let makes = |parameter: &&Parameter| ["motor", "stator", "plate"].contains(&parameter.table()) && number(parameter);
-    scene.parameters().filter(makes).filter(|parameter| parameter.absent.is_none() && !given(parameter.key)).collect()
+    let makes = |parameter: &&'static Parameter| {
+        let chosen =
+            matches!(parameter.kind, ParameterKind::Choice { .. }) && ["rotor", "film"].contains(&parameter.table());
+        let number = matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
+        (chosen || number && parameter.table() != "numerics") && parameter.absent.is_none()
+    };
+    let default = |parameter: &&'static Parameter| scene.heeds(parameter.key) && !scene.is_set(parameter.key);
+    scene.parameters().filter(makes).filter(default).filter(|parameter| !given(parameter)).collect()
 }
 
 /// The scene, without the name and the description of a built-in preset whose values it does not have.
