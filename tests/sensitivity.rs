@@ -15,6 +15,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solve::{Record, Settings, solve};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn at(fidelity: Fidelity) -> Settings {
     Settings { fidelity, ..Settings::default() }
@@ -243,11 +244,17 @@ fn draws_out_of_range_are_drawn_again_and_counted() {
     let MonteCarlo { draws, failures, redrawn, .. } = carlo;
     assert!(redrawn > 5 && failures.is_empty() && draws.len() == 500);
     assert!(draws.iter().all(|draw| (0.0..=2.0).contains(&draw.values[0])));
+    // What was drawn before it was cancelled stays.
     let cancel = Cancel::new();
-    cancel.cancel();
-    assert!(
-        found.monte_carlo(&uncertainties(&scene, &[("motor.dry_friction", "0.1")]), 10, 1, &cancel, &|| ()).is_none()
-    );
+    let (few, drawn) = (uncertainties(&scene, &[("motor.dry_friction", "0.1")]), AtomicUsize::new(0));
+    let until_cancelled = || {
+        if drawn.fetch_add(1, Ordering::Relaxed) == 20 {
+            cancel.cancel();
+        }
+    };
+    let part = found.monte_carlo(&few, 5000, 1, &cancel, &until_cancelled).unwrap().draws;
+    assert!((15..2500).contains(&part.len()) && part.iter().all(|draw| !draw.results.is_empty()), "{}", part.len());
+    assert!(found.monte_carlo(&few, 10, 1, &cancel, &|| ()).is_none());
     let settings = at(Fidelity::Draft);
     assert!(Sensitivity::of(&scene, &["motor.dry_friction"], &settings, &cancel, &|_| ()).unwrap().is_none());
 }

@@ -50,7 +50,10 @@ pub(crate) fn sensitivity(
         let one_more = || drawn.one_more(draws, tell);
         let carlo = match draws {
             0 => None,
-            _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
+            _ => {
+                let carlo = found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more);
+                Some(carlo.filter(|_| !cancel.is_cancelled()).ok_or_else(cancelled)?)
+            }
         };
         let found = SensitivityStudy { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
         Ok(json::document(&found.object(), &[]))

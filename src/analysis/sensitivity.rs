@@ -189,7 +189,7 @@ impl Sensitivity {
     }
 
     /// Solves `draws` random scenes of these uncertainties on rayon's pool; the same seed gives the same draws, whatever the number of threads.
-    /// `solved` is told after each. `None` if cancelled.
+    /// `solved` is told after each. Those that were solved before it was cancelled; `None` if none was.
     pub fn monte_carlo(
         &self,
         uncertainties: &Uncertainties,
@@ -203,16 +203,18 @@ impl Sensitivity {
         // Known, unless this was carried here: then it is solved as it was before.
         let centre = if floats { None } else { Some(self.centre(cancel).ok()?) };
         let one = |number: usize| {
+            if cancel.is_cancelled() {
+                return None;
+            }
             let found = uncertainties.draw(number as u64, seed).and_then(|(values, problem, redrawn)| {
-                let results =
-                    if cancel.is_cancelled() { Vec::new() } else { self.solve_draw(centre, &problem, cancel)? };
-                Ok((Draw { values, results }, redrawn))
+                Ok((Draw { values, results: self.solve_draw(centre, &problem, cancel)? }, redrawn))
             });
             solved();
-            found
+            // What was being solved when it was cancelled is not.
+            (!cancel.is_cancelled()).then_some(found)
         };
-        let found: Vec<_> = (0..draws).into_par_iter().map(one).collect();
-        if cancel.is_cancelled() {
+        let found: Vec<_> = (0..draws).into_par_iter().filter_map(one).collect();
+        if found.is_empty() {
             return None;
         }
         let mut carlo = MonteCarlo { seed, ..MonteCarlo::default() };

@@ -103,16 +103,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     };
     let sensitivity = Sensitivity::of(&scene, &keys, &settings, &cancel, &|all| told(all, "derivatives"))?;
     count.store(0, Ordering::Relaxed);
-    let carlo = sensitivity.as_ref().filter(|_| draws > 0).map(|sensitivity| {
+    let carlo = sensitivity.as_ref().filter(|_| draws > 0).and_then(|sensitivity| {
         sensitivity.monte_carlo(&uncertainties, draws, arguments.seed, &cancel, &|| told(draws, "random scenes"))
     });
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
-    let (Some(sensitivity), false) = (sensitivity, matches!(carlo, Some(None))) else {
+    let Some(sensitivity) = sensitivity else {
         terminal::note("cancelled; nothing was written");
         return Ok(Exit::Other);
     };
-    let carlo = carlo.flatten();
 
     sensitivity.warnings.iter().for_each(|warning| terminal::warning(warning));
     if let Some(warning) = carlo.as_ref().and_then(warning) {
@@ -120,11 +119,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let found = SensitivityStudy { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
     terminal::result(arguments.common.output.json, || json::document(&found.object(), command), || text(&found));
+    let made = carlo.as_ref().map_or(0, |carlo| carlo.draws.len() + carlo.failures.len());
+    if made < draws {
+        terminal::warning(&format!("cancelled: {made} of {draws} random scenes were drawn"));
+    }
     terminal::note(&format!("computed in {}", duration(wall_s)));
     if let Some(folder) = &folder {
         terminal::wrote(folder.path, &files::sensitivity(folder, &found)?);
     }
-    Ok(Exit::of(&sensitivity.status))
+    Ok(if made < draws { Exit::Other } else { Exit::of(&sensitivity.status) })
 }
 
 /// Warning about random scenes that failed or were drawn again; `None` if there are none.

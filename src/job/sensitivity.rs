@@ -61,6 +61,6 @@ impl Work for Draws {
         let Self { sensitivity, uncertainties, draws, seed } = self;
         let count = AtomicUsize::new(0);
         let solved = || tell(one_more(&count, draws));
-        Ok(sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved))
+        Ok(sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved).filter(|_| !cancel.is_cancelled()))
     }
 }
