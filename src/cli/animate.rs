@@ -1,7 +1,7 @@
 //! `squeezefilm animate`: one cycle as moving pictures.
 
 use super::exit::{CliError, Exit};
-use super::options::{PRESET, SceneOptions, SolveOptions, whole, within};
+use super::options::{PRESET, SceneOptions, SolveOptions, named_path, whole, within};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
     preset: String,
 
     /// The file, .gif, .mp4 or .png (animated), or a folder for the frames, one PNG each
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = named_path())]
     out: PathBuf,
 
     /// Width in pixels
