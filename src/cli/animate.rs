@@ -17,7 +17,9 @@ use std::path::PathBuf;
 
 /// Solves a preset and writes one cycle as an animation: GIF, MP4, animated PNG, or a folder of PNG
 ///
-/// An MP4 holds AV1 video and repeats the cycle to fill twelve seconds, as players do not loop by themselves.
+/// An MP4 holds AV1 video and repeats the cycle to fill twelve seconds, as players do not loop by themselves. It takes some ten times as
+/// long to write as a GIF. At twice the --width the file is about half as large again (MP4) or nearly three times as large (GIF), and takes
+/// about three times as long.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm animate fundamental --out wave.gif
