@@ -744,6 +744,9 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
         assert!(err(&output).contains(words), "{words:?} is not in\n{}", err(&output));
     }
     assert_eq!(solved(&[path])["preset"], "My motor");
+    // An answer that was changed is told, however quiet it is.
+    let uneven = done(&["new", "--teeth", "10", "--quiet", given[2], given[3], given[4], given[5], given[6], given[7]]);
+    assert!(err(&uneven).starts_with("warning: The motor has 9 teeth, not 10: "), "{}", err(&uneven));
     refused(&given, 2, &["there is such a file already; --replace replaces it"]);
     done(&[&given[..], &["--replace"]].concat());
     // What is not given is asked for, again where the answer is refused; the end of the answers leaves the rest to assumptions.
