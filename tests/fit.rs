@@ -315,6 +315,7 @@ fn bounds_are_read_and_checked() {
         ("film.min_spacing_nm=200:200", "is no range"),
         ("motor.rotor_speed_rpm=0:20:log", "both ends have to be above 0"),
         ("motor.waves=4:9", "motor.waves: it accepts"),
+        ("film.gas=air:helium", "film.gas: it accepts one of"),
         ("plate.length_mm=1:2", "belongs to scene = \"plate\""),
     ] {
         let read = vary.parse::<Bounds>().and_then(|bounds| Model::new(&motor, &[bounds], &DRAFT).map(|_| ()));
