@@ -677,7 +677,7 @@ fn set_refuses_and_changes_nothing() {
         (
             "film.min_spacing_nm",
             "none",
-            "film.min_spacing_nm = none is not a number: expected a number from 5 to 10000 nm, in nm, µm, mm, cm, m,",
+            "film.min_spacing_nm = none: this key cannot be left out: expected a number from 5 to 10000 nm, in nm, µm, mm,",
         ),
         ("film.min_spacing_nm", "1,5", "film.min_spacing_nm = 1,5 is not a number"),
         ("film.min_spacing_nm", "1um,5", "film.min_spacing_nm = 1um,5 is not a number"),
