@@ -299,7 +299,10 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
             size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
         assert!(error.contains(words), "{size}: {error}");
     }
-    assert!(one.without(&["nobody".to_owned()]).unwrap_err().to_string().contains("no line has this name"));
+    for (skip, words) in [("nobody", "no line has this name"), ("line 2", "table.csv: skip: no measurement is left")] {
+        let error = one.clone().without(&[skip.to_owned()]).unwrap_err().to_string();
+        assert!(error.contains(words), "{skip}: {error}");
+    }
 }
 
 #[test]

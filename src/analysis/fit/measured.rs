@@ -362,7 +362,7 @@ impl Measured {
         Ok(self)
     }
 
-    /// Without the lines of these names.
+    /// Without the lines of these names; some have to be left.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
         for label in labels {
             let before = self.measurements.len();
@@ -371,6 +371,9 @@ impl Measured {
                 let label = show_text(label);
                 return Err(AnalysisError::Input(format!("{}: skip {label}: no line has this name", self.name)));
             }
+        }
+        if self.measurements.is_empty() {
+            return Err(AnalysisError::Input(format!("{}: skip: no measurement is left", self.name)));
         }
         Ok(self)
     }
