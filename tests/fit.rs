@@ -265,7 +265,8 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         ("alpha,weight\n0.2,-1\n", "table.csv:2: column weight: \"-1\": expected a number above 0"),
         ("alpha,mean_load_ratio\n0.2,1\n", "column mean_load_ratio: unknown"),
         ("alpha\n", "table.csv: no measurements"),
-        ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2"),
+        ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2: 1 cell: expected 2, one for each column"),
+        ("alpha\n0.2\n0.2,100\n", "table.csv:3: 2 cells: expected 1, one for each column"),
         ("film_steps\n3\n", "column film_steps: unknown"),
     ] {
         // A line is the same one however lines end.

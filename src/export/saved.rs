@@ -10,6 +10,7 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::analysis::sweep::{MOST_POINTS, Part, Sweep, SweepRow, Vary, digest};
 use crate::analysis::validity::NAMES;
+use crate::input::csv_fault;
 use crate::scene::Scene;
 use crate::solution::StoppedBy;
 use crate::solve::Settings;
@@ -104,7 +105,8 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
     let (quantities, mut there) = (sweep.quantities(), vec![false; points.len()]);
     let mut rows: Vec<SweepRow> = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), &error))?;
+        let record =
+            record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), csv_fault(&error)))?;
         let line = record.position().map_or(0, csv::Position::line);
         // The reader refuses a record of another length than the header.
         let field = |column: usize| record.get(column).unwrap_or("");

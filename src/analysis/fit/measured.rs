@@ -2,7 +2,7 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
-use crate::input::read_text;
+use crate::input::{csv_fault, read_text};
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::published;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
@@ -206,7 +206,7 @@ impl Measured {
         let mut reader = csv::ReaderBuilder::new();
         reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
         let mut reader = reader.from_reader(text.as_bytes());
-        let head = reader.headers().map_err(|error| fault(Some(1), error.to_string()))?.clone();
+        let head = reader.headers().map_err(|error| fault(Some(1), csv_fault(&error)))?.clone();
         if head.iter().all(str::is_empty) {
             let expected = "expected a line that names the columns, as in rotor_speed_rpm,torque_nm, and a line for each measurement";
             return Err(fault(None, format!("no table: {expected}")));
@@ -253,7 +253,7 @@ impl Measured {
         let mut measured =
             Self { name: origin.to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: errors };
         for record in reader.records().take(MOST_LINES + 1) {
-            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), error.to_string()))?;
+            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), csv_fault(&error)))?;
             let line = record.position().map(csv::Position::line);
             if measured.measurements.len() >= MOST_LINES {
                 return Err(fault(line, format!("more than {MOST_LINES} measurements")));
