@@ -279,6 +279,9 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
     // As spreadsheets write it where the comma is in decimals.
     let [dots, commas] = ["speed_rpm,torque_nm\n1.5,0.2\n", "speed_rpm;torque_nm\n1,5;0,2\n"];
     assert_eq!(table(&motor, dots).measurements, table(&motor, commas).measurements);
+    for tabs in [dots.replace(',', "\t"), commas.replace(';', "\t")] {
+        assert_eq!(table(&motor, dots).measurements, table(&motor, &tabs).measurements, "{tabs:?}");
+    }
     let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,100\n0.2,3\n");
     let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
     let error = model().under(&measured).unwrap_err().to_string();

@@ -31,7 +31,8 @@ Examples:
       --subject-to 'stall_torque_nm>0.2'";
 
 const DATA: &str = "\
-A table of measurements is a CSV file. Its first line names the columns:
+A table of measurements is a CSV file, with commas, semicolons or tabs
+between the columns. Its first line names them:
   film.min_spacing_nm   a key of the scene: the condition under which the
                         line was measured; --vary chooses the key only where
                         the cell is empty

@@ -184,7 +184,7 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Reads a table, of commas, or of semicolons with decimal commas. Its first line names the columns:
+    /// Reads a table, of commas, or of semicolons or tabs, which may have decimal commas. Its first line names the columns:
     ///
     /// * a key of the scene, as `film.min_spacing_nm`: the condition of the line; an empty cell leaves it as the scene has it;
     /// * a number of a solve, as `film_load_n`, or `torque_nm` with `rotor_speed_rpm`: measured; an empty cell was not measured;
@@ -200,11 +200,15 @@ impl Measured {
         };
         // The reader miscounts lines that end in CRLF.
         let text = &text.replace("\r\n", "\n");
-        // Where the comma is in decimals, semicolons divide the columns.
-        let semicolons = text.lines().find(|line| !line.starts_with('#')).is_some_and(|head| head.contains(';'));
-        let decimal = |text: &str| if semicolons { text.replace(',', ".") } else { text.to_owned() };
+        // Where the comma is in decimals, semicolons or tabs divide the columns.
+        let delimiter = match text.lines().find(|line| !line.starts_with('#')).unwrap_or_default() {
+            names if names.contains(';') => b';',
+            names if names.contains('\t') && !names.contains(',') => b'\t',
+            _ => b',',
+        };
+        let decimal = |text: &str| if delimiter == b',' { text.to_owned() } else { text.replace(',', ".") };
         let mut reader = csv::ReaderBuilder::new();
-        reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
+        reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(delimiter);
         let mut reader = reader.from_reader(text.as_bytes());
         let head = reader.headers().map_err(|error| fault(Some(1), csv_fault(&error)))?.clone();
         if head.iter().all(str::is_empty) {

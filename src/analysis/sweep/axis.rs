@@ -192,7 +192,9 @@ fn no_range(parameter: &Parameter) -> AnalysisError {
         ParameterKind::Choice { options: [.., first, second], .. } => format!(", such as {key}={first},{second}"),
         _ => String::new(),
     };
-    AnalysisError::Input(format!("vary {key}: it accepts {accepts}, and only a number has a range: give a list{example}"))
+    AnalysisError::Input(format!(
+        "vary {key}: it accepts {accepts}, and only a number has a range: give a list{example}"
+    ))
 }
 
 /// The fault of a range with too few values, or too many.
