@@ -56,6 +56,8 @@ fn whole_numbers_inline_tables_and_dotted_keys_are_read() {
         read("\u{feff}schema = 1\r\n[motor]\r\nwaves = 6\r\n").unwrap().get("motor.waves"),
         Some(Value::Whole(6))
     );
+    // As --set takes it.
+    assert_eq!(read("schema = 1\n[motor]\nwaves = 6.0\n").unwrap().get("motor.waves"), Some(Value::Whole(6)));
 }
 
 // ---- messages
@@ -79,8 +81,8 @@ fn messages_name_file_line_key_value_and_range() {
         ("film = 3\n", "my.toml:3: film = 3 is not a table: write [film] with its keys below"),
         ("[[film]]\nshear = true\n", "is not a table: write [film]"),
         (
-            "[motor]\nwaves = 7.0\n",
-            "my.toml:4: motor.waves = 7.0 is of the wrong type: expected a whole number from 1 to 100",
+            "[motor]\nwaves = 7.5\n",
+            "my.toml:4: motor.waves = 7.5 is of the wrong type: expected a whole number from 1 to 100",
         ),
         (
             "[motor]\nload_per_wave_n = \"2\"\n",
