@@ -10,6 +10,7 @@ use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::Scaled;
+use squeezefilm::export::fit::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, Scenario, rpm};
 use squeezefilm::scene::{Scene, presets};
@@ -163,6 +164,21 @@ fn a_bound_in_the_way_is_told() {
     assert_eq!((viscosity.at, viscosity.value, viscosity.error), (Some(Bound::Lower), 25.0, None));
     assert!(found.unknowns[1].error.is_some() && found.degrees_of_freedom == 7);
     assert!(found.warnings.iter().any(|text| text.starts_with("film.viscosity_upa_s is at its lower bound, 25 µPa·s")));
+}
+
+#[test]
+fn residuals_of_several_results_of_a_line_are_named() {
+    let start = scene("plate-crossover", &[]);
+    let labels = |text: &str| {
+        let measured = table(&start, text);
+        let found = fitted(&start, &["plate.amplitude_um=0.3:0.7"], &measured, &DRAFT, 1);
+        let figures = figures(&Problem::try_from(&start).unwrap(), &found, &measured);
+        let (_, residuals) = figures.into_iter().find(|(name, _)| *name == "residuals").unwrap();
+        residuals.panels[0].y.names.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>()
+    };
+    let both = labels("film_load_n,mean_load_ratio\n20.265,0.21\n");
+    assert_eq!(both, ["line 2, film_load_n", "line 2, mean_load_ratio"]);
+    assert_eq!(labels("film_load_n\n20.265\n20.3\n"), ["line 2", "line 3"]);
 }
 
 #[test]
