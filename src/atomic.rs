@@ -125,7 +125,8 @@ impl Staged {
         }
         remove_leftovers(folder);
         while staged.scratch.is_none() {
-            let scratch = tempfile::Builder::new().prefix(PREFIX).suffix(SCRATCH).tempdir_in(folder)?;
+            let scratch = tempfile::Builder::new().prefix(PREFIX).suffix(SCRATCH).tempdir_in(folder);
+            let scratch = scratch.map_err(|error| without_path(&error))?;
             // Until it is locked, another run may take the folder for one that was left, and remove it: then it is created again.
             match Lock::take(&scratch.path().join(LOCK)) {
                 Ok(lock) => staged.scratch = lock.map(|lock| (lock, scratch)),
@@ -234,6 +235,13 @@ impl Drop for Staged {
             let _ = fs::remove_dir(&self.folder);
         }
     }
+}
+
+/// The fault of a scratch folder without its path, which tells the user nothing.
+fn without_path(error: &io::Error) -> io::Error {
+    let told = error.to_string();
+    let why = told.split_once(" at path ").map_or(told.as_str(), |(why, _)| why);
+    io::Error::new(error.kind(), why)
 }
 
 const NEW: &str = ".new";
@@ -377,6 +385,20 @@ mod tests {
         assert!(error.to_string().contains("b: cannot be written: "), "{error}");
         let error = staged.commit().unwrap_err();
         assert!(error.to_string().contains("a: cannot be written: "), "{error}");
+    }
+
+    // Nobody can write there, not even root.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_cannot_be_written_into_is_named_without_the_scratch_folder() {
+        let folder = Path::new("/proc");
+        for (error, named) in [
+            (check_writable(folder), "/proc: cannot be written: "),
+            (check_file(&folder.join("a.csv")), "/proc/a.csv: cannot be written: "),
+        ] {
+            let error = error.unwrap_err().to_string();
+            assert!(error.starts_with(named) && !error.contains(PREFIX), "{error}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Reads files from outside: presets, tables, lessons and their pictures. No other module opens such files.
 
+use crate::digits::counted;
 use crate::platform::handed_over;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -81,6 +82,17 @@ pub fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
     let (pairs, rest) = bytes[2..].as_chunks();
     let units: Vec<u16> = pairs.iter().copied().map(unit).collect();
     if rest.is_empty() { String::from_utf16(&units).map_err(|_| ReadError::NotText) } else { Err(ReadError::NotText) }
+}
+
+/// Why a line of a CSV file cannot be read, in plain words.
+pub fn csv_fault(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            let cells = counted(usize::try_from(*len).unwrap_or(usize::MAX), "cell", "cells");
+            format!("{cells}: expected {expected_len}, one for each column")
+        }
+        _ => error.to_string(),
+    }
 }
 
 #[cfg(test)]

@@ -691,6 +691,36 @@ fn a_preset_is_read_from_standard_input() {
 }
 
 #[test]
+fn a_table_and_a_face_are_read_from_standard_input_and_nothing_is_written_to_it() {
+    let told = |arguments: &[&str], text: &str| {
+        let output = with_input(arguments, text.as_bytes());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", err(&output));
+        err(&output).to_owned()
+    };
+    let fit = ["fit", "fundamental", "--vary", "rotor.decay_length_mm=2:6", "--data", "-"];
+    assert!(told(&fit, "alpha\nhigh\n").contains("standard input:2: column alpha: high is not a number"));
+    assert!(told(&fit, "").contains("standard input: it is empty"));
+    let face = "# dx_um = 1\n# dy_um = 1\n# height = nm\n1,2\n3,4\n";
+    assert!(told(&["surface", "-"], face).contains("standard input: 2 × 2 points"));
+    // It would be a file, or a folder, of this name.
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [
+        &["solve", "fundamental", "--out", "-"][..],
+        &["table1", "--out", "-"],
+        &["animate", "fundamental", "--out", "-"],
+        &["presets", "fundamental", "--out", "-"],
+        &["new", "-", "--diameter-mm", "60", "--frequency-khz", "40", "--load-n", "150"],
+        &["man", "-"],
+        &["join", "-"],
+    ] {
+        let output = squeezefilm(arguments).current_dir(folder.path()).output().unwrap();
+        assert_eq!((output.status.code(), out(&output)), (Some(2), ""), "{arguments:?}");
+        assert!(err(&output).contains("only a preset, fit --data and surface"), "{arguments:?}: {}", err(&output));
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
 fn sizes_that_a_preset_does_not_give_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
@@ -749,6 +779,9 @@ fn a_new_motor_is_made_of_options_or_of_answers() {
         assert!(err(&output).contains(words), "{words:?} is not in\n{}", err(&output));
     }
     assert_eq!(solved(&[path])["preset"], "My motor");
+    // An answer that was changed is told, however quiet it is.
+    let uneven = done(&["new", "--teeth", "10", "--quiet", given[2], given[3], given[4], given[5], given[6], given[7]]);
+    assert!(err(&uneven).starts_with("warning: The motor has 9 teeth, not 10: "), "{}", err(&uneven));
     refused(&given, 2, &["there is such a file already; --replace replaces it"]);
     done(&[&given[..], &["--replace"]].concat());
     // What is not given is asked for, again where the answer is refused; the end of the answers leaves the rest to assumptions.

@@ -10,6 +10,7 @@ use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::Scaled;
+use squeezefilm::export::fit::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, Scenario, rpm};
 use squeezefilm::scene::{Scene, presets};
@@ -166,6 +167,21 @@ fn a_bound_in_the_way_is_told() {
 }
 
 #[test]
+fn residuals_of_several_results_of_a_line_are_named() {
+    let start = scene("plate-crossover", &[]);
+    let labels = |text: &str| {
+        let measured = table(&start, text);
+        let found = fitted(&start, &["plate.amplitude_um=0.3:0.7"], &measured, &DRAFT, 1);
+        let figures = figures(&Problem::try_from(&start).unwrap(), &found, &measured);
+        let (_, residuals) = figures.into_iter().find(|(name, _)| *name == "residuals").unwrap();
+        residuals.panels[0].y.names.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>()
+    };
+    let both = labels("film_load_n,mean_load_ratio\n20.265,0.21\n");
+    assert_eq!(both, ["line 2, film_load_n", "line 2, mean_load_ratio"]);
+    assert_eq!(labels("film_load_n\n20.265\n20.3\n"), ["line 2", "line 3"]);
+}
+
+#[test]
 fn what_cannot_be_told_apart_is_told() {
     let start = scene("plate-crossover", &[]);
     let amplitudes =
@@ -265,7 +281,8 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         ("alpha,weight\n0.2,-1\n", "table.csv:2: column weight: \"-1\": expected a number above 0"),
         ("alpha,mean_load_ratio\n0.2,1\n", "column mean_load_ratio: unknown"),
         ("alpha\n", "table.csv: no measurements"),
-        ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2"),
+        ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2: 1 cell: expected 2, one for each column"),
+        ("alpha\n0.2\n0.2,100\n", "table.csv:3: 2 cells: expected 1, one for each column"),
         ("film_steps\n3\n", "column film_steps: unknown"),
     ] {
         // A line is the same one however lines end.
@@ -278,6 +295,9 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
     // As spreadsheets write it where the comma is in decimals.
     let [dots, commas] = ["speed_rpm,torque_nm\n1.5,0.2\n", "speed_rpm;torque_nm\n1,5;0,2\n"];
     assert_eq!(table(&motor, dots).measurements, table(&motor, commas).measurements);
+    for tabs in [dots.replace(',', "\t"), commas.replace(';', "\t")] {
+        assert_eq!(table(&motor, dots).measurements, table(&motor, &tabs).measurements, "{tabs:?}");
+    }
     let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,100\n0.2,3\n");
     let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
     let error = model().under(&measured).unwrap_err().to_string();
@@ -299,7 +319,10 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
             size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
         assert!(error.contains(words), "{size}: {error}");
     }
-    assert!(one.without(&["nobody".to_owned()]).unwrap_err().to_string().contains("no line has this name"));
+    for (skip, words) in [("nobody", "no line has this name"), ("line 2", "table.csv: skip: no measurement is left")] {
+        let error = one.clone().without(&[skip.to_owned()]).unwrap_err().to_string();
+        assert!(error.contains(words), "{skip}: {error}");
+    }
 }
 
 #[test]
@@ -315,6 +338,7 @@ fn bounds_are_read_and_checked() {
         ("film.min_spacing_nm=200:200", "is no range"),
         ("motor.rotor_speed_rpm=0:20:log", "both ends have to be above 0"),
         ("motor.waves=4:9", "motor.waves: it accepts"),
+        ("film.gas=air:helium", "film.gas: it accepts one of"),
         ("plate.length_mm=1:2", "belongs to scene = \"plate\""),
     ] {
         let read = vary.parse::<Bounds>().and_then(|bounds| Model::new(&motor, &[bounds], &DRAFT).map(|_| ()));

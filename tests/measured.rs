@@ -144,6 +144,7 @@ fn what_cannot_be_read_names_line_and_what_is_allowed() {
         ("# dx_um = -1\n".to_owned(), &["line 1", "out of range"]),
         (format!("{head}1,2\n3,4\n"), &["2 × 2 points", "16"]),
         ("x_um,y_um\n1,2\n".to_owned(), &["line 1", "x_um,z_nm"]),
+        ("z_nm,x_um\n1,2\n".to_owned(), &["line 1", "x comes first", "x_um,z_nm"]),
         ("x_um,z_nm\n1,2,3\n".to_owned(), &["line 2", "expected 2"]),
         (format!("x_um,z_nm\n{}", "1,2\n".repeat(20)), &["line 2", "even steps"]),
         (String::new(), &["unit of the heights"]),

@@ -55,7 +55,7 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     });
     let unmet = format!("No motor was found that agrees with the data sheet{has}.");
     least.scene.about = format!("{} {unmet}", least.scene.about);
-    least.unmet = Some(unmet);
+    least.unmet.push(unmet);
     Ok(least)
 }
 
@@ -90,8 +90,8 @@ mod tests {
         let same_but_told = |answers: &Answers, told: &str| {
             let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
             assert!(found.scene.same_model(&least.scene));
-            let unmet = found.unmet.unwrap();
-            assert!(found.scene.about.ends_with(&unmet) && unmet.ends_with(told), "{unmet}");
+            let unmet = found.unmet.last().unwrap().as_str();
+            assert!(found.scene.about.ends_with(unmet) && unmet.ends_with(told), "{unmet}");
         };
         same_but_told(&light, "this one is not driven.");
         // One that would need more friction than there is keeps the least.
@@ -106,7 +106,7 @@ mod tests {
             .chain(&unknown)
             .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
             .collect();
-        let unmet = agreeing(&unknown, &Cancel::new()).unwrap().unmet.unwrap();
+        let unmet = agreeing(&unknown, &Cancel::new()).unwrap().unmet.pop().unwrap();
         assert!(unmet.ends_with("not known."), "{unmet}");
         // Pressed on so heavily that all teeth touch, torque and speed depend on both.
         let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];

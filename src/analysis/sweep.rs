@@ -410,6 +410,7 @@ mod tests {
             (&["film.min_spacing_nm=100:100:3"], "the ends have to differ"),
             (&["stator.normal_amplitude_um=0:1:3:log"], "both ends have to be above 0"),
             (&["film.slip=0:1:3"], "film.slip: it accepts one of \"none\""),
+            (&["film.gas=air:helium:2"], "has a range: give a list, such as film.gas=carbon-dioxide,hydrogen"),
             (&["film.slip=none"], "a list of two values or more"),
             (&["film.slip=none,second"], "film.slip"),
             (&["film.slip=none,none"], "none is listed twice"),

@@ -1,6 +1,7 @@
 //! `squeezefilm completions` and `squeezefilm man`: the command line, told to shells and to `man`.
 
 use super::exit::{CliError, Exit};
+use super::options::named_path;
 use super::terminal;
 use crate::atomic::Staged;
 use crate::citation::{RELEASED, VERSION};
@@ -25,7 +26,7 @@ pub(super) struct CompletionsArguments {
   squeezefilm man ~/.local/share/man/man1")]
 pub(super) struct ManArguments {
     /// Folder for the pages
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DIR", value_parser = named_path())]
     folder: PathBuf,
 }
 

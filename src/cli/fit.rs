@@ -2,11 +2,11 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, PRESET, whole};
+use super::options::{CommonOptions, PRESET, STANDARD_INPUT, standard_input, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
-    Bound, Bounds, ErrorSize, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
+    Bound, Bounds, ErrorSize, Fitted, Goal, LARGEST_TABLE, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
 use crate::digits::{counted, duration, percent, short, signed, significant};
 use crate::export::files;
@@ -31,7 +31,8 @@ Examples:
       --subject-to 'stall_torque_nm>0.2'";
 
 const DATA: &str = "\
-A table of measurements is a CSV file. Its first line names the columns:
+A table of measurements is a CSV file, with commas, semicolons or tabs
+between the columns. Its first line names them:
   film.min_spacing_nm   a key of the scene: the condition under which the
                         line was measured; --vary chooses the key only where
                         the cell is empty
@@ -68,7 +69,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
-    /// A CSV file of measurements, or table1
+    /// A CSV file of measurements, - for one on standard input, or table1
     #[arg(long, value_name = "FILE", conflicts_with = "subject_to")]
     data: Option<String>,
 
@@ -136,7 +137,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let Some(data) = &arguments.data else {
             return Err(CliError::usage("give --data, --maximise or --minimise"));
         };
-        let measured = Measured::find(data, &scene, settings.method)?;
+        let measured = if data == STANDARD_INPUT {
+            let table = standard_input(LARGEST_TABLE)?;
+            Measured::from_csv(&table, "standard input", &Problem::try_from(&scene)?)?
+        } else {
+            Measured::find(data, &scene, settings.method)?
+        };
         let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
         let model = Model::new(&scene, &arguments.vary, &settings)?.under(&measured)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {

@@ -1,7 +1,7 @@
 //! `squeezefilm gui`, and the program without a command: the window.
 
 use super::exit::{CliError, Exit};
-use super::options::{AccuracyOptions, MemoryOptions, STANDARD_INPUT, SceneOptions};
+use super::options::{AccuracyOptions, MemoryOptions, STANDARD_INPUT, SceneOptions, named_path};
 use crate::gui;
 use crate::gui::state::document::Document;
 use crate::gui::state::link::Link;
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     preset: Option<String>,
 
     /// A folder of lessons, shown beside the built-in ones; docs/lessons.md says how to write them
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = named_path())]
     lessons: Option<PathBuf>,
 
     /// Opens this lesson, by its number in the menu

@@ -1,7 +1,7 @@
 //! `squeezefilm join`: the whole of a sweep whose parts were solved one by one.
 
 use super::exit::{CliError, Exit};
-use super::options::OutputOptions;
+use super::options::{OutputOptions, named_path};
 use super::sweep::tell;
 use super::terminal;
 use crate::export::files;
@@ -25,7 +25,7 @@ would write.";
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
     /// The files of all parts, in any order
-    #[arg(value_name = "PART", required = true)]
+    #[arg(value_name = "PART", required = true, value_parser = named_path())]
     parts: Vec<PathBuf>,
 
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! `squeezefilm lessons`: lessons that a teacher has written, tried; and lessons on paper.
 
 use super::exit::{CliError, Exit};
-use super::options::cancel_on_interrupt;
+use super::options::{cancel_on_interrupt, named_path};
 use super::progress::Bar;
 use super::terminal;
 use crate::atomic::{Staged, write_file};
@@ -30,25 +30,25 @@ enum Command {
     /// Reads the lessons in a folder and tests every task: try must fulfil its check, wrong must not
     Check {
         /// A folder of lessons, or one lesson
-        #[arg(value_name = "DIR")]
+        #[arg(value_name = "DIR", value_parser = named_path())]
         folder: PathBuf,
     },
     /// Writes worksheets and answer sheets as HTML and PDF, a page for each lesson
     Print {
         /// A folder of lessons, or one lesson; without it, the built-in lessons
-        #[arg(value_name = "DIR")]
+        #[arg(value_name = "DIR", value_parser = named_path())]
         folder: Option<PathBuf>,
         /// Folder for worksheets and answers
-        #[arg(long, value_name = "DIR", default_value = "handouts")]
+        #[arg(long, value_name = "DIR", default_value = "handouts", value_parser = named_path())]
         out: PathBuf,
     },
     /// Writes a page summing up a class's answers, from records that students saved as CSV
     Summary {
         /// Records, one for each student
-        #[arg(value_name = "FILE", required = true)]
+        #[arg(value_name = "FILE", required = true, value_parser = named_path())]
         records: Vec<PathBuf>,
         /// The page
-        #[arg(long, value_name = "FILE", default_value = "summary.html")]
+        #[arg(long, value_name = "FILE", default_value = "summary.html", value_parser = named_path())]
         out: PathBuf,
     },
 }

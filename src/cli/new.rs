@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::from_input;
+use super::options::{from_input, named_path};
 use super::terminal;
 use crate::analysis::data_sheet::agreeing;
 use crate::control::Cancel;
@@ -26,7 +26,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
     /// The preset file to write; without it, to standard output
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", value_parser = named_path())]
     file: Option<PathBuf>,
 
     /// Replaces an existing file

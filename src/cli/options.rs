@@ -15,7 +15,7 @@ use crate::platform::{on_interrupt, timed};
 use crate::scene::{Parameter, Scene, Value, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser, ValueParser};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -91,7 +91,7 @@ pub(super) fn warn_of_given_path(scene: &Scene) {
 pub(super) const PRESET: &str =
     "A built-in preset (see: squeezefilm presets), the path of a TOML file, or - for standard input";
 
-/// The PRESET argument that stands for standard input.
+/// The argument that stands for standard input.
 pub(super) const STANDARD_INPUT: &str = "-";
 /// The largest preset on standard input \[MB\].
 const LARGEST: u64 = 16;
@@ -101,12 +101,24 @@ pub(super) fn from_input(fault: ReadError) -> CliError {
     CliError::Input(format!("standard input: {fault}"))
 }
 
-fn from_standard_input() -> Result<Scene, CliError> {
-    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(from_input)?;
+/// The text on standard input, of up to `limit` \[MB\].
+pub(super) fn standard_input(limit: u64) -> Result<String, CliError> {
+    let text = input::read_stream(io::stdin().lock(), limit).map_err(from_input)?;
     if text.trim().is_empty() {
-        return Err(CliError::Input("standard input: it is empty, or has been read: - can be given once".to_owned()));
+        return Err(CliError::usage("standard input: it is empty, or has been read: - can be given once"));
     }
-    Ok(presets::disclaimed(Scene::from_toml(&text, "standard input")?))
+    Ok(text)
+}
+
+fn from_standard_input() -> Result<Scene, CliError> {
+    Ok(presets::disclaimed(Scene::from_toml(&standard_input(LARGEST)?, "standard input")?))
+}
+
+/// Reads a path that is written to, or that cannot be standard input: `-` is refused.
+pub(super) fn named_path() -> ValueParser {
+    let why = "- is standard input, which only a preset, fit --data and surface are read from: give a path";
+    let named = move |path: PathBuf| if path.as_os_str() == STANDARD_INPUT { Err(why) } else { Ok(path) };
+    PathBufValueParser::new().try_map(named).into()
 }
 
 /// How exact a result is to be, and how long that may take.
@@ -265,7 +277,7 @@ pub(super) struct OutputOptions {
     pub(super) json: bool,
 
     /// Writes files into this folder, made if needed; files of the same name are replaced
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = named_path())]
     pub(super) out: Option<PathBuf>,
 
     /// Formats of the figures in --out: svg, png, pdf; none for no figures; for solve also vtk, the film at each instant for ParaView

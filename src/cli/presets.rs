@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use super::exit::{CliError, Exit};
-use super::options::SceneOptions;
+use super::options::{SceneOptions, named_path};
 use super::{new, terminal};
 use crate::atomic::write_file;
 use crate::digits::capitalised;
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
     json: bool,
 
     /// Writes the preset into this file instead
-    #[arg(long, value_name = "FILE", requires = "preset", conflicts_with = "json")]
+    #[arg(long, value_name = "FILE", requires = "preset", conflicts_with = "json", value_parser = named_path())]
     out: Option<PathBuf>,
 
     /// Replaces an existing file

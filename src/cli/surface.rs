@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{OutputOptions, whole};
+use super::options::{OutputOptions, STANDARD_INPUT, standard_input, whole};
 use super::terminal;
 use crate::digits::{signed, significant};
 use crate::export::figures::surface::figure;
@@ -38,7 +38,7 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Measured heights: of the rotor's face and of the stator's, or one file that represents both
+    /// Measured heights: of the rotor's face and of the stator's, or one file that represents both; - for standard input
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
     files: Vec<PathBuf>,
 
@@ -75,7 +75,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 type Face = (String, (HeightMap, Texture));
 
 fn face(file: &Path, degree: u8) -> Result<Face, CliError> {
-    let text = read_text(file, LARGEST).map_err(|fault| CliError::file(file, fault))?;
+    let piped = file.as_os_str() == STANDARD_INPUT;
+    let file = if piped { Path::new("standard input") } else { file };
+    let text = if piped {
+        standard_input(LARGEST)?
+    } else {
+        read_text(file, LARGEST).map_err(|fault| CliError::file(file, fault))?
+    };
     let face = measured(&text, usize::from(degree)).map_err(|fault| CliError::file(file, fault))?;
     Ok((file.file_name().unwrap_or_default().to_string_lossy().into_owned(), face))
 }

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{SceneOptions, SolveOptions};
+use super::options::{SceneOptions, SolveOptions, named_path};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
@@ -46,7 +46,7 @@ pub(super) struct Arguments {
     json: bool,
 
     /// Writes table1.csv into this folder, made if needed; a file of that name is replaced
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = named_path())]
     out: Option<PathBuf>,
 }
 

@@ -159,7 +159,13 @@ fn residuals(fitted: &Fitted, measured: &Measured) -> Panel {
     let place = |i: usize| (count - i) as f64;
     let mut y = Axis::new("", "");
     if count <= MOST_NAMED {
-        y.names = measured.measurements.iter().enumerate().map(|(i, one)| (place(i), one.label.clone())).collect();
+        let names = || measured.measurements.iter().map(|one| one.what.name());
+        let several = names().zip(names().skip(1)).any(|(one, next)| one != next);
+        // A line of the table may hold several results.
+        let label = |one: &Measurement| {
+            if several { format!("{}, {}", one.label, one.what.name()) } else { one.label.clone() }
+        };
+        y.names = measured.measurements.iter().enumerate().map(|(i, one)| (place(i), label(one))).collect();
     }
     let points = fitted.rows.iter().enumerate().filter_map(|(i, row)| Some([row.residual?, place(i)]));
     let widest =

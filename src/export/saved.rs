@@ -10,6 +10,7 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::analysis::sweep::{MOST_POINTS, Part, Sweep, SweepRow, Vary, digest};
 use crate::analysis::validity::NAMES;
+use crate::input::csv_fault;
 use crate::scene::Scene;
 use crate::solution::StoppedBy;
 use crate::solve::Settings;
@@ -68,6 +69,9 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], o
 /// Message about a file of another sweep.
 const ANOTHER: &str = "it is of another sweep: another scene, range, setting, budget or version";
 
+/// Message about a file of something else.
+const NO_PART: &str = "it is no part of a sweep, as sweep --part saves them";
+
 /// Message about a damaged file; lines are counted from 1.
 fn damaged(line: u64, fault: impl Display) -> String {
     format!("line {line}: {fault}")
@@ -75,7 +79,8 @@ fn damaged(line: u64, fault: impl Display) -> String {
 
 fn head(text: &str) -> Result<Head, String> {
     let first = text.lines().next().unwrap_or_default();
-    let object = first.strip_prefix(char::from(COMMENT)).ok_or(ANOTHER)?;
+    let object = first.strip_prefix(char::from(COMMENT)).map(str::trim_start);
+    let object = object.filter(|object| object.starts_with('{')).ok_or(NO_PART)?;
     serde_json::from_str(object).map_err(|error| damaged(1, error))
 }
 
@@ -104,7 +109,8 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
     let (quantities, mut there) = (sweep.quantities(), vec![false; points.len()]);
     let mut rows: Vec<SweepRow> = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), &error))?;
+        let record =
+            record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), csv_fault(&error)))?;
         let line = record.position().map_or(0, csv::Position::line);
         // The reader refuses a record of another length than the header.
         let field = |column: usize| record.get(column).unwrap_or("");
@@ -266,7 +272,7 @@ mod tests {
         let read = |sweep: &Sweep, text: &str| super::read(sweep, Part::WHOLE, text);
         assert_eq!(read(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ANOTHER.to_owned()));
         assert_eq!(read(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ANOTHER.to_owned()));
-        assert_eq!(read(&ours, ""), Err(ANOTHER.to_owned()));
+        assert_eq!(read(&ours, ""), Err(NO_PART.to_owned()));
         let other = Part::all(2).last().unwrap();
         assert_eq!(super::read(&ours, other, &text), Err("it is part 1/1 of the sweep, not 2/2".to_owned()));
         let cut = &text[..text.len() - 20];
@@ -321,6 +327,9 @@ mod tests {
             assert!(told(&[parts[3].clone(), other]).starts_with("z.csv: it is of another sweep"));
         }
         assert_eq!(join(&[]).unwrap_err(), "parts are missing: all");
-        assert!(join(&[("a".to_owned(), "b".to_owned())]).unwrap_err().starts_with("a: it is of another sweep"));
+        for text in ["", "b", "# dx_um = 1\n", "sweep,point\n"] {
+            let told = join(&[("a".to_owned(), text.to_owned())]).unwrap_err();
+            assert!(told.starts_with("a: it is no part of a sweep"), "{text:?}: {told}");
+        }
     }
 }

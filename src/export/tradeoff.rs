@@ -2,7 +2,9 @@
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Family, Target, Tradeoff, TradeoffPoint};
-use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
+use crate::export::figure::{
+    Axis, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
+};
 use serde_json::{Value, json};
 
 /// The object of `--json`: the settings of a scene, and those that serve what was asked for, if anything.
@@ -96,6 +98,8 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
     let named = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
     Panel::new("", time, Axis::new(label, "%").log())
         .height(60.0)
+        // Inside, its signs would read as settings, and these as its signs.
+        .legend(Legend::Above)
         .layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)))
         // The rings are under the points, so that these stay to be seen.
         .layers(std::iter::once(rings).chain(families).filter(there))

@@ -3,7 +3,7 @@
 use super::lesson::{Kind, Lesson, Prediction};
 use super::work::{Stage, StepWork};
 use crate::export::html::{Kind as Cell, Page, Table};
-use crate::input::read_text;
+use crate::input::{csv_fault, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// Largest record read \[MB\].
 const LARGEST: u64 = 4;
+/// Columns without which a table is no record.
+const COLUMNS: [&str; 8] = ["lesson", "step", "title", "kind", "verb", "response", "success", "tries"];
 /// Most wrong answers of a question that a summary names.
 const NAMED: usize = 2;
 
@@ -123,9 +125,26 @@ pub fn statements(student: &str, records: &[Record]) -> String {
 /// The path and why it cannot be read, with the line.
 pub fn read(path: &Path) -> Result<Vec<Record>, String> {
     let fault = |why: String| format!("{}: {why}", path.display());
-    let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?;
-    let rows: Result<Vec<Record>, csv::Error> = csv::Reader::from_reader(text.as_bytes()).deserialize().collect();
-    rows.map_err(|error| fault(format!("is not a record of answers as the window saves it (CSV): {error}")))
+    // The reader miscounts lines that end in CRLF.
+    let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?.replace("\r\n", "\n");
+    let no_record = |why: String| fault(format!("is not a record of answers as the window saves it (CSV): {why}"));
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let head = reader.headers().map_err(|error| no_record(csv_fault(&error)))?.clone();
+    if let Some(missing) = COLUMNS.into_iter().find(|name| !head.iter().any(|column| column == *name)) {
+        return Err(no_record(format!("it has no column {missing}")));
+    }
+    let rows: Result<Vec<Record>, csv::Error> = reader.deserialize().collect();
+    rows.map_err(|error| {
+        let line = error.position().map_or_else(String::new, |at| format!("line {}: ", at.line()));
+        let why = match error.kind() {
+            csv::ErrorKind::Deserialize { err, .. } => {
+                let column = err.field().and_then(|field| head.get(usize::try_from(field).ok()?)).unwrap_or("?");
+                format!("column {column} holds something else")
+            }
+            _ => csv_fault(&error),
+        };
+        no_record(format!("{line}{why}"))
+    })
 }
 
 /// A web page with the summary of the records of a class.
@@ -247,8 +266,16 @@ mod tests {
         records.iter_mut().for_each(|record| record.time.clear());
         assert_eq!(read(&path).unwrap(), records);
         assert!(!super::statements("anna", &records).contains("timestamp"));
-        std::fs::write(&path, "lesson,step\n1,x\n").unwrap();
-        assert!(read(&path).unwrap_err().contains("is not a record of answers"));
+        let head = COLUMNS.join(",");
+        for (table, told) in [
+            ("lesson,step\n1,x\n".to_owned(), "as the window saves it (CSV): it has no column title"),
+            (format!("{head}\r\na,1,,,,,,1\r\na,x,,,,,,1\r\n"), "(CSV): line 3: column step holds something else"),
+            (format!("{head}\na,1\n"), "(CSV): line 2: 2 cells: expected 8, one for each column"),
+        ] {
+            std::fs::write(&path, table).unwrap();
+            let error = read(&path).unwrap_err();
+            assert!(error.ends_with(told), "{error}");
+        }
     }
 
     #[test]

@@ -165,8 +165,9 @@ pub struct NewMotor {
     pub scene: Scene,
     /// Assumptions that were made, in the order of the questions.
     pub assumed: Vec<Assumption>,
-    /// A sentence on torque or speed that no motor was found to have, if they were asked for.
-    pub unmet: Option<String>,
+    /// A sentence on each answer that the motor does not have: a number of teeth that was changed, torque and speed that no motor was
+    /// found to have.
+    pub unmet: Vec<String>,
 }
 
 /// Friction and tangential amplitude, as multiples of the least that torque and speed of the data sheet allow.
@@ -202,6 +203,7 @@ struct Draft<'a> {
     /// Keys and their values, as [`Scene::set_all`] takes them.
     pairs: Vec<(&'static str, String)>,
     assumed: Vec<Assumption>,
+    unmet: Vec<String>,
 }
 
 impl Draft<'_> {
@@ -265,7 +267,7 @@ impl NewMotor {
         if !wrong.is_empty() {
             return Err(wrong.join("\n"));
         }
-        let mut draft = Draft { answers, pairs: Vec::new(), assumed: Vec::new() };
+        let mut draft = Draft { answers, pairs: Vec::new(), assumed: Vec::new(), unmet: Vec::new() };
         let [diameter, frequency, load] =
             ["diameter-mm", "frequency-khz", "load-n"].map(|name| draft.number(name).unwrap_or(f64::NAN));
         let radius = 0.45 * diameter;
@@ -289,6 +291,9 @@ impl NewMotor {
                     "the nearest whole number, because the model has as many teeth on every wave: {taken} teeth on the ring, not {given:.0}"
                 );
                 draft.assume("stator.teeth_per_wave", teeth.round(), &why);
+                draft.unmet.push(format!(
+                    "The motor has {taken} teeth, not {given:.0}: the model has as many on each of the {waves} waves."
+                ));
             }
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
@@ -359,7 +364,7 @@ impl NewMotor {
         let assumed: Vec<String> = draft.assumed.iter().filter_map(words).collect();
         draft.pairs.push(("about", format!("From a data sheet. Assumed: {}.", assumed.join(", "))));
         let scene = Scene::motor().with(&draft.pairs).map_err(|error| error.to_string())?;
-        Ok(Self { scene, assumed: draft.assumed, unmet: None })
+        Ok(Self { scene, assumed: draft.assumed, unmet: draft.unmet })
     }
 
     /// As a preset file, which says at its head what was assumed.
@@ -457,6 +462,9 @@ mod tests {
         };
         let uneven = why(("teeth", "70"), "stator.teeth_per_wave");
         assert!(uneven.starts_with("8: ") && uneven.ends_with("72 teeth on the ring, not 70"), "{uneven}");
+        let unmet = |teeth| NewMotor::of(&answers(&[&NEEDED[..], &[("teeth", teeth)]].concat())).unwrap().unmet;
+        assert_eq!(unmet("10"), ["The motor has 9 teeth, not 10: the model has as many on each of the 9 waves."]);
+        assert!(unmet("72").is_empty());
         // A normal amplitude alone leaves the shape of the ellipse to be assumed, not its size.
         let tangential = why(("normal-amplitude-um", "0.8"), "stator.tangential_amplitude_um");
         assert!(tangential.starts_with("0.6154 µm: the normal amplitude divided by 1.3"), "{tangential}");

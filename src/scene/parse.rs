@@ -202,7 +202,7 @@ impl Reader<'_> {
                 Ok(read)
             }
             ParameterKind::CsvPath { fills } => return self.csv(scene, parameter, fills, value),
-            _ => value_from_toml(parameter, value.get_ref())
+            _ => value_from_toml(value.get_ref())
                 .ok_or_else(|| FaultKind::wrong_type(parameter, self.written(span.clone()))),
         };
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
@@ -276,11 +276,10 @@ impl Reader<'_> {
     }
 }
 
-/// The value of a parameter from TOML; `None` if it is of a type that no parameter has, or a fraction where a whole number is expected.
-fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> {
-    let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
+/// A value from TOML; `None` if it is of a type that no parameter has.
+fn value_from_toml(value: &DeValue<'_>) -> Option<Value> {
     match value {
-        DeValue::Float(_) => number(value).filter(|number| !whole || !number.is_finite()).map(Value::Number),
+        DeValue::Float(_) => number(value).map(Value::Number),
         // A whole number of more than 64 bits is read as floating point.
         DeValue::Integer(_) => integer(value).map(Value::Whole).or_else(|| number(value).map(Value::Number)),
         DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
@@ -377,7 +376,7 @@ fn records_from_toml(
                 wrong(table.span(), FaultKind::Rule { key: column.key, message });
                 continue;
             };
-            let read = value_from_toml(column, cell.get_ref())
+            let read = value_from_toml(cell.get_ref())
                 .ok_or_else(|| FaultKind::wrong_type(column, written(cell.span())))
                 .and_then(|value| column.accept(value));
             match read {

@@ -72,6 +72,9 @@ pub(super) fn no_number(parameter: &Parameter, text: &str) -> String {
         format!(", in {}", units.join(", ").replace('u', "µ").replace("Pas", "Pa·s"))
     };
     let (key, text, accepts) = (parameter.key, text.trim(), parameter.accepts());
+    if text == "none" && parameter.absent.is_none() {
+        return format!("{key} = none: this key cannot be left out: expected {accepts}{units}");
+    }
     let found = if text.is_empty() { "\"\"".to_owned() } else { show_text(text).to_string() };
     let sum = text.chars().skip(1).any(|c| "+-−".contains(c)) && text.contains(char::is_alphabetic);
     let sum = if sum && !units.is_empty() {

@@ -151,7 +151,12 @@ impl HeightMap {
                 }
                 continue;
             }
-            if heights.is_empty() && profile.is_none() && words.starts_with("x_") {
+            let begins = heights.is_empty() && profile.is_none();
+            if begins && words.starts_with("z_") {
+                let what = "x comes first: the columns of a profile are named like \"x_um,z_nm\"";
+                return Err(at(line, what.to_owned()));
+            }
+            if begins && words.starts_with("x_") {
                 let units: Vec<f64> = cells(words)
                     .zip(["x_", "z_"])
                     .filter_map(|(cell, prefix)| metres(cell.strip_prefix(prefix)?))

@@ -2,7 +2,7 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
-use crate::input::read_text;
+use crate::input::{csv_fault, read_text};
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::published;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
@@ -184,7 +184,7 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Reads a table, of commas, or of semicolons with decimal commas. Its first line names the columns:
+    /// Reads a table, of commas, or of semicolons or tabs, which may have decimal commas. Its first line names the columns:
     ///
     /// * a key of the scene, as `film.min_spacing_nm`: the condition of the line; an empty cell leaves it as the scene has it;
     /// * a number of a solve, as `film_load_n`, or `torque_nm` with `rotor_speed_rpm`: measured; an empty cell was not measured;
@@ -200,13 +200,17 @@ impl Measured {
         };
         // The reader miscounts lines that end in CRLF.
         let text = &text.replace("\r\n", "\n");
-        // Where the comma is in decimals, semicolons divide the columns.
-        let semicolons = text.lines().find(|line| !line.starts_with('#')).is_some_and(|head| head.contains(';'));
-        let decimal = |text: &str| if semicolons { text.replace(',', ".") } else { text.to_owned() };
+        // Where the comma is in decimals, semicolons or tabs divide the columns.
+        let delimiter = match text.lines().find(|line| !line.starts_with('#')).unwrap_or_default() {
+            names if names.contains(';') => b';',
+            names if names.contains('\t') && !names.contains(',') => b'\t',
+            _ => b',',
+        };
+        let decimal = |text: &str| if delimiter == b',' { text.to_owned() } else { text.replace(',', ".") };
         let mut reader = csv::ReaderBuilder::new();
-        reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
+        reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(delimiter);
         let mut reader = reader.from_reader(text.as_bytes());
-        let head = reader.headers().map_err(|error| fault(Some(1), error.to_string()))?.clone();
+        let head = reader.headers().map_err(|error| fault(Some(1), csv_fault(&error)))?.clone();
         if head.iter().all(str::is_empty) {
             let expected = "expected a line that names the columns, as in rotor_speed_rpm,torque_nm, and a line for each measurement";
             return Err(fault(None, format!("no table: {expected}")));
@@ -253,7 +257,7 @@ impl Measured {
         let mut measured =
             Self { name: origin.to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: errors };
         for record in reader.records().take(MOST_LINES + 1) {
-            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), error.to_string()))?;
+            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), csv_fault(&error)))?;
             let line = record.position().map(csv::Position::line);
             if measured.measurements.len() >= MOST_LINES {
                 return Err(fault(line, format!("more than {MOST_LINES} measurements")));
@@ -362,7 +366,7 @@ impl Measured {
         Ok(self)
     }
 
-    /// Without the lines of these names.
+    /// Without the lines of these names; some have to be left.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
         for label in labels {
             let before = self.measurements.len();
@@ -371,6 +375,9 @@ impl Measured {
                 let label = show_text(label);
                 return Err(AnalysisError::Input(format!("{}: skip {label}: no line has this name", self.name)));
             }
+        }
+        if self.measurements.is_empty() {
+            return Err(AnalysisError::Input(format!("{}: skip: no measurement is left", self.name)));
         }
         Ok(self)
     }

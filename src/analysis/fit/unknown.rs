@@ -30,6 +30,10 @@ impl FromStr for Bounds {
     fn from_str(text: &str) -> Result<Self, AnalysisError> {
         let syntax = || no_bounds(text);
         let (key, range) = text.split_once('=').ok_or_else(syntax)?;
+        let key = key.trim().to_owned();
+        if let Some(parameter) = Parameter::find(&key).filter(|parameter| parameter.range().is_none()) {
+            return Err(no_number(parameter));
+        }
         let parts: Vec<&str> = range.split(':').map(str::trim).collect();
         let (from, to, scale) = match parts[..] {
             [from, to] => (from, to, None),
@@ -37,7 +41,6 @@ impl FromStr for Bounds {
             [from, to, "lin"] => (from, to, Some(Scale::Linear)),
             _ => return Err(syntax()),
         };
-        let key = key.trim().to_owned();
         let number = |text| end_of_range(&key, text).map_err(|fault| AnalysisError::Input(format!("vary {fault}")));
         Ok(Self { from: number(from)?, to: number(to)?, key, scale })
     }
@@ -47,6 +50,15 @@ impl FromStr for Bounds {
 fn no_bounds(found: &str) -> AnalysisError {
     let expected = "expected key=from:to or key=from:to:log, as in film.min_spacing_nm=100:400";
     AnalysisError::Input(format!("vary {found}: {expected}"))
+}
+
+/// The fault of bounds for a key that is no number, or a whole one.
+fn no_number(parameter: &Parameter) -> AnalysisError {
+    AnalysisError::Input(format!(
+        "vary {}: it accepts {}; only a key that is a number, and not a whole one, can be chosen between two bounds",
+        parameter.key,
+        parameter.accepts()
+    ))
 }
 
 /// Which bound.
@@ -96,10 +108,7 @@ impl Unknown {
             scene.clone().set_value(key, Value::Number(end))?;
         }
         if !matches!(parameter.kind, ParameterKind::Number { .. }) {
-            return Err(AnalysisError::Input(format!(
-                "vary {key}: it accepts {}; only a key that is a number, and not a whole one, can be chosen between two bounds",
-                parameter.accepts()
-            )));
+            return Err(no_number(parameter));
         }
         let (from, to) = (bounds.from.min(bounds.to), bounds.from.max(bounds.to));
         let range = |why| AnalysisError::Input(format!("vary {key}: from {from} to {to} {why}"));

@@ -69,6 +69,9 @@ impl FromStr for Vary {
                 values: Values::List(values.split(',').map(|word| word.trim().to_owned()).collect()),
             });
         }
+        if let Some(parameter) = Parameter::find(&key).filter(|parameter| parameter.range().is_none()) {
+            return Err(no_range(parameter));
+        }
         let parts: Vec<&str> = values.split(':').map(str::trim).collect();
         let (ends, scale) = match parts[..] {
             [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
@@ -136,12 +139,7 @@ impl Axis {
                 let whole = match parameter.kind {
                     ParameterKind::Number { .. } => false,
                     ParameterKind::Whole { .. } => true,
-                    _ => {
-                        return Err(AnalysisError::Input(format!(
-                            "vary {key}: it accepts {}, and only a number has a range; list its values, separated by commas",
-                            parameter.accepts()
-                        )));
-                    }
+                    _ => return Err(no_range(parameter)),
                 };
                 for end in [from, to] {
                     scene.clone().set_value(key, Value::Number(*end))?;
@@ -184,6 +182,18 @@ fn no_vary(found: &str) -> AnalysisError {
     AnalysisError::Input(format!(
         "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log, or a list of two \
          values or more, as in film.slip=none,first-order"
+    ))
+}
+
+/// The fault of a range of a key that is no number.
+fn no_range(parameter: &Parameter) -> AnalysisError {
+    let (key, accepts) = (parameter.key, parameter.accepts());
+    let example = match parameter.kind {
+        ParameterKind::Choice { options: [.., first, second], .. } => format!(", such as {key}={first},{second}"),
+        _ => String::new(),
+    };
+    AnalysisError::Input(format!(
+        "vary {key}: it accepts {accepts}, and only a number has a range: give a list{example}"
     ))
 }
 

@@ -105,6 +105,13 @@ fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[f64; 4]> {
     (share < RIM / FAR).then(|| [x + share * (near[0] - x), y + share * (near[1] - y), near[0], near[1]])
 }
 
+/// Points along a line, at most a point of type apart.
+fn along([x, y, to_x, to_y]: [f64; 4]) -> Vec<[f64; 2]> {
+    let steps = distance([x, y], [to_x, to_y]).ceil().max(1.0);
+    let shares = (0..=steps as usize).map(|i| i as f64 / steps);
+    shares.map(|share| [x + share * (to_x - x), y + share * (to_y - y)]).collect()
+}
+
 /// A panel at its place.
 struct On<'a> {
     placed: &'a Placed,
@@ -241,14 +248,15 @@ impl On<'_> {
                 ends.into_iter().flat_map(|x| sides.map(|y| place(x, y))).collect()
             }
         };
-        self.freest(&places, &self.taken(false))
+        let taken = self.taken(false);
+        self.freest(&places, |rect| covered(rect, &taken))
     }
 
-    /// The first place inside the axes where least is drawn.
-    fn freest(&self, places: &[Rect], taken: &[[f64; 2]]) -> Rect {
+    /// The first place inside the axes where least is in the way.
+    fn freest(&self, places: &[Rect], in_the_way: impl Fn(&Rect) -> usize) -> Rect {
         let area = &self.placed.rect;
         let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
-        let freest = places.iter().filter(inside).min_by_key(|rect| covered(rect, taken));
+        let freest = places.iter().filter(inside).min_by_key(|&rect| in_the_way(rect));
         freest.or(places.first()).copied().unwrap_or_default()
     }
 
@@ -273,7 +281,8 @@ impl On<'_> {
     }
 
     /// The names of places, each with its own and where it is beside that: right and left first, then above and below, then at the corners,
-    /// then likewise farther away. `size`: width and height of words.
+    /// then likewise farther away. No line to a name crosses another name if there is a way round it. `size`: width and height of
+    /// words.
     fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
@@ -282,6 +291,7 @@ impl On<'_> {
         });
         let names: Vec<(&Text, [f64; 2])> = names.collect();
         let mut taken = if names.is_empty() { Vec::new() } else { self.taken(true) };
+        let mut written: Vec<Rect> = Vec::new();
         let mut place = |words: &str, [x, y]: [f64; 2]| {
             let [width, height] = size(words);
             let places = [5.0, 10.0, 16.0].map(|apart| {
@@ -292,8 +302,11 @@ impl On<'_> {
                 [beside, corners].concat()
             });
             let places: Vec<Rect> = places.concat().into_iter().map(|[x, y]| Rect { x, y, width, height }).collect();
-            let place = self.freest(&places, &taken);
-            taken.extend(place.points());
+            let line = |rect: &Rect| leader([x, y], rect).map_or_else(Vec::new, along);
+            let crossed = |line: &[[f64; 2]]| written.iter().map(|name| covered(name, line)).sum::<usize>();
+            let place = self.freest(&places, |rect| covered(rect, &taken) + crossed(&line(rect)));
+            taken.extend(place.points().chain(line(&place)));
+            written.push(place);
             place
         };
         names.into_iter().map(|(words, at)| (words, at, place(&words.text, at))).collect()
@@ -492,6 +505,29 @@ mod tests {
         assert_eq!(shown.len(), MARKERS);
         assert_ne!(shown, sparse(&points, 0));
         assert_eq!(sparse(&points[..5], 3).len(), 5);
+    }
+
+    #[cfg(feature = "gui")]
+    #[test]
+    fn a_line_to_a_name_goes_round_other_names() {
+        use crate::export::figure::{Marker, Shape};
+        let front = [[8.0, 140.0], [20.0, 90.0], [23.0, 88.0], [45.0, 85.0], [55.0, 60.0]];
+        let places = [[20.0, 90.0], [23.0, 88.0], [24.0, 92.0]];
+        let words = ["draft", "standard", "accuracy 1%"];
+        let panel = Panel::new("", Axis::new("x", ""), Axis::new("y", ""))
+            .layer(Line::new("", front, Style::quiet()))
+            .layer(Points::new("", places, Colour::FILM, Marker::solid(Shape::Circle)))
+            .layers(places.into_iter().zip(words).map(|(at, words)| Text::new(at, words)));
+        let size = |words: &str| [4.0 * words.len() as f64, 6.0];
+        let names = names(&panel, [[0.0, 200.0], [0.0, 150.0]], [200.0, 150.0], size);
+        assert!(names.iter().any(|(.., line)| line.is_some()), "{names:?}");
+        for (name, _, line) in &names {
+            let line = line.map_or_else(Vec::new, along);
+            for (other, [x, y], _) in names.iter().filter(|(other, ..)| other != name) {
+                let [width, height] = size(other);
+                assert_eq!(covered(&Rect { x: *x, y: *y, width, height }, &line), 0, "{name}, {other}: {names:?}");
+            }
+        }
     }
 
     #[test]
