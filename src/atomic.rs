@@ -138,8 +138,8 @@ impl Staged {
     }
 
     /// Replaces none of these files, unless by one of the same content.
-    pub fn sparing(self, spared: Vec<PathBuf>) -> Self {
-        Self { spared, ..self }
+    pub fn spare(&mut self, spared: Vec<PathBuf>) {
+        self.spared = spared;
     }
 
     /// The path in the scratch folder of the new content of a target, or of its older file.

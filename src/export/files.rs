@@ -86,9 +86,11 @@ pub struct Files<'a> {
 impl<'a> Files<'a> {
     /// None yet, for this folder.
     pub fn new(folder: &'a Folder<'a>) -> Result<Self, WriteError> {
-        let staged = Staged::new(folder.path)?;
+        let mut staged = Staged::new(folder.path)?;
         // A command does not replace what it was given.
-        let staged = if folder.command.is_empty() { staged } else { staged.sparing(read_so_far()) };
+        if !folder.command.is_empty() {
+            staged.spare(read_so_far());
+        }
         Ok(Self { staged, folder })
     }
 
