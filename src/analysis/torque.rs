@@ -73,7 +73,7 @@ impl TorqueCurves {
             dry_equivalent: Estimate { value: share, ..result.alpha } * motor.dry_friction,
             film_power: film_power(motor, &solution.recording),
             viscous_drag: viscous_drag(motor, &solution.recording),
-            speed_effect: speed_effect(motor, &problem.numerics, result.alpha.value, cancel),
+            speed_effect: speed_effect(motor, &problem.numerics, (result.alpha.value, fidelity), cancel),
         }))
     }
 
@@ -106,7 +106,7 @@ fn speeds(motor: &Motor, marked: &[Option<f64>]) -> Vec<f64> {
 
 /// [`TorqueCurves::speed_effect`]: a bound from the problem alone where that is small, and otherwise what a solve at the speed farthest from
 /// the scene's finds, with its error.
-fn speed_effect(motor: &Motor, numerics: &Numerics, alpha: f64, cancel: &Cancel) -> f64 {
+fn speed_effect(motor: &Motor, numerics: &Numerics, (alpha, fidelity): (f64, Fidelity), cancel: &Cancel) -> f64 {
     let share = 1.0 - alpha;
     if share <= 0.0 {
         return 0.0;
@@ -121,7 +121,8 @@ fn speed_effect(motor: &Motor, numerics: &Numerics, alpha: f64, cancel: &Cancel)
         let scenario = Scenario::Motor(Motor { rotor_speed, ..motor.clone() });
         let numerics = Numerics { wedge: Wedge::On, ..*numerics };
         let problem = Problem { name: String::new(), scenario, numerics };
-        let settings = Settings { record: Record::Numbers, ..Settings::default() };
+        let fidelity = fidelity.min(Settings::default().fidelity);
+        let settings = Settings { fidelity, record: Record::Numbers, ..Settings::default() };
         match solve(&problem, &settings, &mut (), cancel).ok()? {
             Solution { status: Status::Converged, outcome: Outcome::Motor(result), .. } => Some(result.alpha),
             _ => None,

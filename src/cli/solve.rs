@@ -9,6 +9,7 @@ use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::check_for_results;
 use crate::control::Cancel;
+use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Folder, Solved};
 use crate::export::json::{self, Summary};
 use crate::memory;
@@ -114,6 +115,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(Exit::worst(exits))
 }
 
+/// Time \[s\] for torque over speed that is told, if it is longer than the solve.
+const LONG: f64 = 0.3;
+
 /// Solves one preset, prints its result and writes its files. The object of `--json` is printed only if it is alone; it is
 /// returned unless the solve was cancelled.
 fn one(
@@ -140,6 +144,10 @@ fn one(
     let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
     result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
+    let more = started.elapsed().as_secs_f64() - wall_s;
+    if more > wall_s.max(LONG) {
+        terminal::note(&format!("torque over speed took another {}, which the cost does not count", duration(more)));
+    }
     result.warnings.iter().for_each(|warning| terminal::warning(warning));
     arguments.common.solve.tell_if_late("the solve", wall_s);
     if !arguments.common.output.json {
