@@ -405,7 +405,7 @@ fn that_the_replaced_key_is_not_given_may_be_said() {
         let with = |pairs: &[(&str, &str)]| Scene::motor().with(pairs);
         assert_eq!(with(&[(key, value), (replaced, "none")]).unwrap(), with(&[(key, value)]).unwrap());
         let alone = with(&[(replaced, "none")]).unwrap_err().to_string();
-        assert!(alone.contains("none is not a number"), "{alone}");
+        assert!(alone.contains("none: this key cannot be left out"), "{alone}");
     }
 }
 

@@ -71,6 +71,9 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
+/// Keys whose defaults are what everybody expects.
+const USUAL: [&str; 2] = ["film.temperature_c", "film.accommodation"];
+
 /// Numbers and choices of `scene` that nobody has given, so that they are those of the paper, or of the default strip: the file of a PRESET argument
 /// does not have them, or `original`, the scene that it describes, has no such key. Built-in presets give all of theirs.
 pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'static Parameter> {
@@ -88,7 +91,9 @@ pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'sta
         let number = matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
         (chosen || number && parameter.table() != "numerics") && parameter.absent.is_none()
     };
-    let default = |parameter: &&'static Parameter| scene.heeds(parameter.key) && !scene.is_set(parameter.key);
+    let default = |parameter: &&'static Parameter| {
+        scene.heeds(parameter.key) && !scene.is_set(parameter.key) && !USUAL.contains(&parameter.key)
+    };
     scene.parameters().filter(makes).filter(default).filter(|parameter| !given(parameter)).collect()
 }
 
