@@ -12,6 +12,8 @@ use crate::recording::Recording;
 const SAMPLES: usize = 121;
 /// A limit whose range is at most this many times that of the load is shown whole.
 const WHOLE: f64 = 2.0;
+/// Share of the cycle for which a limit has to be on the axes: less of it is a few lines up and down.
+const LEAST_INSIDE: f64 = 0.3;
 
 /// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
 pub fn exact(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Figure {
@@ -76,7 +78,13 @@ fn cycle(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Panel
     ];
     Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)
         .layer(rest(0.0, ""))
-        .layers(lines.map(|(name, loads, style)| Line::new(name, over_cycle(loads, scale), style)))
+        .layers(lines.map(|(name, loads, style)| {
+            let inside = loads.iter().filter(|load| (low..=high).contains(*load)).count();
+            if inside < (LEAST_INSIDE * loads.len() as f64) as usize {
+                return Line::new(format!("{name}: off the scale"), [], style);
+            }
+            Line::new(name, over_cycle(loads, scale), style)
+        }))
         .legend(Legend::Above)
 }
 
@@ -84,7 +92,7 @@ fn cycle(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Panel
 mod tests {
     use super::*;
     use crate::control::Cancel;
-    use crate::export::figure::Range;
+    use crate::export::figure::{Layer, Range};
     use crate::problem::Problem;
     use crate::scene::presets;
     use crate::solve::{Settings, solve};
@@ -102,6 +110,18 @@ mod tests {
                 panic!("{:?}", panel.x.range)
             };
             assert!(*from <= 0.26 * present && 3.9 * present <= *to, "{from} {present} {to}");
+            // The incompressible film is far off where the gas is trapped, and the trapped gas where all of it leaves.
+            let panel = cycle(plate, &found, &solution.recording);
+            let lines =
+                panel.layers.iter().filter_map(|layer| if let Layer::Line(line) = layer { Some(line) } else { None });
+            let off: Vec<&str> =
+                lines.map(|line| line.name.as_str()).filter(|name| name.contains("off the scale")).collect();
+            let expected: &[&str] = match khz {
+                "0.001" => &["trapped (Boyle): off the scale"],
+                "1" => &[],
+                _ => &["incompressible: off the scale"],
+            };
+            assert_eq!(off, expected, "{khz}");
         }
     }
 }
