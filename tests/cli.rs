@@ -398,6 +398,9 @@ fn help_and_version_go_to_standard_output() {
         assert_eq!((output.status.code(), err(&output)), (Some(0), ""), "{arguments:?}");
         assert!(!out(&output).is_empty());
     }
+    // That two parts of a ring stay together is told where one of them is set.
+    let help = out(&run(&["solve", "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("the edge of that part moves with it"), "{help}");
 }
 
 /// A CSV file as columns by name. Every field is a finite number.

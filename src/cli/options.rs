@@ -29,6 +29,8 @@ pub(super) struct SceneOptions {
     ///
     /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. A number may use another unit of its
     /// kind: --set film.min_spacing_nm=0.1um. `none` removes an optional key. All changes are applied together, in any order.
+    /// A length of a part of the rotor is set by the part's name: --set rotor.part.flange.r_inner_mm=26.5; where its edge touches
+    /// another part, the edge of that part moves with it.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
     pub(super) changes: Vec<(String, String)>,
 }
