@@ -3,7 +3,7 @@
 
 mod program;
 
-use program::{done, json, refused};
+use program::{done, json, out, refused};
 use squeezefilm::analysis::stability::{self, Cell, MAPS, Verdict, survey};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -66,7 +66,28 @@ fn what_cannot_be_mapped_has_status_2() {
         (&["stability", "--map", "spacing"], "spacing-frequency"),
         (&["stability", "--cells", "1"], "--cells"),
         (&["stability", "--set", "film.min_spacing_nm=3"], "5 to 10000 nm"),
+        (
+            &["stability", "asperities", "--map", "steps-spacing"],
+            "No map steps-spacing, which varies numerics.steps_per_cycle and film.min_spacing_nm: film.min_spacing_nm belongs to",
+        ),
     ] {
         refused(arguments, 2, &[words]);
     }
+}
+
+#[test]
+fn maps_that_a_scene_does_not_have_are_told_with_the_reason() {
+    let base = ["stability", "asperities", "--method=auto", "--cells=2", "--fidelity=draft"];
+    let maps = ["--map=spacing-frequency", "--map=load-amplitude", "--set=motor.load_n=20"];
+    let arguments = [&base[..], &maps].concat();
+    let output = done(&arguments);
+    let text = out(&output);
+    assert!(text.contains("  load-amplitude  auto        4 "), "{text}");
+    assert!(
+        text.contains("\nNo map spacing-frequency, which varies film.min_spacing_nm and stator.frequency_khz:"),
+        "{text}"
+    );
+    let object = json(&done(&[&arguments[..], &["--json"]].concat()));
+    assert_eq!(object["cells"].as_array().unwrap().len(), 4);
+    assert_eq!(object["unmapped"][0]["map"], "spacing-frequency");
 }

@@ -1,6 +1,6 @@
 //! `squeezefilm stability`: where each method solves, to the edges of the ranges.
 
-use super::columns::{Columns, heading};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
@@ -13,7 +13,7 @@ use crate::export::stability::{cell_object, detail, figure, object};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
-use crate::scene::show_text;
+use crate::scene::{Parameter, show_text};
 use crate::solve::Method;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -28,7 +28,8 @@ Examples:
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
 /// a pressure or contact force below 0, loads that do not add up), failed or refused. About a minute and a half on two cores, nearly all
-/// for the paper's method, which --method auto leaves out.
+/// for the paper's method, which --method auto leaves out. A map of a key that the motor does not have, such as the minimum
+/// spacing of rough faces, is left out, with the reason.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -58,11 +59,18 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
+    let mut maps: Vec<&'static Map> =
+        if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
+    let faults = maps.iter().filter_map(|map| Some((*map, map.fault(&scene)?.to_string())));
+    let unmapped: Vec<(&Map, String)> = faults.collect();
+    maps.retain(|map| unmapped.iter().all(|(other, _)| other.name != map.name));
+    if maps.is_empty() {
+        let told: Vec<String> = unmapped.iter().map(no_map).collect();
+        return Err(CliError::usage(&told.join("\n")));
+    }
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let methods =
         arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
-    let maps: Vec<&'static Map> =
-        if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
     let asked = cells(&scene, &maps, &methods, usize::from(arguments.cells));
     let total = asked.len();
     let (cells, wall_s) = Bar::points(total, 0).timed(|bar| {
@@ -71,11 +79,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         })
     });
 
-    let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
-    let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
+    let alone = |cell: &Cell| {
+        // The key of a cell takes the place of another form of it.
+        let mut given = arguments.common.scene.clone();
+        let varied = cell.changes.iter().filter_map(|(key, _)| Parameter::find(key));
+        let replaced: Vec<&str> = varied.flat_map(Parameter::alternatives).map(|other| other.key).collect();
+        given.changes.retain(|(key, _)| !replaced.contains(&key.as_str()));
+        format!("{} {} {}", given.command(&arguments.preset), settings.fidelity.option(), cell.options())
+    };
+    let mut human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
+    for missing in &unmapped {
+        human.push_str(&paragraph(&no_map(missing), "\n", ""));
+    }
     let complete = cells.len() == total;
     if complete {
-        let told = || json::document(&object(&scene.name, settings.fidelity, &cells), command);
+        let told = || json::document(&object(&scene.name, settings.fidelity, &cells, &unmapped), command);
         terminal::result(arguments.common.output.json, told, || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
@@ -94,14 +112,19 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }
 
-/// How many of each verdict, and every cell that our method does not solve, as a command: `alone` solves the scene as it is.
+/// Why there is no such map.
+fn no_map((map, reason): &(&Map, String)) -> String {
+    format!("No map {}, which varies {}: {reason}", map.name, map.axes.join(" and "))
+}
+
+/// How many of each verdict, and every cell that our method does not solve, as the command that solves it alone.
 fn text(
     name: &str,
     fidelity: Fidelity,
     maps: &[&'static Map],
     methods: &[Method],
     cells: &[Cell],
-    alone: &str,
+    alone: &dyn Fn(&Cell) -> String,
 ) -> String {
     let title = format!(
         "{}: where it is solved, to the edges of the ranges; method auto at {}",
@@ -126,8 +149,7 @@ fn text(
     if !unsolved.is_empty() {
         text.push_str("\nNot solved by method auto:\n");
         for cell in unsolved {
-            let (verdict, options) = (cell.verdict.name(), cell.options());
-            text.push_str(&format!("  {alone} {options}\n    {verdict}: {}\n", detail(cell)));
+            text.push_str(&format!("  {}\n    {}: {}\n", alone(cell), cell.verdict.name(), detail(cell)));
         }
     }
     text
