@@ -7,6 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
+use crate::atomic::remove_file;
 use crate::digits::duration;
 use crate::export::files::Files;
 use crate::export::stability::{cell_object, detail, figure, object};
@@ -48,6 +49,9 @@ pub(super) struct Arguments {
     #[command(flatten)]
     common: CommonOptions,
 }
+
+/// What a cancelled run leaves.
+const INCOMPLETE: &str = "stability.incomplete.csv";
 
 fn map() -> ValueParser {
     // The names are those of the maps: the first is never taken for want of another.
@@ -102,12 +106,16 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
         let mut files = Files::new(&folder)?;
         // What was cancelled does not pass for a map.
-        let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
+        let name = if complete { "stability.csv" } else { INCOMPLETE };
         files.add(name, |out| csv::rows_of_ours(cells.iter().map(cell_object), out))?;
         if complete {
             files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }
-        terminal::wrote(folder.path, &files.commit()?);
+        let paths = files.commit()?;
+        if complete {
+            remove_file(&folder.path.join(INCOMPLETE))?;
+        }
+        terminal::wrote(folder.path, &paths);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }

@@ -9,7 +9,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Sweep, SweepRow, Values, Vary};
-use crate::atomic::{Lock, WriteError, write_file};
+use crate::atomic::{Lock, WriteError, remove_file, write_file};
 use crate::digits::{duration, significant};
 use crate::estimate::Estimate;
 use crate::export::compare::{LIMITS, TIME_UP};
@@ -267,11 +267,8 @@ impl<'a> Saved<'a> {
         // What cannot be written is not lost: the same command goes on from there.
         let paths =
             files::swept(&self.out, self.sweep, rows, shown).inspect_err(|_| drop(self.save_unfinished(rows)))?;
-        let path = self.out.path.join(unfinished(self.part));
-        match std::fs::remove_file(&path) {
-            Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
-            _ => Ok(paths),
-        }
+        remove_file(&self.out.path.join(unfinished(self.part)))?;
+        Ok(paths)
     }
 }
 
