@@ -307,8 +307,9 @@ pub(crate) fn map_panel(
     }
     // There is nothing between words.
     let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
-    let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
-    let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
+    let (label, unit) = (quantity.words().to_owned(), quantity.unit(sweep.problem()).to_owned());
+    let grid = Grid { x: xs, y: ys, values };
+    let map = Map { label, unit, grid, range, shading: Shading::Cells, contours, ..Map::default() };
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
     let panel =
         with_points(panel, "not converged or not resolved", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
@@ -375,6 +376,10 @@ pub(super) mod tests {
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
         let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
         assert_eq!(known, [5]);
+        assert_eq!((&*map.label, &*map.unit), ("film share of the load α", ""));
+        let drawn = figure(&plane, &[row(1, numbers)], Quantity::MaxPressure);
+        let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
+        assert_eq!((&*map.label, &*map.unit), ("highest pressure", "kPa"));
 
         // Of nothing there is no range, and what differs by less than its error has one colour.
         let range = |rows: &[SweepRow]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
