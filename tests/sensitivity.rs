@@ -267,6 +267,8 @@ fn the_film_under_a_drawn_plate_carries_it() {
     let carlo = found.monte_carlo(&uncertain, 12, 1, &Cancel::new(), &|| ()).unwrap();
     assert_eq!((carlo.draws.len(), carlo.failures.len()), (12, 0));
     for draw in &carlo.draws {
+        // Its stiffness and damping, too.
+        assert!(draw.results.len() == 3 && draw.results.iter().all(|found| found.error < found.value), "{draw:?}");
         let mut held = scene.clone();
         held.set_all([
             ("plate.mass_g", "none".to_owned()),

@@ -230,7 +230,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
         head.extend(["Monte Carlo (std. dev.)", "5 % … 95 %"]);
     }
     let mut columns = Columns::headed(head);
-    let (mut beyond, mut bent) = (Vec::new(), Vec::new());
+    let (mut beyond, mut bent, mut missing) = (Vec::new(), Vec::new(), Vec::new());
     for (i, output) in sensitivity.outputs.iter().enumerate() {
         let value = sensitivity.values[i];
         if !value.value.is_finite() {
@@ -256,6 +256,9 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             if spread.as_ref().is_some_and(|spread| spread.is_off(value)) {
                 bent.push(output.words());
             }
+            if spread.is_none() {
+                missing.push(output.words());
+            }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
                 format!("{} ({})", with_error(spread.mean, spread.mean_error()), significant(spread.deviation, 2))
             }));
@@ -280,6 +283,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             "more uncertain than they are large, to first order; --monte-carlo 500 says what so great a change does.",
         );
     }
+    remark(&missing, "fewer than two of the random scenes have such a result.");
     let again = if found.carlo.is_some_and(|carlo| carlo.redrawn > 0) {
         ", or because draws outside of the ranges were drawn again"
     } else {
