@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{capitalised, counted, duration, percent, significant, with_error};
+use crate::digits::{capitalised, counted, duration, percent, rounded, significant, with_error};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::SensitivityStudy;
@@ -215,6 +215,11 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     text
 }
 
+/// To so many digits, those of a whole number too: `4123000`, as a number with its error is.
+fn to_digits(value: f64, digits: usize) -> String {
+    significant(rounded(value, digits), digits)
+}
+
 fn uncertain(found: &SensitivityStudy<'_>) -> String {
     let sensitivity = found.sensitivity;
     let problem = &sensitivity.problem;
@@ -237,15 +242,14 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             continue;
         }
         let propagated = sensitivity.propagated(i, found.uncertainties);
-        let digits = |value: f64| significant(value, 4);
         let mut parts = propagated.parts.clone();
         parts.sort_by(|a, b| b.1.value.abs().total_cmp(&a.1.value.abs()));
         let most = parts.first().and_then(|(parameter, _)| Some((parameter.key, propagated.share(parameter)?)));
         let mut row = vec![
             output.label(problem),
-            digits(value.value),
-            significant(propagated.deviation.value, 2),
-            if value.error.is_finite() { format!("± {}", significant(value.error, 2)) } else { String::new() },
+            to_digits(value.value, 4),
+            to_digits(propagated.deviation.value, 2),
+            if value.error.is_finite() { format!("± {}", to_digits(value.error, 2)) } else { String::new() },
             most.map_or_else(String::new, |(key, share)| format!("{key}, {}", percent(share))),
         ];
         if propagated.deviation.value > value.value.abs() {
@@ -260,7 +264,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
                 missing.push(output.words());
             }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
-                format!("{} ({})", with_error(spread.mean, spread.mean_error()), significant(spread.deviation, 2))
+                format!("{} ({})", with_error(spread.mean, spread.mean_error()), to_digits(spread.deviation, 2))
             }));
             row.push(
                 spread.map_or_else(String::new, |spread| format!("{} … {}", spread.quantiles[0], spread.quantiles[2])),
