@@ -287,6 +287,14 @@ fn set_aside(path: &Path, old: &Path) -> io::Result<()> {
     }
 }
 
+/// Removes a file, if there is one.
+pub fn remove_file(path: &Path) -> Result<(), WriteError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path: path.to_owned(), source }),
+        _ => Ok(()),
+    }
+}
+
 /// Removes scratch folders and locks of runs that were killed.
 fn remove_leftovers(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {

@@ -267,6 +267,8 @@ fn the_film_under_a_drawn_plate_carries_it() {
     let carlo = found.monte_carlo(&uncertain, 12, 1, &Cancel::new(), &|| ()).unwrap();
     assert_eq!((carlo.draws.len(), carlo.failures.len()), (12, 0));
     for draw in &carlo.draws {
+        // Its stiffness and damping, too.
+        assert!(draw.results.len() == 3 && draw.results.iter().all(|found| found.error < found.value), "{draw:?}");
         let mut held = scene.clone();
         held.set_all([
             ("plate.mass_g", "none".to_owned()),
@@ -381,6 +383,16 @@ fn text_object_and_files_agree() {
     let cells: Vec<&str> =
         out(&text).lines().find(|line| line.contains("motor.load_per_wave_n")).unwrap().split_whitespace().collect();
     assert_eq!(cells, ["motor.load_per_wave_n", "0", "none", "none"]);
+
+    // Large numbers are rounded, too, and so are those of random scenes.
+    let words =
+        ["sensitivity", "floating-disc", "--fidelity=draft", "--keys=plate.mass_g", "--uncertainty=plate.mass_g=5%"];
+    let text = done(&[&words[..], &["--monte-carlo=5"]].concat());
+    let lines: Vec<&str> =
+        out(&text).lines().filter(|line| line.trim_start().starts_with("dynamic stiffness")).collect();
+    let [line] = lines[..] else { panic!("{}", out(&text)) };
+    let numbers: Vec<&str> = line.split(|c: char| !c.is_ascii_digit()).filter(|number| number.len() > 4).collect();
+    assert!(numbers.len() >= 6 && numbers.iter().all(|number| number.ends_with("00")), "{line}");
 }
 
 #[test]

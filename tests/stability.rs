@@ -3,7 +3,7 @@
 
 mod program;
 
-use program::{done, json, refused};
+use program::{done, json, out, refused};
 use squeezefilm::analysis::stability::{self, Cell, MAPS, Verdict, survey};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -39,9 +39,12 @@ fn a_map_by_both_methods_in_json_and_csv() {
     let mut arguments = vec!["stability", "--map=spacing-frequency", "--cells=2", "--fidelity=draft", "--json"];
     arguments.extend(meshes.iter().map(String::as_str));
     arguments.extend(["--out", path]);
+    // What a cancelled run has left goes when all is there.
+    let left = folder.path().join("stability.incomplete.csv");
+    std::fs::write(&left, "map\n").unwrap();
     let object = json(&done(&arguments));
     let cells = object["cells"].as_array().unwrap();
-    assert_eq!(cells.len(), 8);
+    assert_eq!((cells.len(), left.exists()), (8, false));
     let mut reader = csv::Reader::from_path(folder.path().join("stability.csv")).unwrap();
     let names = reader.headers().unwrap().clone();
     let column = |name: &str| names.iter().position(|found| found == name).unwrap();
@@ -66,7 +69,28 @@ fn what_cannot_be_mapped_has_status_2() {
         (&["stability", "--map", "spacing"], "spacing-frequency"),
         (&["stability", "--cells", "1"], "--cells"),
         (&["stability", "--set", "film.min_spacing_nm=3"], "5 to 10000 nm"),
+        (
+            &["stability", "asperities", "--map", "steps-spacing"],
+            "No map steps-spacing, which varies numerics.steps_per_cycle and film.min_spacing_nm: film.min_spacing_nm belongs to",
+        ),
     ] {
         refused(arguments, 2, &[words]);
     }
+}
+
+#[test]
+fn maps_that_a_scene_does_not_have_are_told_with_the_reason() {
+    let base = ["stability", "asperities", "--method=auto", "--cells=2", "--fidelity=draft"];
+    let maps = ["--map=spacing-frequency", "--map=load-amplitude", "--set=motor.load_n=20"];
+    let arguments = [&base[..], &maps].concat();
+    let output = done(&arguments);
+    let text = out(&output);
+    assert!(text.contains("  load-amplitude  auto        4 "), "{text}");
+    assert!(
+        text.contains("\nNo map spacing-frequency, which varies film.min_spacing_nm and stator.frequency_khz:"),
+        "{text}"
+    );
+    let object = json(&done(&[&arguments[..], &["--json"]].concat()));
+    assert_eq!(object["cells"].as_array().unwrap().len(), 4);
+    assert_eq!(object["unmapped"][0]["map"], "spacing-frequency");
 }

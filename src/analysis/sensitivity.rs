@@ -232,7 +232,8 @@ impl Sensitivity {
 
     fn solve_draw(&self, centre: Option<&Centre>, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
         let Some(centre) = centre else {
-            let settings = Settings { record: Record::Numbers, ..self.settings };
+            // Stiffness and damping follow from the lines.
+            let settings = Settings { record: Record::Everything, ..self.settings };
             let found = told(|| solve(problem, &settings, &mut (), cancel))?;
             return if is_settled(found.status) {
                 Ok(read(problem, &found))

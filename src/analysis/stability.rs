@@ -53,11 +53,28 @@ impl Map {
         MAPS.iter().find(|map| map.name == name)
     }
 
+    /// The scene with the keys of the axes in place of other forms of them, such as the load on the whole ring.
+    fn scene(&self, scene: &Scene) -> Result<Scene, SceneError> {
+        let mut scene = scene.clone();
+        for key in self.axes {
+            if let Some(usual) = Parameter::find(key).and_then(Parameter::usual) {
+                scene.set_value(key, usual)?;
+            }
+        }
+        Ok(scene)
+    }
+
+    /// Why there is no such map of `scene`: the fault of a key of its axes that the scene does not have.
+    pub fn fault(&self, scene: &Scene) -> Option<SceneError> {
+        self.scene(scene).err()
+    }
+
     /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` leaves the key. Fewer of a key
-    /// of whole numbers that has no more.
+    /// of whole numbers that has no more; none if the scene has no such map.
     pub fn values(&self, axis: usize, scene: &Scene, count: usize) -> Vec<f64> {
         let key = self.axes[axis];
-        let Some(Range { min, max }) = scene.range(key) else { return Vec::new() };
+        let range = self.scene(scene).ok().and_then(|scene| scene.range(key));
+        let Some(Range { min, max }) = range else { return Vec::new() };
         let max = up_to(key).unwrap_or(max).min(max);
         let spaced = |min: f64, count: usize| spaced(min, max, count, Scale::Log);
         let mut values = if min <= 0.0 {
@@ -361,6 +378,7 @@ fn most_cycles(problem: &Problem) -> usize {
 mod tests {
     use super::*;
     use crate::recording::{LineLoads, Recording};
+    use crate::scene::presets;
     use crate::solution::{Model, MotorResult, Stats};
 
     fn motor() -> Motor {
@@ -450,5 +468,28 @@ mod tests {
             }
         }
         assert_eq!(cells(&scene, &[&MAPS[0], &MAPS[4]], &[Method::Auto, Method::Paper], 3).len(), 36);
+    }
+
+    #[test]
+    fn a_map_varies_its_key_in_place_of_another_form_and_says_what_the_scene_does_not_have() {
+        let plain = Scene::motor().with([("film.gas", "air")]).unwrap();
+        let forms = [("motor.load_n", "20"), ("film.altitude_m", "1000"), ("stator.tooth_share", "0.5")];
+        let scene = plain.with(forms).unwrap();
+        for map in &MAPS {
+            assert_eq!(map.fault(&scene), None, "{}", map.name);
+            for axis in 0..2 {
+                assert_eq!(map.values(axis, &scene, 4), map.values(axis, &plain, 4), "{}", map.name);
+            }
+            let cells = cells(&scene, &[map], &[Method::Auto], 3);
+            assert_eq!(cells.len(), 9, "{}", map.name);
+            for cell in cells {
+                assert!(changed(&scene, &cell.changes).is_ok(), "{}", cell.options());
+            }
+        }
+        let rough = presets::find("asperities").unwrap();
+        let faults = MAPS.map(|map| map.fault(&rough).map(|fault| fault.to_string()));
+        assert_eq!(faults.each_ref().map(Option::is_some), [true, false, false, true, false], "{faults:?}");
+        assert!(faults.iter().flatten().all(|fault| fault.starts_with("film.min_spacing_nm belongs to")), "{faults:?}");
+        assert!(cells(&rough, &[&MAPS[0]], &[Method::Auto], 3).is_empty());
     }
 }

@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{capitalised, counted, duration, percent, significant, with_error};
+use crate::digits::{capitalised, counted, duration, percent, rounded, significant, with_error};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::SensitivityStudy;
@@ -215,6 +215,11 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     text
 }
 
+/// To so many digits, those of a whole number too: `4123000`, as a number with its error is.
+fn to_digits(value: f64, digits: usize) -> String {
+    significant(rounded(value, digits), digits)
+}
+
 fn uncertain(found: &SensitivityStudy<'_>) -> String {
     let sensitivity = found.sensitivity;
     let problem = &sensitivity.problem;
@@ -230,22 +235,21 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
         head.extend(["Monte Carlo (std. dev.)", "5 % … 95 %"]);
     }
     let mut columns = Columns::headed(head);
-    let (mut beyond, mut bent) = (Vec::new(), Vec::new());
+    let (mut beyond, mut bent, mut missing) = (Vec::new(), Vec::new(), Vec::new());
     for (i, output) in sensitivity.outputs.iter().enumerate() {
         let value = sensitivity.values[i];
         if !value.value.is_finite() {
             continue;
         }
         let propagated = sensitivity.propagated(i, found.uncertainties);
-        let digits = |value: f64| significant(value, 4);
         let mut parts = propagated.parts.clone();
         parts.sort_by(|a, b| b.1.value.abs().total_cmp(&a.1.value.abs()));
         let most = parts.first().and_then(|(parameter, _)| Some((parameter.key, propagated.share(parameter)?)));
         let mut row = vec![
             output.label(problem),
-            digits(value.value),
-            significant(propagated.deviation.value, 2),
-            if value.error.is_finite() { format!("± {}", significant(value.error, 2)) } else { String::new() },
+            to_digits(value.value, 4),
+            to_digits(propagated.deviation.value, 2),
+            if value.error.is_finite() { format!("± {}", to_digits(value.error, 2)) } else { String::new() },
             most.map_or_else(String::new, |(key, share)| format!("{key}, {}", percent(share))),
         ];
         if propagated.deviation.value > value.value.abs() {
@@ -256,8 +260,11 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             if spread.as_ref().is_some_and(|spread| spread.is_off(value)) {
                 bent.push(output.words());
             }
+            if spread.is_none() {
+                missing.push(output.words());
+            }
             row.push(spread.as_ref().map_or_else(String::new, |spread| {
-                format!("{} ({})", with_error(spread.mean, spread.mean_error()), significant(spread.deviation, 2))
+                format!("{} ({})", with_error(spread.mean, spread.mean_error()), to_digits(spread.deviation, 2))
             }));
             row.push(
                 spread.map_or_else(String::new, |spread| format!("{} … {}", spread.quantiles[0], spread.quantiles[2])),
@@ -280,6 +287,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
             "more uncertain than they are large, to first order; --monte-carlo 500 says what so great a change does.",
         );
     }
+    remark(&missing, "fewer than two of the random scenes have such a result.");
     let again = if found.carlo.is_some_and(|carlo| carlo.redrawn > 0) {
         ", or because draws outside of the ranges were drawn again"
     } else {

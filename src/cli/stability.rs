@@ -1,19 +1,20 @@
 //! `squeezefilm stability`: where each method solves, to the edges of the ranges.
 
-use super::columns::{Columns, heading};
+use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
 use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, cells, survey};
+use crate::atomic::remove_file;
 use crate::digits::duration;
 use crate::export::files::Files;
 use crate::export::stability::{cell_object, detail, figure, object};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
-use crate::scene::show_text;
+use crate::scene::{Parameter, show_text};
 use crate::solve::Method;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -28,7 +29,8 @@ Examples:
 ///
 /// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
 /// a pressure or contact force below 0, loads that do not add up), failed or refused. About a minute and a half on two cores, nearly all
-/// for the paper's method, which --method auto leaves out.
+/// for the paper's method, which --method auto leaves out. A map of a key that the motor does not have, such as the minimum
+/// spacing of rough faces, is left out, with the reason.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -48,6 +50,9 @@ pub(super) struct Arguments {
     common: CommonOptions,
 }
 
+/// What a cancelled run leaves.
+const INCOMPLETE: &str = "stability.incomplete.csv";
+
 fn map() -> ValueParser {
     // The names are those of the maps: the first is never taken for want of another.
     PossibleValuesParser::new(MAPS.map(|map| map.name)).map(|name| Map::find(&name).unwrap_or(&MAPS[0])).into()
@@ -58,11 +63,18 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
+    let mut maps: Vec<&'static Map> =
+        if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
+    let faults = maps.iter().filter_map(|map| Some((*map, map.fault(&scene)?.to_string())));
+    let unmapped: Vec<(&Map, String)> = faults.collect();
+    maps.retain(|map| unmapped.iter().all(|(other, _)| other.name != map.name));
+    if maps.is_empty() {
+        let told: Vec<String> = unmapped.iter().map(no_map).collect();
+        return Err(CliError::usage(&told.join("\n")));
+    }
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let methods =
         arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
-    let maps: Vec<&'static Map> =
-        if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
     let asked = cells(&scene, &maps, &methods, usize::from(arguments.cells));
     let total = asked.len();
     let (cells, wall_s) = Bar::points(total, 0).timed(|bar| {
@@ -71,11 +83,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         })
     });
 
-    let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
-    let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
+    let alone = |cell: &Cell| {
+        // The key of a cell takes the place of another form of it.
+        let mut given = arguments.common.scene.clone();
+        let varied = cell.changes.iter().filter_map(|(key, _)| Parameter::find(key));
+        let replaced: Vec<&str> = varied.flat_map(Parameter::alternatives).map(|other| other.key).collect();
+        given.changes.retain(|(key, _)| !replaced.contains(&key.as_str()));
+        format!("{} {} {}", given.command(&arguments.preset), settings.fidelity.option(), cell.options())
+    };
+    let mut human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
+    for missing in &unmapped {
+        human.push_str(&paragraph(&no_map(missing), "\n", ""));
+    }
     let complete = cells.len() == total;
     if complete {
-        let told = || json::document(&object(&scene.name, settings.fidelity, &cells), command);
+        let told = || json::document(&object(&scene.name, settings.fidelity, &cells, &unmapped), command);
         terminal::result(arguments.common.output.json, told, || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
@@ -84,24 +106,33 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
         let mut files = Files::new(&folder)?;
         // What was cancelled does not pass for a map.
-        let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
+        let name = if complete { "stability.csv" } else { INCOMPLETE };
         files.add(name, |out| csv::rows_of_ours(cells.iter().map(cell_object), out))?;
         if complete {
             files.figure("stability", &figure(&scene.name, settings.fidelity, &cells))?;
         }
-        terminal::wrote(folder.path, &files.commit()?);
+        let paths = files.commit()?;
+        if complete {
+            remove_file(&folder.path.join(INCOMPLETE))?;
+        }
+        terminal::wrote(folder.path, &paths);
     }
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }
 
-/// How many of each verdict, and every cell that our method does not solve, as a command: `alone` solves the scene as it is.
+/// Why there is no such map.
+fn no_map((map, reason): &(&Map, String)) -> String {
+    format!("No map {}, which varies {}: {reason}", map.name, map.axes.join(" and "))
+}
+
+/// How many of each verdict, and every cell that our method does not solve, as the command that solves it alone.
 fn text(
     name: &str,
     fidelity: Fidelity,
     maps: &[&'static Map],
     methods: &[Method],
     cells: &[Cell],
-    alone: &str,
+    alone: &dyn Fn(&Cell) -> String,
 ) -> String {
     let title = format!(
         "{}: where it is solved, to the edges of the ranges; method auto at {}",
@@ -126,8 +157,7 @@ fn text(
     if !unsolved.is_empty() {
         text.push_str("\nNot solved by method auto:\n");
         for cell in unsolved {
-            let (verdict, options) = (cell.verdict.name(), cell.options());
-            text.push_str(&format!("  {alone} {options}\n    {verdict}: {}\n", detail(cell)));
+            text.push_str(&format!("  {}\n    {}: {}\n", alone(cell), cell.verdict.name(), detail(cell)));
         }
     }
     text

@@ -9,7 +9,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Sweep, SweepRow, Values, Vary};
-use crate::atomic::{Lock, WriteError, write_file};
+use crate::atomic::{Lock, WriteError, remove_file, write_file};
 use crate::digits::{duration, significant};
 use crate::estimate::Estimate;
 use crate::export::compare::{LIMITS, TIME_UP};
@@ -47,8 +47,9 @@ Files of --out:
               each value of the first (twelve at most); and sweep.png
   scene.toml  the scene that is varied, as a preset
 A sweep that is cancelled (Ctrl-C) or killed leaves sweep.incomplete.csv
-instead; the same command continues it, to the same result. With --part
-3/64 there is only sweep.part-3-of-64.csv, complete or to be continued.";
+instead; the same command continues it, to the same result. Points are
+saved after 1 s and then every 5 s, and at Ctrl-C. With --part 3/64 there
+is only sweep.part-3-of-64.csv, complete or to be continued.";
 
 /// Solves a preset over values of one, two or three keys
 ///
@@ -125,17 +126,17 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("going on: {} of {points} points were solved before", done.len()));
     }
 
-    let saved = Mutex::new((done.clone(), Instant::now()));
+    let saved = Mutex::new((done.clone(), Instant::now(), SAVE_FIRST));
     let (rows, wall_s) = Bar::points(points, done.len()).timed(|bar| {
         sweep.run_part(part, &done, &cancel, &|row| {
             bar.point_done(&place(&sweep, row));
             let Some(folder) = &folder else { return };
             let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
             saved.0.push(row.clone());
-            if saved.1.elapsed() > SAVE_EVERY {
+            if saved.1.elapsed() > saved.2 {
                 // If it fails now it may succeed at the end, and there it is told.
                 let _ = folder.save_unfinished(&saved.0);
-                saved.1 = Instant::now();
+                (saved.1, saved.2) = (Instant::now(), SAVE_EVERY);
             }
         })
     });
@@ -199,7 +200,9 @@ fn of_the_whole(command: &[String]) -> Vec<String> {
     kept
 }
 
-/// How often what is solved is saved while the rest goes on.
+/// When what is solved is saved for the first time while the rest goes on.
+const SAVE_FIRST: Duration = Duration::from_secs(1);
+/// How often it is saved from then on.
 const SAVE_EVERY: Duration = Duration::from_secs(5);
 /// How the file ends of a sweep that is not complete.
 const UNFINISHED: &str = ".incomplete.csv";
@@ -267,11 +270,8 @@ impl<'a> Saved<'a> {
         // What cannot be written is not lost: the same command goes on from there.
         let paths =
             files::swept(&self.out, self.sweep, rows, shown).inspect_err(|_| drop(self.save_unfinished(rows)))?;
-        let path = self.out.path.join(unfinished(self.part));
-        match std::fs::remove_file(&path) {
-            Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
-            _ => Ok(paths),
-        }
+        remove_file(&self.out.path.join(unfinished(self.part)))?;
+        Ok(paths)
     }
 }
 

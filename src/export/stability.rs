@@ -1,7 +1,7 @@
 //! Maps of where a method solves, as JSON and as CSV, with the same names, and as a figure.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::stability::{Cell, VERDICTS, Verdict};
+use crate::analysis::stability::{Cell, Map, VERDICTS, Verdict};
 use crate::digits::as_given;
 use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
 use crate::fidelity::Fidelity;
@@ -9,10 +9,12 @@ use crate::scene::Parameter;
 use crate::solve::Method;
 use serde_json::{Value, json};
 
-/// The object of `--json`: the scene whose parameters are mapped, the fidelity of method auto, and the cells.
-pub fn object(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Value {
+/// The object of `--json`: the scene whose parameters are mapped, the fidelity of method auto, the cells, and the maps that the scene
+/// does not have, with the reason.
+pub fn object(preset: &str, fidelity: Fidelity, cells: &[Cell], unmapped: &[(&Map, String)]) -> Value {
     let cells: Vec<_> = cells.iter().map(cell_object).collect();
-    json!({ "preset": preset, "fidelity": fidelity.to_string(), "cells": cells })
+    let unmapped: Vec<_> = unmapped.iter().map(|(map, reason)| json!({ "map": map.name, "reason": reason })).collect();
+    json!({ "preset": preset, "fidelity": fidelity.to_string(), "cells": cells, "unmapped": unmapped })
 }
 
 /// One cell, a row of the CSV; x and y are the keys of the map. What is not known is null, or empty.

@@ -217,6 +217,9 @@ fn figure_axis(axis: &SweepAxis) -> Axis {
     Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
 }
 
+/// Points with numbers that are not sound.
+const UNSOUND: &str = "not converged or not resolved";
+
 /// Up to this many points each has its marker.
 const FEW: usize = 40;
 
@@ -254,7 +257,7 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
         .filter(|row| row.status != RunStatus::Converged)
         .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
         .collect();
-    panel = with_points(panel, "not converged or not resolved", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
+    panel = with_points(panel, UNSOUND, unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let value = |point: &Published| match quantity {
         Quantity::Alpha => Some(point.alpha),
         Quantity::FilmLoad => Some(point.film_load),
@@ -296,10 +299,20 @@ pub(crate) fn map_panel(
     let (xs, ys) = (ascending(&x.values), ascending(&y.values));
     let mut values = vec![f64::NAN; xs.len() * ys.len()];
     let mut unsound = Vec::new();
+    // What they have in common.
+    let number = |row: &SweepRow| matches!(row.status, RunStatus::NotConverged | RunStatus::NotResolved);
+    let sound = |row: &SweepRow| row.status == RunStatus::Converged;
+    let name = if rows.iter().all(|row| sound(row) || number(row)) {
+        UNSOUND
+    } else if rows.iter().any(number) {
+        "not solved, not converged or not resolved"
+    } else {
+        "not solved"
+    };
     for row in rows {
         let place = |axis: &[f64], value: f64| axis.iter().position(|at| *at == value);
         let at = place(&xs, row.values[0]).zip(place(&ys, row.values[1]));
-        if row.status != RunStatus::Converged {
+        if !sound(row) {
             unsound.push([row.values[0], row.values[1]]);
         } else if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
             values[i * ys.len() + j] = value;
@@ -307,11 +320,11 @@ pub(crate) fn map_panel(
     }
     // There is nothing between words.
     let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
-    let (label, grid) = (quantity.words().to_owned(), Grid { x: xs, y: ys, values });
-    let map = Map { label, grid, range, shading: Shading::Cells, contours, ..Map::default() };
+    let (label, unit) = (quantity.words().to_owned(), quantity.unit(sweep.problem()).to_owned());
+    let grid = Grid { x: xs, y: ys, values };
+    let map = Map { label, unit, grid, range, shading: Shading::Cells, contours, ..Map::default() };
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
-    let panel =
-        with_points(panel, "not converged or not resolved", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
+    let panel = with_points(panel, name, unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
     let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
     with_points(panel, "rows of Table I", published, Colour::BLACK, Marker::hollow(Shape::Square))
@@ -375,6 +388,24 @@ pub(super) mod tests {
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
         let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
         assert_eq!(known, [5]);
+        assert_eq!((&*map.label, &*map.unit), ("film share of the load α", ""));
+        let drawn = figure(&plane, &[row(1, numbers)], Quantity::MaxPressure);
+        let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
+        assert_eq!((&*map.label, &*map.unit), ("highest pressure", "kPa"));
+
+        // Crosses have a name that is true of all.
+        let failed = || RunStatus::Failed("no solution".to_owned());
+        for (statuses, name) in [
+            ([failed(), failed()], "not solved"),
+            ([RunStatus::NotResolved, RunStatus::NotConverged], "not converged or not resolved"),
+            ([RunStatus::NotConverged, failed()], "not solved, not converged or not resolved"),
+        ] {
+            let status = |(point, status)| SweepRow { status, ..row(point, numbers) };
+            let rows: Vec<SweepRow> = statuses.into_iter().enumerate().map(status).collect();
+            let drawn = figure(&plane, &rows, Quantity::Alpha);
+            let crosses = points(&drawn.panels[0]).swap_remove(0);
+            assert_eq!((&*crosses.name, crosses.points.len()), (name, 2));
+        }
 
         // Of nothing there is no range, and what differs by less than its error has one colour.
         let range = |rows: &[SweepRow]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
