@@ -28,7 +28,9 @@ pub(super) struct SceneOptions {
     /// Changes a key of the scene, written as TABLE.KEY; may be repeated
     ///
     /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. A number may use another unit of its
-    /// kind: --set film.min_spacing_nm=0.1um. `none` removes an optional key. All changes are applied together, in any order.
+    /// kind: --set film.min_spacing_nm=0.1um. `none` removes an optional key. All changes are applied together, in any order. A
+    /// part of a ring has its name in the key, and an edge that two parts share moves in both:
+    /// --set rotor.part.flange.r_inner_mm=28 moves the outer edge of the body, too.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
     pub(super) changes: Vec<(String, String)>,
 }
