@@ -99,6 +99,25 @@ impl Scene {
         Some(self.cell(key)?.map(put))
     }
 
+    /// The keys that name the values by which an array differs from that of `original`; none if keys cannot tell all of them, because there are
+    /// other tables.
+    pub(super) fn changed_cells(&self, original: &Self, array: &Parameter) -> Vec<&'static Parameter> {
+        let (Some(Value::Records(ours)), Some(Value::Records(theirs))) = (self.get(array.key), original.get(array.key))
+        else {
+            return Vec::new();
+        };
+        let keys = self.cell_keys();
+        if keys != original.cell_keys() {
+            return Vec::new();
+        }
+        let of_array = |key: &&String| key.strip_prefix(array.key).is_some_and(|rest| rest.starts_with('.'));
+        let differs = |key: &&String| self.cell_value(key) != original.cell_value(key);
+        let found: Vec<_> =
+            keys.iter().filter(of_array).filter(differs).filter_map(|key| Parameter::find(key)).collect();
+        let all = ours.iter().flatten().zip(theirs.iter().flatten()).filter(|(value, other)| value != other).count();
+        if found.len() == all { found } else { Vec::new() }
+    }
+
     /// All keys that name one value in an array of this scene.
     pub(super) fn cell_keys(&self) -> Vec<String> {
         let mut keys = Vec::new();

@@ -12,6 +12,8 @@ use std::path::Path;
 
 /// Digits of the numbers in a description; the scene has all of them.
 const DIGITS: usize = 6;
+/// Most values of an array that a description lists.
+const MOST_CELLS: usize = 4;
 
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
@@ -199,9 +201,20 @@ impl Scene {
                 format!("{value} {}", scene.unit(parameter)).trim_end().to_owned()
             }
         };
-        let changes = self.changed(original).map(|parameter| match parameter.kind {
-            ParameterKind::Rows { .. } | ParameterKind::Records { .. } => format!("another {}", parameter.key),
-            _ => format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter)),
+        let told = |parameter: &'static Parameter| {
+            format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter))
+        };
+        let changes = self.changed(original).flat_map(|parameter| match parameter.kind {
+            ParameterKind::Rows { .. } | ParameterKind::Records { .. } => {
+                let cells = self.changed_cells(original, parameter);
+                let few = (1..=MOST_CELLS).contains(&cells.len());
+                if few {
+                    cells.into_iter().map(told).collect::<Vec<_>>()
+                } else {
+                    vec![format!("another {}", parameter.key)]
+                }
+            }
+            _ => vec![told(parameter)],
         });
         let changes = changes.collect::<Vec<_>>().join("; ");
         let title = self.title(original);
@@ -235,7 +248,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Kind, PARAMETERS};
+    use crate::scene::{Kind, PARAMETERS, presets};
 
     fn table() -> Scene {
         let mut scene = Scene::motor();
@@ -319,6 +332,22 @@ mod tests {
         assert_eq!(scene.changed(&original).map(|p| p.key).collect::<Vec<_>>(), ["film.gas", "film.slip"]);
         scene.set("film.temperature_c", "30").unwrap();
         assert_eq!(scene.changed(&original).count(), 3);
+    }
+
+    #[test]
+    fn a_description_tells_every_edge_that_moves() {
+        let original = presets::find("ring-rotor").unwrap();
+        let about = |key: &str, text: &str| {
+            let mut scene = original.with([(key, text)]).unwrap();
+            scene.retitle(&original);
+            scene.about
+        };
+        assert_eq!(
+            about("rotor.part.flange.r_inner_mm", "26.5"),
+            "Ring rotor with rotor.part.flange.r_inner_mm = 26.5 mm, was 26.9 mm; rotor.part.body.r_outer_mm = 26.5 mm, was 26.9 mm."
+        );
+        let web = "[{name = \"web\", r_inner_mm = 28, r_outer_mm = 30, z_bottom_mm = 0, z_top_mm = 1.5, material = \"brass\"}]";
+        assert_eq!(about("rotor.part", web), "Ring rotor with another rotor.part.");
     }
 
     #[test]
