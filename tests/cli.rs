@@ -740,7 +740,7 @@ fn sizes_that_a_preset_does_not_give_are_told() {
     );
     assert!(!err(&run(&["solve", "floating-disc", "--fidelity", "draft"])).contains("assumed"));
     // What a change brings with it is not given either.
-    let changes = ["--set", "plate.mass_g=none", "--set", "plate.amplitude_um=0.5", "--set", "film.temperature_c=30"];
+    let changes = ["--set", "plate.mass_g=none", "--set", "plate.amplitude_um=0.5"];
     let told = err(&run(&[&["solve", "floating-disc", "--fidelity", "draft"][..], &changes].concat())).to_owned();
     assert!(told.contains("floating-disc: assumed, since they are not given: plate.mean_gap_um = 1 µm\n"), "{told}");
 }
