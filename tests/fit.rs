@@ -450,7 +450,7 @@ fn an_optimum_keeps_its_limits() {
     let found = found.unwrap().unwrap();
     assert!(found.warnings[0].contains("bound, ") && found.warnings[0].contains("max_torque_nm changes by less than "));
     let error = Goal::new(&motor, "torque", true, &[]).unwrap_err().to_string();
-    assert!(error.contains("maximise torque: no such number; allowed: alpha,"), "{error}");
+    assert!(error.contains("maximise torque: no such number; did you mean max_torque_nm? Allowed: alpha,"), "{error}");
 }
 
 #[test]

@@ -155,7 +155,12 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     drop_file(&mut window, path);
     until(&mut window, "the refusal", |app| app.state().activity.failure.is_some());
     assert!(window.query_by_label_contains("✔ Converged").is_none());
-    assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
+    // In the panel of results, and in the tab.
+    for tab in [Key::Num4, Key::Num1] {
+        window.ctrl(tab);
+        let told = window.query_all_by_label_contains("Of the scene before this edit; the present one has no");
+        assert_eq!(told.count(), 2);
+    }
 }
 
 #[test]

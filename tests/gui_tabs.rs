@@ -879,8 +879,22 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
     let carlo = window.known().sensitivity.carlo.as_ref().unwrap().clone();
     assert_eq!(Some(carlo), alone.monte_carlo(&uncertainties, 500, 1, &Cancel::new(), &|| ()));
+    let below = |window: &Window| place(window).top() - window.get_by_label("Draw and solve").rect().top();
+    let before = below(&window);
     window.type_into(spacing, "10%");
-    assert!(window.known().sensitivity.carlo.is_none());
+    // Those of before stay in place, marked as such, and are not exported.
+    let state = &window.known().sensitivity;
+    assert!(state.carlo.is_none() && state.drawn().is_some_and(|(.., earlier)| earlier));
+    assert!(window.shows("Random scenes of the earlier uncertainties"));
+    assert!((below(&window) - before).abs() < 1.0, "the rows stay where they are");
+    // A plain number has the unit of its key, which is shown.
+    window.get_by_label("s.d. 20 nm");
+    assert!(!window.shows("is more than the value itself"));
+    window.type_over(Role::TextInput, spacing, "300");
+    window.run_steps(4);
+    window.get_by_label("s.d. 300 nm");
+    assert!(window.shows("Minimum spacing H_m: a standard deviation of 300 nm is more than the value itself, 200 nm"));
+    window.type_over(Role::TextInput, spacing, "10%");
 
     // Of another scene they say so.
     assert!(!window.shows("before the scene changed"));

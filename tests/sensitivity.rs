@@ -372,10 +372,13 @@ fn text_object_and_files_agree() {
         assert!(0.0 < error && error < 0.1 * value, "{value} ± {error}");
     }
     assert_eq!(draws.lines().count(), 21);
-    for name in
-        ["sensitivity.json", "sensitivity.svg", "sensitivity.png", "monte-carlo.svg", "monte-carlo.png", "scene.toml"]
-    {
+    for name in ["sensitivity.json", "sensitivity.png", "uncertainty.png", "monte-carlo.png", "scene.toml"] {
         assert!(folder.path().join(name).exists(), "{name}");
+    }
+    for (name, of, keys) in [("sensitivity.svg", "1 %", 2), ("uncertainty.svg", "1 s.d.", 1)] {
+        let figure = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(figure.contains(&format!("for {of} more")), "{name}");
+        assert_eq!(figure.contains("load on one wave"), keys == 2, "{name}");
     }
     assert_eq!(std::fs::read(folder.path().join("sensitivity.json")).unwrap(), output.stdout);
 

@@ -11,7 +11,7 @@ use super::validity::{names, outside};
 use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::problem::{Outline, Problem, Scenario};
-use crate::scene::{PARAMETERS, Parameter, Scene, Value, show_text};
+use crate::scene::{PARAMETERS, Parameter, Scene, Value, show_up_to};
 use crate::solution::{Solution, settled};
 use crate::solve::{Settings, check};
 use rayon::prelude::*;
@@ -19,6 +19,9 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Most characters of a label: room for the name of a scene with two values that differ.
+pub const LONGEST_LABEL: usize = 80;
 
 /// One scene, solved.
 #[derive(Clone, Debug)]
@@ -122,7 +125,7 @@ fn labels(scenes: &[Scene]) -> Vec<String> {
 
 /// `name` as it is shown, a long one cut, numbered from 2 if it is taken.
 pub fn unique(name: &str, taken: impl Fn(&str) -> bool) -> String {
-    let name = if name.trim().is_empty() { "unnamed scene".to_owned() } else { show_text(name.trim()) };
+    let name = if name.trim().is_empty() { "unnamed scene".to_owned() } else { show_up_to(LONGEST_LABEL, name.trim()) };
     let mut label = name.clone();
     let mut count = 1;
     while taken(&label) {

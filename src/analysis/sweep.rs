@@ -158,6 +158,11 @@ impl Sweep {
         &self.scene
     }
 
+    /// The name of that scene above a figure, with what was changed of it other than the keys that are varied.
+    pub fn headline(&self) -> String {
+        self.scene.headline_over(&self.axes.iter().map(|axis| axis.parameter).collect::<Vec<_>>())
+    }
+
     /// Keys that are varied and their values, as they were given.
     pub fn vary(&self) -> &[Vary] {
         &self.vary

@@ -418,6 +418,17 @@ mod tests {
         assert_eq!(scene(&three[1..]).headline(), "Fundamental case, tooth radius 3 m, slip at the walls none");
         // Too long to be read above a figure.
         assert_eq!(scene(&three).headline(), scene(&three).name);
+        // What a figure varies is not one of the changes.
+        let over = |changes: &[(&str, &str)], keys: &[&str]| {
+            let varied: Vec<_> = keys.iter().map(|key| crate::scene::Parameter::find(key).unwrap()).collect();
+            scene(changes).headline_over(&varied)
+        };
+        let without_spacing = "Fundamental case, tooth radius 3 m, slip at the walls none";
+        assert_eq!(over(&three, &["film.min_spacing_nm"]), without_spacing);
+        assert_eq!(over(&three[..1], &["film.min_spacing_nm"]), "Fundamental case");
+        assert_eq!(over(&three, &["motor.dry_friction"]), "Fundamental case, changed: 3 keys");
+        let four = [&three[..], &[("stator.frequency_khz", "45.123")]].concat();
+        assert_eq!(over(&four, &["film.min_spacing_nm"]), "Fundamental case, changed: 3 keys");
         assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
         let long = scene(&[("film.min_spacing_nm", "123.456789012")]);
         assert!(long.about.contains("film.min_spacing_nm = 123.457 nm, was 200 nm."), "{}", long.about);

@@ -30,7 +30,8 @@ const FILES: &str = "\
 Files of --out:
   sensitivity.csv   a row for each result and key: derivative, elasticity, errors, part of the uncertainty
   sensitivity.json  what --json prints
-  sensitivity.svg   a tornado chart for each result; and sensitivity.png
+  sensitivity.svg   a tornado chart for each result: its change for 1 % more of each key; and sensitivity.png
+  uncertainty.svg   with --uncertainty: the same for one standard deviation more of each uncertain key; and uncertainty.png
   monte-carlo.csv   with --monte-carlo: a row for each draw, its results with their errors; and monte-carlo.svg, a histogram of each result, and .png
   scene.toml        the scene, as a preset";
 

@@ -431,6 +431,9 @@ pub fn sensitivity(folder: &Folder<'_>, found: &sensitivity::SensitivityStudy<'_
     files.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
     files.json("sensitivity.json", &found.object())?;
     files.figure("sensitivity", &found.tornado())?;
+    if let Some(uncertainty) = found.uncertainty() {
+        files.figure("uncertainty", &uncertainty)?;
+    }
     if let Some(histogram) = found.histogram() {
         files.add("monte-carlo.csv", |out| found.write_draws(out))?;
         files.figure("monte-carlo", &histogram)?;

@@ -152,16 +152,19 @@ impl SensitivityStudy<'_> {
         Figure { caption, provenance, ..Figure::default() }
     }
 
-    /// A tornado for each result: elasticities, or what each uncertain key contributes. Keys that hardly matter are left out.
+    /// A tornado for each result: its elasticities. Keys that hardly matter are left out.
     pub fn tornado(&self) -> Figure {
-        let certain = self.uncertainties.is_empty();
-        let what = if certain {
-            "Change of each result for 1 % more of each parameter"
-        } else {
-            "Change of each result for one standard deviation (s.d.) more of each uncertain parameter"
-        };
+        self.tornado_of("Change of each result for 1 % more of each parameter", None)
+    }
+
+    /// A tornado for each result: what each uncertain key contributes; `None` if no key is uncertain.
+    pub fn uncertainty(&self) -> Option<Figure> {
+        let what = "Change of each result for one standard deviation (s.d.) more of each uncertain parameter";
+        (!self.uncertainties.is_empty()).then(|| self.tornado_of(what, Some(self.uncertainties)))
+    }
+
+    fn tornado_of(&self, what: &str, uncertain: Option<&Uncertainties>) -> Figure {
         let mut figure = self.figure_of(format!("{what}, with the error of the derivative."));
-        let uncertain = Some(self.uncertainties).filter(|_| !certain);
         figure.panels =
             (0..self.sensitivity.outputs.len()).map(|output| bars(self.sensitivity, output, uncertain)).collect();
         figure

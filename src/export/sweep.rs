@@ -155,7 +155,7 @@ pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
         },
         error: quantity.error().map_or_else(String::new, worst),
         note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
-        ..Provenance::named(&show_text(&sweep.scene().headline()))
+        ..Provenance::named(&show_text(&sweep.headline()))
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     let found =

@@ -227,19 +227,36 @@ impl Scene {
     /// Its name above a figure. Of a scene with the title and the description that [`Scene::retitle`] gives, and so few changes that they
     /// can be read, these in place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
     pub fn headline(&self) -> String {
+        self.headline_over(&[])
+    }
+
+    /// [`Scene::headline`] of a figure that varies these keys: it does not say what they, or the keys that they replace, were changed to.
+    pub fn headline_over(&self, varied: &[&Parameter]) -> String {
         let changes = || {
             let (head, _) = self.name.rsplit_once(": ")?;
             let original = head.strip_suffix(" again").or_else(|| head.strip_suffix(", changed"))?;
-            let changes: Vec<&str> =
-                self.about.strip_prefix(original)?.strip_prefix(" with ")?.strip_suffix('.')?.split("; ").collect();
-            let named = |change: &&str| {
-                let (key, value) = change.split_once(", was ")?.0.split_once(" = ")?;
-                Some(format!("{} {value}", Parameter::find(key)?.words()))
+            let changes = self.about.strip_prefix(original)?.strip_prefix(" with ")?.strip_suffix('.')?.split("; ");
+            let key = |change: &str| match change.strip_prefix("another ") {
+                Some(key) => Parameter::find(key),
+                None => Parameter::find(change.split_once(" = ")?.0),
             };
-            let named = changes.iter().map(named).collect::<Option<Vec<_>>>()?;
-            let title = format!("{original}, {}", named.join(", "));
+            let quantity = |parameter: &Parameter| parameter.instead_of.unwrap_or(parameter.key);
+            let kept = |change: &&str| {
+                key(change).is_none_or(|key| !varied.iter().any(|axis| quantity(axis) == quantity(key)))
+            };
+            let changes: Vec<&str> = changes.filter(kept).collect();
+            if changes.is_empty() {
+                return Some(original.to_owned());
+            }
+            let named = |change: &&str| {
+                let (_, value) = change.split_once(", was ")?.0.split_once(" = ")?;
+                Some(format!("{} {value}", key(change)?.words()))
+            };
+            let named = changes.iter().map(named).collect::<Option<Vec<_>>>();
+            let title = named.map(|named| format!("{original}, {}", named.join(", ")));
             // Longer names are cut.
-            (show_text(&title) == title).then_some(title)
+            let title = title.filter(|title| show_text(title) == *title);
+            Some(title.unwrap_or_else(|| format!("{head}: {}", counted(changes.len(), "key", "keys"))))
         };
         changes().unwrap_or_else(|| self.name.clone())
     }

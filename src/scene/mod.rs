@@ -51,5 +51,5 @@ pub(crate) use nearest::nearest;
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use restate::SolvedPlate;
 pub use value::Value;
-pub(crate) use value::{escaped, is_unseen, show_text};
+pub(crate) use value::{escaped, is_unseen, show_text, show_up_to};
 pub use values::{Kind, Scene};

@@ -65,7 +65,12 @@ const LONGEST: usize = 60;
 
 /// A text that is safe to show on one line of a terminal: it is [`escaped`], and cut if it is long.
 pub(crate) fn show_text(text: &str) -> String {
-    match text.char_indices().nth(LONGEST) {
+    show_up_to(LONGEST, text)
+}
+
+/// [`show_text`] with so many characters.
+pub(crate) fn show_up_to(longest: usize, text: &str) -> String {
+    match text.char_indices().nth(longest) {
         Some((end, _)) => escaped(&text[..end]) + "…",
         None => escaped(text),
     }

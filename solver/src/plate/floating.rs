@@ -55,12 +55,13 @@ pub enum FloatError {
     #[error(transparent)]
     Memory(#[from] Excess),
     /// It rests on its roughness.
-    #[error("plate.amplitude_um = {}: the plate does not float: at the smallest gap that film.min_spacing_nm = {} allows, the film carries only {} % of the load; {}",
-        brief(amplitude * 1e6), brief(min_spacing * 1e9), brief(100.0 * share.clamp(0.0, 0.999)),
+    #[error("plate.amplitude_um = {}: the plate does not float: {}; at the smallest gap that film.min_spacing_nm = {} allows, the film carries only {} % of the load",
+        brief(amplitude * 1e6),
         match needed {
-            Some(needed) => format!("it floats with an amplitude of about {} µm", brief(needed * 1e6)),
-            None => format!("no amplitude up to {} µm is enough: it is too heavy or too small", brief(LARGEST_AMPLITUDE * 1e6)),
-        })]
+            Some(needed) => format!("it would with an amplitude of about {} µm", brief(needed * 1e6)),
+            None => format!("no amplitude up to {} µm is enough, as it is too heavy or too small", brief(LARGEST_AMPLITUDE * 1e6)),
+        },
+        brief(min_spacing * 1e9), brief(100.0 * share.clamp(0.0, 0.999)))]
     Rests {
         /// Amplitude \[m\].
         amplitude: f64,

@@ -142,9 +142,13 @@ pub(super) fn named(problem: &Problem, name: &str) -> Option<Quantity> {
     measurable(problem).into_iter().find(|quantity| quantity.name() == name || quantity.column(problem) == name)
 }
 
-/// The fault of a name that results of the scene do not have, given for `option`.
+/// The fault of a name that results of the scene do not have, given for `option`; `allowed`: those that they have, separated by commas.
 pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> AnalysisError {
-    AnalysisError::Input(format!("{option} {}: no such number; allowed: {allowed}", show_text(name)))
+    let allowed = match nearest(name, allowed.split(", ")) {
+        Some(near) => format!("did you mean {near}? Allowed: {allowed}"),
+        None => format!("allowed: {allowed}"),
+    };
+    AnalysisError::Input(format!("{option} {}: no such number; {allowed}", show_text(name)))
 }
 
 impl Measured {

@@ -61,12 +61,10 @@ impl FromStr for Limit {
         let name = if name == "α" { Quantity::Alpha.name() } else { name };
         let known = Quantity::all().find(|quantity| quantity.name() == name);
         let unit = known.map_or("", Quantity::usual_unit);
-        match quantity_text::number(unit, value) {
+        // Of a number that there is not the unit may be any: a goal, which knows the scene, tells which there are.
+        let any = Quantity::all().filter(|_| known.is_none()).map(Quantity::usual_unit);
+        match std::iter::once(unit).chain(any).find_map(|unit| quantity_text::number(unit, value)) {
             Some(value) => Ok(Self { name: name.to_owned(), below, value }),
-            None if known.is_none() && !name.is_empty() && !value.is_empty() => {
-                let all: Vec<&str> = Quantity::all().filter(|one| !one.is_error()).map(Quantity::name).collect();
-                Err(no_such_number("limit", name, &all.join(", ")))
-            }
             None => {
                 let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
                 Err(AnalysisError::Input(format!(
@@ -573,7 +571,15 @@ mod tests {
         for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf", "min_gap_nm<3 %", "min_gap_nm<3 kHz"] {
             assert!(wrong.parse::<Limit>().unwrap_err().to_string().contains("expected name<value"), "{wrong}");
         }
-        let unknown = "stall_torque>0.2 N·m".parse::<Limit>().unwrap_err().to_string();
-        assert!(unknown.contains("limit stall_torque: no such number; allowed: alpha, "), "{unknown}");
+        let motor = crate::scene::presets::find("fundamental").unwrap();
+        for (unknown, told) in [
+            ("stall>0.2 N·m", "limit stall: no such number; did you mean stall_torque_nm? Allowed: alpha, "),
+            ("stall_torque > 0.2", "limit stall_torque: no such number; did you mean stall_torque_nm? Allowed: alpha, "),
+            ("qqq > 1 kPa", "limit qqq: no such number; allowed: alpha, "),
+        ] {
+            let error = Goal::new(&motor, "alpha", false, &[unknown.parse().unwrap()]).unwrap_err().to_string();
+            // Only those of this scene.
+            assert!(error.contains(told) && !error.contains("load_ratio"), "{error}");
+        }
     }
 }

@@ -49,6 +49,31 @@ pub fn label(parameter: &Parameter) -> &'static str {
     parameter.name.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
 }
 
+/// A message with the words of the panels in place of keys: `Amplitude 0.01 µm` for `plate.amplitude_um = 0.01`.
+pub fn without_keys(message: &str) -> String {
+    let of_sentence = |c: char| matches!(c, ',' | ';' | ':' | '.');
+    let mut words = message.split(' ').peekable();
+    let mut told: Vec<String> = Vec::new();
+    while let Some(word) = words.next() {
+        let key = word.trim_end_matches(of_sentence);
+        let Some(parameter) = Parameter::find(key).filter(|_| key.contains('.')) else {
+            told.push(word.to_owned());
+            continue;
+        };
+        let name = if told.is_empty() { label(parameter).to_owned() } else { parameter.words() };
+        told.push(name + &word[key.len()..]);
+        if key.len() < word.len() || words.next_if_eq(&"=").is_none() {
+            continue;
+        }
+        let value = words.next().unwrap_or_default();
+        let number = value.trim_end_matches(of_sentence);
+        let unit = if number.parse::<f64>().is_ok() { parameter.unit } else { "" };
+        let end = &value[number.len()..];
+        told.push(if unit.is_empty() { value.to_owned() } else { format!("{number} {unit}{end}") });
+    }
+    told.join(" ")
+}
+
 /// Plain words for one name of a choice: those of the table, or the name itself with a capital letter.
 pub fn choice(key: &str, name: &str) -> String {
     let found = CHOICES.iter().find(|(found, option, _)| *found == key && *option == name);
@@ -144,6 +169,16 @@ mod tests {
         for (key, option, words) in CHOICES {
             assert_ne!(capitalised(&option.replace('-', " ")), *words, "{key}: {option} needs no words of its own");
         }
+    }
+
+    #[test]
+    fn messages_have_words_in_place_of_keys() {
+        let message = "plate.amplitude_um = 0.01: it does not float; film.min_spacing_nm = 200 allows less, of 0.5 µm";
+        let told = "Amplitude 0.01 µm: it does not float; minimum spacing H_m 200 nm allows less, of 0.5 µm";
+        assert_eq!(without_keys(message), told);
+        let message = "a smaller plate.amplitude_um, or film.gas = helium: 5 = 5";
+        assert_eq!(without_keys(message), "a smaller amplitude, or gas helium: 5 = 5");
+        assert_eq!(without_keys("film, the name: about"), "film, the name: about");
     }
 
     #[test]

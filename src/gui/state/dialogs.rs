@@ -87,7 +87,7 @@ impl Export {
             Self::TradeoffFigure => ("Trade-off as figure…", "tradeoff.svg", FIGURE,
                 "Error against solve time of all settings, as it is drawn here"),
             Self::Sensitivity => ("Sensitivities, into a folder…", "sensitivity", None,
-                "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"),
+                "Derivatives and uncertainties as CSV and JSON, charts of each result, the random scenes, the scene"),
             Self::Fit => ("Fit, into a folder…", "fit", None,
                 "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"),
             Self::Startup => ("Start-up, into a folder…", "startup", None,

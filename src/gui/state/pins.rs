@@ -1,12 +1,12 @@
 //! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them. Their scenes
 //! outlive the window, and are solved again.
 
-use crate::analysis::compare::{ComparedRun, ParameterRow, ResultRow, parameters, results, unique};
+use crate::analysis::compare::{ComparedRun, LONGEST_LABEL, ParameterRow, ResultRow, parameters, results, unique};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
 use crate::job::pin::PinWork;
 use crate::job::task::TaskOf;
-use crate::scene::Scene;
+use crate::scene::{Scene, show_up_to};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -311,7 +311,11 @@ pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
 }
 
-/// The name of a scene with the one or two keys that tell it apart from another. What it does not have is not named.
+/// Fewest characters that are left of the name of a scene.
+const SHORTEST_NAME: usize = 16;
+
+/// The name of a scene with the one or two keys that tell it apart from another. What it does not have is not named; where there is no room for
+/// all, it is the name that is cut.
 pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
     let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
@@ -319,7 +323,12 @@ pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
         Some(format!("{} {value} {}", row.parameter.words(), scene.unit(row.parameter)).trim_end().to_owned())
     });
     let differing: Vec<String> = differing.collect();
-    (1..=2).contains(&differing.len()).then(|| format!("{}, {}", scene.name, differing.join(", ")))
+    (1..=2).contains(&differing.len()).then(|| {
+        let differing = differing.join(", ");
+        // Of the name, without the comma, the space and the "…".
+        let room = LONGEST_LABEL.saturating_sub(differing.chars().count() + 3).max(SHORTEST_NAME);
+        format!("{}, {differing}", show_up_to(room, &scene.name))
+    })
 }
 
 /// A run of the window as one to be compared.
@@ -368,6 +377,20 @@ mod tests {
         let floating = given.with([("plate.mean_gap_um", "none"), ("plate.load_n", "1")]).unwrap();
         let name = told_apart(&floating, &given).unwrap();
         assert!(name.ends_with(" 1 N/m") && !name.contains("none") && !name.contains("gap"), "{name}");
+    }
+
+    #[test]
+    fn names_keep_the_units_of_what_differs() {
+        let given = presets::find("fundamental").unwrap();
+        let mut changed = given.with([("film.min_spacing_nm", "100"), ("stator.frequency_khz", "45")]).unwrap();
+        let named = |scene: &Scene| unique(&told_apart(scene, &given).unwrap(), |_| false);
+        let name = named(&changed);
+        assert!(name.starts_with("Fundamental case, ") && !name.contains('…'), "{name}");
+        assert!(name.contains("minimum spacing H_m 100 nm") && name.contains("frequency 45 kHz"), "{name}");
+        changed.set("name", &"long name ".repeat(12)).unwrap();
+        let cut = named(&changed);
+        assert!(cut.starts_with("long name ") && cut.contains("…, "), "{cut}");
+        assert!(cut.contains("minimum spacing H_m 100 nm") && cut.contains("frequency 45 kHz"), "{cut}");
     }
 
     #[test]

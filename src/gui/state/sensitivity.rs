@@ -28,6 +28,8 @@ pub struct SensitivityState {
     pub uncertainties: Option<Uncertainties>,
     /// Results of random scenes with these uncertainties.
     pub carlo: Option<MonteCarlo>,
+    /// Results of random scenes with uncertainties that were changed since, and these.
+    pub earlier: Option<(MonteCarlo, Uncertainties)>,
     /// Index of the result that is shown.
     pub output: usize,
     /// Number of random scenes; `None` for the default.
@@ -54,11 +56,13 @@ impl SensitivityState {
     pub fn drain(&mut self) {
         let (shares, found) = self.derivatives.found();
         if let Some(found) = found {
-            (self.found, self.carlo) = (Some(found.into()), None);
+            (self.found, self.carlo, self.earlier) = (Some(found.into()), None, None);
             self.judge();
         }
         let (drawn, carlo) = self.drawing.found();
-        self.carlo = carlo.or(self.carlo.take());
+        if carlo.is_some() {
+            (self.carlo, self.earlier) = (carlo, None);
+        }
         self.share = shares.into_iter().chain(drawn).last().unwrap_or(self.share);
     }
 
@@ -83,14 +87,21 @@ impl SensitivityState {
         self.found.as_ref().is_some_and(|found| !solved_alike(found.scene(), scene))
     }
 
-    /// Sets the uncertainty of a key from typed text. Results of random scenes are dropped.
+    /// Sets the uncertainty of a key from typed text. Results of random scenes are then [`Self::earlier`] ones.
     pub fn type_uncertainty(&mut self, key: &'static str, text: String) {
         self.typed.remove(key);
         if !text.trim().is_empty() {
             self.typed.insert(key, (text, None));
         }
+        self.earlier = self.carlo.take().zip(self.uncertainties.take()).or(self.earlier.take());
+        self.drawing = Background::default();
         self.judge();
-        (self.carlo, self.drawing) = (None, Background::default());
+    }
+
+    /// The random scenes that are shown, with their uncertainties, and whether these are earlier ones.
+    pub fn drawn(&self) -> Option<(&MonteCarlo, &Uncertainties, bool)> {
+        let present = self.carlo.as_ref().zip(self.uncertainties.as_ref()).map(|(carlo, by)| (carlo, by, false));
+        present.or_else(|| self.earlier.as_ref().map(|(carlo, by)| (carlo, by, true)))
     }
 
     /// Typed uncertainty of a key; empty if there is none.

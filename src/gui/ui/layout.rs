@@ -111,6 +111,10 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     match (cx.state.view.tab, &cx.state.run) {
         (Tab::Motion, Some(run)) => {
+            // While the present scene is solved, nothing moves down and up again.
+            if cx.state.activity.failure.is_some() {
+                cx.say_if_stale(ui, run);
+            }
             let first = cx.state.lessons.compared(cx.state.document.scene());
             views::run::show(ui, run, None, first.map(AsRef::as_ref), cx);
         }

@@ -7,7 +7,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::show_list;
 use crate::gui::ui::theme::outline_fields;
 use crate::scene::Parameter;
-use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
+use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question, asked};
 use eframe::egui::{self, Key, Ui};
 
 /// Share of the window's height that questions and assumptions have each.
@@ -37,6 +37,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).auto_shrink([true, false]);
     said.show(ui, |ui| match &motor {
         Ok(motor) => {
+            to_be_raised(&answers).into_iter().for_each(|text| cx.note(ui, text));
             for assumption in &motor.assumed {
                 let words = Parameter::find(assumption.key).map_or(assumption.key, label);
                 cx.note(ui, format!("Assumed: {words} {}: {}", assumption.value, assumption.why));
@@ -58,6 +59,22 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         }
     })
     .inner
+}
+
+/// What the motor will have more of than is assumed here, where nothing is solved yet, if it has to agree with a data sheet.
+fn to_be_raised(answers: &Answers) -> Option<String> {
+    let follows = [
+        ("stall-torque-nm", "friction", "stall torque"),
+        ("no-load-speed-rpm", "tangential amplitude", "no-load speed"),
+    ];
+    let follows = follows.into_iter().filter(|(question, ..)| asked(answers, question).is_some());
+    let (more, until): (Vec<&str>, Vec<&str>) = follows.map(|(_, more, until)| (more, until)).unzip();
+    let [more, until] = [more, until].map(|words| words.join(" and "));
+    (!more.is_empty()).then(|| {
+        format!(
+            "When it is made, the motor is solved with more {more} than assumed below, until it has the {until} of the data sheet"
+        )
+    })
 }
 
 /// Why the answer to a question is refused or missing, with the question's words; `None` if it is valid.
@@ -102,4 +119,19 @@ fn ask(ui: &mut Ui, question: &'static Question, answers: &mut Answers, cx: &Dra
         cx.push(Command::AnswerNewMotor(question.name, answer));
     }
     entered
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_assumed_only_for_a_start_says_so() {
+        let told = |given: &[&str]| to_be_raised(&given.iter().map(|name| ((*name).to_owned(), "1".to_owned())).collect());
+        assert_eq!(told(&["diameter-mm", "load-n"]), None);
+        let torque = told(&["stall-torque-nm"]).unwrap();
+        assert!(torque.contains("more friction than") && torque.contains("the stall torque of the data sheet"), "{torque}");
+        let both = told(&["stall-torque-nm", "no-load-speed-rpm"]).unwrap();
+        assert!(both.contains("friction and tangential amplitude") && both.contains("torque and no-load speed"), "{both}");
+    }
 }

@@ -1,6 +1,7 @@
 //! The question, the task and the explanation of a lesson's step, in tinted boxes.
 
 use crate::gui::command::LessonCommand;
+use crate::gui::derived::words::without_keys;
 use crate::gui::state::lessons::NUMBER;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::parts::number_box;
@@ -189,7 +190,7 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
             return;
         }
         ui.add_space(2.0);
-        cx.alarm(ui, &cx.state.activity.failure);
+        cx.alarm(ui, cx.state.activity.failure.as_deref().map(without_keys));
         match (&work.unmet, &task.too_far, cx.state.awaits_result()) {
             (_, _, true) => cx.note(ui, "Solving…"),
             (Some(unmet), ..) if work.tried => cx.say(ui, format!("Not yet. {unmet}."), cx.colours.contact),

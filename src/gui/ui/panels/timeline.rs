@@ -4,6 +4,7 @@ use crate::digits::{duration, percent};
 use crate::fidelity::Fidelity;
 use crate::gui::command::{Command, HoldCommand};
 use crate::gui::derived::format::{thousands, time};
+use crate::gui::derived::words::without_keys;
 use crate::gui::state::hold::HoldState;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
@@ -123,8 +124,9 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             ui.label("Nothing solved yet");
         }
         if let Some(message) = &activity.failure {
-            // All of a long one is said on hover.
-            ui.add(egui::Label::new(RichText::new(message).color(cx.colours.alarm)).truncate()).hint(message);
+            // All of a long one is said on hover, with the keys of a file.
+            let words = RichText::new(without_keys(message)).color(cx.colours.alarm);
+            ui.add(egui::Label::new(words).truncate()).hint(message);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {

@@ -197,17 +197,41 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     }
 }
 
-/// `text`, or as much of it as fits, with "…" in it: names of pins begin alike, and more is kept of the end.
+/// `text`, or as much of it as fits, with "…" in it: names of pins begin alike, and more is kept of the end. A number and its unit stay
+/// together, or go together.
 fn cut(text: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(text) {
         return text.to_owned();
     }
     let chars: Vec<char> = text.chars().collect();
+    let numbers = numbers_with_units(&chars);
+    let within = |place: usize| numbers.iter().find(|number| (number.start + 1..number.end).contains(&place));
     let kept = |count: usize| {
-        let (head, tail) = (&chars[..count / 3], &chars[chars.len() - (count - count / 3)..]);
-        head.iter().chain(&['…']).chain(tail).collect::<String>()
+        let (head, tail) = (count / 3, chars.len() - (count - count / 3));
+        let head = within(head).map_or(head, |number| number.start);
+        let tail = within(tail).map_or(tail, |number| number.end);
+        chars[..head].iter().chain(&['…']).chain(&chars[tail..]).collect::<String>()
     };
     (0..chars.len()).rev().map(kept).find(|text| fits(text)).unwrap_or_default()
+}
+
+/// Where there is a number in a text, each with the word behind it, unless there is a comma between.
+fn numbers_with_units(text: &[char]) -> Vec<std::ops::Range<usize>> {
+    let mut found: Vec<std::ops::Range<usize>> = Vec::new();
+    let mut start = 0;
+    let mut has_unit = true;
+    for word in text.split(|c| *c == ' ') {
+        let end = start + word.len();
+        let number = word.iter().find(|c| !['-', '−', '±'].contains(*c)).is_some_and(char::is_ascii_digit);
+        if number {
+            found.push(start..end);
+            has_unit = word.ends_with(&[',']);
+        } else if let Some(last) = found.last_mut().filter(|_| !has_unit) {
+            (last.end, has_unit) = (end, true);
+        }
+        start = end + 1;
+    }
+    found
 }
 
 /// Results and parameters of all pins.
@@ -346,6 +370,17 @@ mod tests {
         let pins = ["100", "150"].map(|spacing| format!("Fundamental case, minimum spacing H_m {spacing} nm"));
         assert_eq!(pins.each_ref().map(|pin| shown(pin, 16)), ["Funda…H_m 100 nm", "Funda…H_m 150 nm"]);
         assert_eq!(shown(&pins[0], 100), pins[0]);
+        // No number without its unit, and no part of one.
+        let name = "Case, frequency 45 kHz, minimum spacing H_m 100 nm";
+        for most in 1..name.len() {
+            let text = shown(name, most);
+            let (head, tail) = text.split_once('…').unwrap();
+            assert!(name.starts_with(head) && name.ends_with(tail), "{text}");
+            assert_eq!(text.matches("nm").count(), text.matches("100 nm").count(), "{text}");
+            assert_eq!(text.contains("kHz"), text.contains("45 kHz"), "{text}");
+            assert_eq!(text.contains('4') || text.contains('5'), text.contains("45 kHz"), "{text}");
+            assert_eq!(text.contains('0') || text.contains('1'), text.contains("100 nm"), "{text}");
+        }
         assert_eq!((shown("µµµ", 1), shown("µµµ", 0)), ("…".to_owned(), String::new()));
     }
 }

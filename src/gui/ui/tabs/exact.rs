@@ -141,7 +141,8 @@ fn table(ui: &mut Ui, found: &ExactComparison, units: [&str; 2], cx: &DrawContex
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
-    let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
+    // At the frequency of the vibration: in slow motion, which is the stiffness at this height, gas leaves.
+    let names = [format!("Dynamic stiffness, {}", units[0]), format!("Dynamic damping, {}", units[1])];
     let exact = |value: f64| raised(&significant(value, DIGITS));
     let Harmonic { spring: stiff, damping: lossy } = found.linear;
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);

@@ -38,10 +38,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         choose(ui, found, output, cx);
         result(ui, found, output, uncertainties, cx);
         tornado(ui, found, output, cx);
-        monte_carlo(ui, found, output, uncertainties, cx);
+        monte_carlo(ui, found, output, cx);
         table(ui, found, output, uncertainties, cx);
         // Below the rows, so that none of them moves while it is typed in.
         cx.alarm(ui, state.all_refused(found.scene()));
+        cx.alarm(ui, excessive(found, uncertainties));
         let whole = found.whole();
         if !whole.is_empty() {
             let names: Vec<&str> = whole.iter().filter_map(|key| Some(label(Parameter::find(key)?))).collect();
@@ -107,14 +108,18 @@ fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncer
             let unknown = (!spread.unknown.is_empty()).then(|| format!("without {}", spread.unknown.join(", ")));
             cx.alarm(ui, unknown);
         }
-        if let Some(spread) = cx.state.sensitivity.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
+        let drawn = cx.state.sensitivity.drawn();
+        let drawn = drawn.and_then(|(carlo, _, earlier)| Some((carlo.spread(output)?, earlier)));
+        if let Some((spread, earlier)) = drawn {
             let [low, _, high] = spread.quantiles;
             let text = format!(
-                "random scenes: mean {}, standard deviation {}, 90 % of them from {low} to {high}",
+                "{}random scenes: mean {}, standard deviation {}, 90 % of them from {low} to {high}",
+                if earlier { "earlier " } else { "" },
                 with_error(spread.mean, spread.mean_error()),
                 significant(spread.deviation, 2),
             );
-            glossary::term(ui, RichText::new(text).color(cx.colours.film), "Random scenes");
+            let colour = if earlier { cx.colours.quiet } else { cx.colours.film };
+            glossary::term(ui, RichText::new(text).color(colour), "Random scenes");
         }
     });
 }
@@ -139,8 +144,9 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>
     }
 }
 
-fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
+fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext<'_>) {
     let state = &cx.state.sensitivity;
+    let present = state.uncertainties.as_ref().is_some_and(|uncertainties| !uncertainties.is_empty());
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
@@ -149,7 +155,7 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
         let field = number_box(ui, field, (DRAWS, ""), cx).labelled_by(words.id).hint("How many are solved");
         cx.on_change(&field, SensitivityCommand::Draws(draws as usize));
         let refused = state.all_refused(found.scene()).next();
-        let can = !uncertainties.is_empty() && refused.is_none() && state.running().is_none();
+        let can = present && refused.is_none() && state.running().is_none();
         let button = ui.add_enabled(can, egui::Button::new("Draw and solve"));
         let needed = "Give a parameter an uncertainty in the table below first".to_owned();
         let why = refused.map_or(needed, |why| format!("Correct what is refused in the table below first. {why}"));
@@ -157,7 +163,7 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
         let about = "Draws every uncertain parameter at random and solves the scene, again and again (Monte Carlo)";
         cx.on_click(&button.hint(about), SensitivityCommand::Draw);
     });
-    let Some(carlo) = state.carlo.as_ref() else { return };
+    let Some((carlo, uncertainties, earlier)) = state.drawn() else { return };
     let failed = carlo.failures.len();
     let because = |first| format!("{failed} could not be solved and are missing, the first because {first}");
     cx.alarm(ui, carlo.failures.first().map(because));
@@ -167,11 +173,28 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &
     }
     let Some(panel) = distribution(found, output, uncertainties, carlo) else { return };
     let name = "Histogram of the random scenes";
-    title(ui, name, "Random scenes");
+    // On one line either way, so that the rows below stay where they are while an uncertainty is typed.
+    let heading = if earlier { "Random scenes of the earlier uncertainties; draw and solve again" } else { name };
+    title(ui, heading, "Random scenes");
     let height = HISTOGRAM * ui.text_style_height(&TextStyle::Body);
     let words = (Some(found.outputs[output].words()), "Random scenes");
     Chart { name, height, panel: &panel, words }.show(ui);
     cx.note(ui, "Dashed: the normal distribution that the derivatives give. The line: the result of the scene itself.");
+}
+
+/// Standard deviations that are larger than the values that they are of.
+fn excessive(found: &Sensitivity, uncertainties: &Uncertainties) -> Vec<String> {
+    // A temperature has no zero of its own, and a key may be zero.
+    let uncertain = uncertainties.iter().filter(|(parameter, at, _)| *at != 0.0 && parameter.unit != "°C");
+    let uncertain = uncertain.map(|(parameter, at, given)| (parameter, at, given.deviation(at)));
+    let excessive = uncertain.filter(|(_, at, deviation)| *deviation > at.abs());
+    let told = |(parameter, at, deviation): (&'static Parameter, f64, f64)| {
+        let [at, deviation] = [(at, 10), (deviation, 3)].map(|(value, digits)| {
+            format!("{} {}", short(value, digits), found.scene().unit(parameter)).trim_end().to_owned()
+        });
+        format!("{}: a standard deviation of {deviation} is more than the value itself, {at}", label(parameter))
+    };
+    excessive.map(told).collect()
 }
 
 /// Every parameter: how much the result changes with it, and its uncertainty, to type.
@@ -202,8 +225,15 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
             let by = &found.columns[column];
             let parameter = by.parameter;
             ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
-            ui.label(format!("{} {}", short(by.at, 10), parameter.unit).trim_end().to_owned());
-            field(ui, parameter, 6.0 * em, cx);
+            let unit = found.scene().unit(parameter);
+            ui.label(format!("{} {unit}", short(by.at, 10)).trim_end().to_owned());
+            ui.horizontal(|ui| {
+                field(ui, parameter, 6.0 * em, cx);
+                // The unit of a plain number, and what a given one comes to.
+                let given = uncertainties.deviation(parameter).map(|deviation| format!("s.d. {} ", short(deviation, 3)));
+                let read = given.unwrap_or_default() + &unit;
+                ui.label(RichText::new(read.trim_end()).color(cx.colours.quiet));
+            });
             match (&by.slopes, found.elasticity(output, column)) {
                 (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
                 (Ok(_), None) => drop(ui.label("–")),

@@ -140,7 +140,7 @@ const INTRODUCTION: &[&str] = &[
 
 /// State of the sweep: whether it is of the present scene, and how many points failed.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
-    let name = swept.sweep.scene().headline();
+    let name = swept.sweep.headline();
     let stale = swept.stale(cx.state.document.scene());
     cx.alarm(ui, stale.then(|| format!("Swept on “{name}” before the scene changed; sweep again")));
     if let Some(failure) = &swept.failure {

@@ -8,7 +8,7 @@ use crate::export::figure::{Axis, Colour, Dash, Layer, Line, Mark, Marker, Panel
 use crate::gui::derived::format::uncertain;
 use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
+use crate::gui::ui::glossary::{self, Explained};
 use crate::gui::ui::parts::{self, BESIDE_CHARTS, scrolled};
 use crate::gui::ui::theme::ACCENT;
 use crate::job::SolvedScene;
@@ -21,6 +21,10 @@ const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
 const LEAST_LINES: [f32; 3] = [9.0, 8.0, 6.0];
 /// In a tab wider than this, in heights of the text, power and efficiency stand beside each other.
 const BESIDE: f32 = 36.0;
+/// In a tab narrower than this, in heights of the text, the columns of the table are closer, and its names no wider than the second number.
+const NARROW: [f32; 2] = [30.0, 7.5];
+/// Room between the columns of the table, in a narrow tab and in others \[points\].
+const GAPS: [f32; 2] = [4.0, 10.0];
 /// Top of the efficiency's axis, a little above 100 %.
 const ALL: f64 = 104.0;
 /// Room above the highest curve.
@@ -169,13 +173,21 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
         (&present, both(&|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
         ("Friction heat there", both(&|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
     ];
-    parts::table(ui, "figures of merit", 3, 10.0, |ui| {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let narrow = ui.available_width() < NARROW[0] * em;
+    parts::table(ui, "figures of merit", 3, GAPS[usize::from(!narrow)], |ui| {
         ui.label("");
         parts::heads(ui, &[("With film", "With film")], cx.colours.film);
         parts::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
         ui.end_row();
         for (name, values, word) in rows {
-            glossary::term(ui, RichText::new(name).color(cx.colours.quiet), word);
+            ui.scope(|ui| {
+                if narrow {
+                    ui.set_max_width(NARROW[1] * em);
+                }
+                let name = egui::Label::new(RichText::new(name).color(cx.colours.quiet));
+                ui.add(if narrow { name.wrap() } else { name }).explained_here(ui, word);
+            });
             for value in values {
                 glossary::term(ui, RichText::new(value).color(ui.visuals().strong_text_color()), word);
             }
