@@ -136,6 +136,17 @@ fn scenes() -> Vec<Scene> {
 }
 
 #[test]
+fn a_ring_has_an_outer_radius() {
+    for (shape, outer) in [("disc", false), ("ring", true)] {
+        let mut plate = Scene::plate();
+        plate.set("plate.shape", shape).unwrap();
+        let harness = opened(plate);
+        let shown = |label: &str| harness.query_all_by_label(label).next().is_some();
+        assert_eq!([shown("Outer radius"), shown("Radius"), shown("Radius of the hole")], [outer, !outer, outer]);
+    }
+}
+
+#[test]
 fn every_parameter_has_a_named_widget() {
     for scene in scenes() {
         let harness = opened(scene.clone());

@@ -783,6 +783,9 @@ fn an_optimum_is_found_within_limits_and_taken() {
     let load = found.values()[0];
     assert!(window.shows("at its upper bound") && window.shows("allowed: alpha < 0.3"));
     assert!(window.shows("the result stays within "));
+    for name in ["within the limits", "a limit is not met"] {
+        window.get_by_label(name);
+    }
     let faults = &mut Vec::new();
     explains(faults, &window, "Fit, optimum", &["Line through the optimum"]);
     assert!(faults.is_empty(), "{faults:#?}");

@@ -176,7 +176,11 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     states(3, "$Q = 1.38$", slip, 1.38, 0.005);
     states(3, "$\\sigma/Q = 10$, so $\\sigma = 14$", sigma, 14.0, 0.02);
     says(3, "The leak time is then just $1/\\omega$.");
-    states(3, "$\\sigma$ is about 14 when the leak time", sigma / (std::f64::consts::TAU * 1.03e-3 * leak), 14.0, 0.05);
+    let at_leak_time = sigma / (std::f64::consts::TAU * 1.03e-3 * leak);
+    states(3, "$\\sigma$ is about 14, not 1, when the air needs as long as it has", at_leak_time, 14.0, 0.05);
+    // Of the preset, at 1 kHz.
+    states(3, "nearly so: $1/\\omega$ is 159 µs", 1e3 / std::f64::consts::TAU, 159.0, 2e-3);
+    states(3, "nearly so: $1/\\omega$ is 159 µs", leak, 159.0, 0.03);
     says(3, "answer = 1.03");
     let before = number("plate-crossover", &["plate.frequency_khz=0.2"], "squeeze_number");
     states(3, "Here $\\\\sigma$ is 2.7, at 0.2 kHz", before, 2.7, 0.01);

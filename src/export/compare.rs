@@ -314,8 +314,8 @@ pub fn report(
         )
     } else {
         format!(
-            "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are against the first. The \
-             ± is the solver's estimate of its numerical error; that of a difference is the most that both make of it.",
+            "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are from the first, in per \
+             cent of its value. The ± is the solver's estimate of its numerical error; that of a difference is the most that both make of it.",
             runs.len()
         )
     };

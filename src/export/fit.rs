@@ -254,6 +254,9 @@ pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()>
     csv::rows(rows, out)
 }
 
+/// Name of the part of a line through an optimum where a limit is not kept.
+pub const BEYOND: &str = "beyond";
+
 /// Lines through the optimum, a panel for each unknown; dashed where a limit is not kept.
 pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     let words = found.goal.quantity.label(problem);
@@ -263,7 +266,7 @@ pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     figure.provenance = Provenance::named(&found.scene.name);
     let limits = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect::<Vec<_>>().join(", ");
     let names =
-        if limits.is_empty() { [limits.clone(), limits] } else { [format!("within {limits}"), "beyond".to_owned()] };
+        if limits.is_empty() { [limits.clone(), limits] } else { [format!("within {limits}"), BEYOND.to_owned()] };
     for line in &found.lines {
         let parameter = line.unknown.parameter;
         let curve = || line.points.iter().map(|(value, computed)| [*value, computed.unwrap_or(f64::NAN)]);

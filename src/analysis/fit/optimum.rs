@@ -574,7 +574,10 @@ mod tests {
         let motor = crate::scene::presets::find("fundamental").unwrap();
         for (unknown, told) in [
             ("stall>0.2 N·m", "limit stall: no such number; did you mean stall_torque_nm? Allowed: alpha, "),
-            ("stall_torque > 0.2", "limit stall_torque: no such number; did you mean stall_torque_nm? Allowed: alpha, "),
+            (
+                "stall_torque > 0.2",
+                "limit stall_torque: no such number; did you mean stall_torque_nm? Allowed: alpha, ",
+            ),
             ("qqq > 1 kPa", "limit qqq: no such number; allowed: alpha, "),
         ] {
             let error = Goal::new(&motor, "alpha", false, &[unknown.parse().unwrap()]).unwrap_err().to_string();

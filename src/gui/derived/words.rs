@@ -49,6 +49,12 @@ pub fn label(parameter: &Parameter) -> &'static str {
     parameter.name.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
 }
 
+/// The name of a parameter beside those of `scene`: a ring has two radii.
+pub fn label_in(scene: &Scene, parameter: &Parameter) -> &'static str {
+    let ring = || scene.get("plate.shape") == Some(Value::Text("ring".to_owned()));
+    if parameter.key == "plate.radius_mm" && ring() { "Outer radius" } else { label(parameter) }
+}
+
 /// A message with the words of the panels in place of keys: `Amplitude 0.01 µm` for `plate.amplitude_um = 0.01`.
 pub fn without_keys(message: &str) -> String {
     let of_sentence = |c: char| matches!(c, ',' | ';' | ':' | '.');

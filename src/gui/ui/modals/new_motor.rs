@@ -127,11 +127,18 @@ mod tests {
 
     #[test]
     fn what_is_assumed_only_for_a_start_says_so() {
-        let told = |given: &[&str]| to_be_raised(&given.iter().map(|name| ((*name).to_owned(), "1".to_owned())).collect());
+        let told =
+            |given: &[&str]| to_be_raised(&given.iter().map(|name| ((*name).to_owned(), "1".to_owned())).collect());
         assert_eq!(told(&["diameter-mm", "load-n"]), None);
         let torque = told(&["stall-torque-nm"]).unwrap();
-        assert!(torque.contains("more friction than") && torque.contains("the stall torque of the data sheet"), "{torque}");
+        assert!(
+            torque.contains("more friction than") && torque.contains("the stall torque of the data sheet"),
+            "{torque}"
+        );
         let both = told(&["stall-torque-nm", "no-load-speed-rpm"]).unwrap();
-        assert!(both.contains("friction and tangential amplitude") && both.contains("torque and no-load speed"), "{both}");
+        assert!(
+            both.contains("friction and tangential amplitude") && both.contains("torque and no-load speed"),
+            "{both}"
+        );
     }
 }

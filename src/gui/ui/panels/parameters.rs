@@ -5,7 +5,7 @@ use super::records;
 use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
-use crate::gui::derived::words::{self, field_name, label};
+use crate::gui::derived::words::{self, field_name, label, label_in};
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::choices;
@@ -205,7 +205,7 @@ impl Panel<'_> {
     /// The name, and at its right the button that brings back what it was.
     fn label_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) -> egui::Response {
         let explanation = self.explanation(parameter);
-        let text = RichText::new(label(parameter));
+        let text = RichText::new(label_in(self.scene, parameter));
         let text = if is_main(self.scene, parameter) { text.strong() } else { text };
         self.beside_reset(ui, parameter, |ui| {
             ui.add(egui::Label::new(text).wrap().selectable(false)).hint_beside(ui, &explanation)

@@ -197,7 +197,7 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     match run.solution.accuracy.stopped_by {
         StoppedBy::Budget => cx.note(ui, "The time allowed was up before the error was as small as asked for"),
         StoppedBy::Limit if run.solution.accuracy.asked > 0.0 => {
-            cx.note(ui, "The error is larger than asked for: no finer grid was tried, or would help");
+            cx.note(ui, "The error is larger than asked for: a finer grid is not tried, or would not reduce it");
         }
         StoppedBy::Accuracy | StoppedBy::Limit => {}
     }

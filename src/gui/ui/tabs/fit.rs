@@ -2,8 +2,8 @@
 
 use crate::analysis::fit::{Bound, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, counted, percent, signed, significant};
-use crate::export::figure::Panel;
-use crate::export::fit::{figures, optimum_figure};
+use crate::export::figure::{Layer, Panel};
+use crate::export::fit::{BEYOND, figures, optimum_figure};
 use crate::gui::command::{Command, FitCommand};
 use crate::gui::derived::words::label;
 use crate::gui::state::dialogs::{Export, Purpose};
@@ -245,7 +245,17 @@ fn drawn(found: &FitResult) -> Drawn {
         FitResult::Optimum(found) => {
             let limited = found.goal.limits.iter().map(|(_, quantity)| *quantity);
             let words = std::iter::once(found.goal.quantity).chain(limited).map(|quantity| quantity.label(&problem));
-            Drawn { panels: optimum_figure(&problem, found).panels, words: words.collect() }
+            let mut panels = optimum_figure(&problem, found).panels;
+            // The limits themselves are in the table; the glossary knows these names.
+            for layer in panels.iter_mut().flat_map(|panel| &mut panel.layers) {
+                let Layer::Line(line) = layer else { continue };
+                match line.name.as_str() {
+                    "" => {}
+                    BEYOND => line.name = "a limit is not met".to_owned(),
+                    _ => line.name = "within the limits".to_owned(),
+                }
+            }
+            Drawn { panels, words: words.collect() }
         }
     }
 }
@@ -322,6 +332,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
     });
     take(ui, cx);
     ui.add_space(4.0);
+    legend(ui, &drawn.panels.iter().collect::<Vec<_>>());
     for (scan, panel) in found.lines.iter().zip(&drawn.panels) {
         let (name, word) = (format!("{sought} over {}", label(scan.unknown.parameter)), "Line through the optimum");
         title(ui, &name, word);

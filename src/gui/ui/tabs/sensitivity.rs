@@ -230,7 +230,8 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
             ui.horizontal(|ui| {
                 field(ui, parameter, 6.0 * em, cx);
                 // The unit of a plain number, and what a given one comes to.
-                let given = uncertainties.deviation(parameter).map(|deviation| format!("s.d. {} ", short(deviation, 3)));
+                let given =
+                    uncertainties.deviation(parameter).map(|deviation| format!("s.d. {} ", short(deviation, 3)));
                 let read = given.unwrap_or_default() + &unit;
                 ui.label(RichText::new(read.trim_end()).color(cx.colours.quiet));
             });

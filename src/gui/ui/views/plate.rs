@@ -255,7 +255,12 @@ fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     let Some(x) = shown.view.cursor_x.filter(|x| (left..=right).contains(x)) else {
         return vec!["Point at a view to read its values".to_owned()];
     };
-    let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
+    // A ring has no gap in its hole.
+    let gap = match shown.of.hole {
+        Some(hole) if x.abs() < hole => "hole".to_owned(),
+        _ => format!("gap {} µm", number(shown.thickness() * 1e6)),
+    };
+    let mut values = vec![format!("x {} mm", number(x * 1e3)), gap];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
         let place = if shown.of.width.is_some() { "p at y = 0" } else { "p" };
         values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
