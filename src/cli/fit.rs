@@ -109,7 +109,8 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let varied: Vec<&str> = arguments.vary.iter().map(|bounds| bounds.key.as_str()).collect();
+    let scene = arguments.common.scene.scene_varied(&arguments.preset, &varied)?;
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let greatest = arguments.maximise.as_ref().map(|name| (name, true));
     let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));

@@ -38,8 +38,17 @@ pub(super) struct SceneOptions {
 impl SceneOptions {
     /// The scene of a PRESET argument with the changes made, and a name that says so. What nobody has given is told.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
+        self.scene_varied(preset, &[])
+    }
+
+    /// Likewise, of a command that gives these keys values of its own.
+    pub(super) fn scene_varied(&self, preset: &str, varied: &[&str]) -> Result<Scene, CliError> {
         let (original, scene) = self.original_and_changed(preset)?;
-        let named = |parameter: &&'static Parameter| self.changes.iter().any(|(key, _)| key == parameter.key);
+        let named = |parameter: &&'static Parameter| {
+            self.changes.iter().any(|(key, _)| key == parameter.key)
+                || varied.contains(&parameter.key)
+                || parameter.when.iter().any(|(selector, _)| varied.contains(selector))
+        };
         let assumed = presets::assumed(preset, &original, &scene).into_iter().filter(|parameter| !named(parameter));
         let assumed = assumed.filter_map(|parameter| {
             let value = scene.get(parameter.key).filter(|value| value.as_number() != Some(0.0))?;

@@ -86,8 +86,8 @@ pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'sta
         file.as_ref().is_none_or(written) && original.has(parameter)
     };
     let makes = |parameter: &&'static Parameter| {
-        let chosen =
-            matches!(parameter.kind, ParameterKind::Choice { .. }) && ["rotor", "film"].contains(&parameter.table());
+        // The gas follows from what is given of it.
+        let chosen = ["rotor.model", "film.slip"].contains(&parameter.key);
         let number = matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
         (chosen || number && parameter.table() != "numerics") && parameter.absent.is_none()
     };
