@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, PRESET, STANDARD_INPUT, standard_input, whole};
+use super::options::{CommonOptions, PRESET, STANDARD_INPUT, spare_inputs, standard_input, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
@@ -123,6 +123,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("{solves} solves in {}", duration(wall_s)));
     };
     let (files, converged) = if let Some((name, greatest)) = sought {
+        folder.iter().try_for_each(|folder| spare_inputs(folder, &["fitted.toml"]))?;
         let goal = Goal::new(&scene, name, greatest, &arguments.subject_to)?;
         let (found, wall_s) = Bar::solve("").timed(|bar| {
             let told =
@@ -144,6 +145,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         } else {
             Measured::find(data, &scene, settings.method)?
         };
+        folder.iter().try_for_each(|folder| spare_inputs(folder, &["fit.csv", "fitted.toml"]))?;
         let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
         let model = Model::new(&scene, &arguments.vary, &settings)?.under(&measured)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {
