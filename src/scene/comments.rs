@@ -34,7 +34,7 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
             }
         }
         let heads = item.as_array_of_tables().into_iter().flatten().chain(item.as_table());
-        for table in heads.clone() {
+        for table in heads {
             if item.is_array_of_tables() {
                 homeless.push_str(&foreign(name, table.decor().prefix().and_then(RawString::as_str)));
             }
