@@ -85,7 +85,7 @@ pub fn check_for_results(folder: &Path) -> Result<(), WriteError> {
 }
 
 /// Why a file is spared.
-const INPUT: &str = "it is an input of this command, and would be replaced: give another folder";
+pub const INPUT: &str = "it is an input of this command, and would be replaced: give another folder";
 
 /// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]

@@ -731,8 +731,7 @@ fn sizes_that_a_preset_does_not_give_are_told() {
         .unwrap();
     let solve = ["solve", path.to_str().unwrap(), "--fidelity", "draft", "--set", "plate.frequency_khz=30"];
     let told = err(&run(&solve)).to_owned();
-    let assumed =
-        "assumed, since they are not given: plate.radius_mm = 10 mm, film.min_spacing_nm = 200 nm, film.gas = custom";
+    let assumed = "assumed, since they are not given: plate.radius_mm = 10 mm, film.min_spacing_nm = 200 nm, film.ambient_pressure_kpa = ";
     assert!(told.contains(assumed) && !told.contains("frequency_khz ="), "{told}");
     let vary = ["--vary", "plate.amplitude_um=4,5", "--set", "plate.frequency_khz=30"];
     assert!(

@@ -670,7 +670,12 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
     explains(faults, &window, "Exact", &exact);
     explains(faults, &window, "Exact, in units", &["Stiffness of the film", "Damping coefficient"]);
-    explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible"]);
+    explains(
+        faults,
+        &window,
+        "Exact, table",
+        &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible: off the scale"],
+    );
     hovers(faults, &mut window, "Mean pressure / p_a", "comes to a limit");
     window.ctrl(Key::Num7);
     let held = ["Gap", "Leak time", "Slow motion", "Held plate", "Film pressure", "Force", "Loop", "Boyle"];

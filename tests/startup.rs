@@ -312,7 +312,7 @@ fn a_plate_that_rests_is_planned_and_judged_where_it_does() {
     let problem = problem("floating-disc", &[("plate.mass_g", "100000")]);
     let ended = fall(&problem, Fidelity::Draft, 3, 1e-3, &mut |_| (), &Cancel::new()).unwrap().unwrap();
     assert!(ended.floats.is_err());
-    let limits = squeezefilm::export::fall::validity(&problem, &ended);
+    let limits = squeezefilm::export::fall::validity(&problem, &ended, &[]);
     let slip = limits.iter().find(|limit| limit.text.starts_with("At Kn")).unwrap();
     assert!(slip.text.contains("in a film of 200 nm"), "{limits:?}");
 }

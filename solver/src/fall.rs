@@ -11,7 +11,7 @@ use crate::digits::counted;
 use crate::estimate::{Estimate, extrapolate, left};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
-use crate::hold::Hold;
+use crate::hold::{Hold, STRUCK};
 use crate::memory;
 use crate::plan::Plan;
 use crate::plate::floating::FloatError;
@@ -53,12 +53,7 @@ pub fn struck(cycles: &[Cycle]) -> Option<String> {
     let hit = cycles.iter().filter(|cycle| cycle.rests).count();
     let rests = cycles.last().is_some_and(|cycle| cycle.rests);
     let cycles = counted(hit, "cycle", "cycles");
-    let words = || {
-        format!(
-            "The vibrating face has struck the plate, which took the face's speed, in {cycles}: how a real plate comes off is not part of the model"
-        )
-    };
-    (hit > 0 && !rests).then(words)
+    (hit > 0 && !rests).then(|| format!("{STRUCK} (in {cycles})"))
 }
 
 /// How a fall ended.

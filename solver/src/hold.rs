@@ -39,6 +39,9 @@ const GROWTH: f64 = 2.0;
 /// Least W over Z after a change of the step.
 const CARRIED_FLOOR: f64 = 0.1;
 
+/// What is to be known of a plate that was struck ([`Free::struck`]).
+pub const STRUCK: &str = "The vibrating face has struck the plate, which took the face's speed: how a real plate comes off is not part of the model";
+
 /// Steps in a cycle of the vibration, and the longest step over the time in which the gas under a plate that falls turns it round.
 const STEPS_IN_CYCLE: f64 = 96.0;
 const SHARE_OF_BOUNCE: f64 = 0.1;

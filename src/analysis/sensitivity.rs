@@ -217,7 +217,7 @@ impl Sensitivity {
         if found.is_empty() {
             return None;
         }
-        let mut carlo = MonteCarlo { seed, ..MonteCarlo::default() };
+        let mut carlo = MonteCarlo { seed, asked: draws, ..MonteCarlo::default() };
         for found in found {
             match found {
                 Ok((draw, redrawn)) => {

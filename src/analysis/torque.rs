@@ -100,7 +100,8 @@ fn speeds(motor: &Motor, marked: &[Option<f64>]) -> Vec<f64> {
     let marked = marked.iter().copied().flatten().chain([motor.rotor_speed]);
     let mut speeds: Vec<f64> = even.chain(marked.filter(|speed| (0.0..=v0).contains(speed))).collect();
     speeds.sort_by(f64::total_cmp);
-    speeds.dedup();
+    // But for rounding, the speed of the rotor may be one of the others.
+    speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * v0);
     speeds
 }
 

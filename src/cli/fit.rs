@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, PRESET, STANDARD_INPUT, standard_input, whole};
+use super::options::{CommonOptions, PRESET, STANDARD_INPUT, spare_inputs, standard_input, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
@@ -109,7 +109,8 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let varied: Vec<&str> = arguments.vary.iter().map(|bounds| bounds.key.as_str()).collect();
+    let scene = arguments.common.scene.scene_varied(&arguments.preset, &varied)?;
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let greatest = arguments.maximise.as_ref().map(|name| (name, true));
     let sought = greatest.or(arguments.minimise.as_ref().map(|name| (name, false)));
@@ -122,6 +123,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("{solves} solves in {}", duration(wall_s)));
     };
     let (files, converged) = if let Some((name, greatest)) = sought {
+        folder.iter().try_for_each(|folder| spare_inputs(folder, &["fitted.toml"]))?;
         let goal = Goal::new(&scene, name, greatest, &arguments.subject_to)?;
         let (found, wall_s) = Bar::solve("").timed(|bar| {
             let told =
@@ -143,6 +145,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         } else {
             Measured::find(data, &scene, settings.method)?
         };
+        folder.iter().try_for_each(|folder| spare_inputs(folder, &["fit.csv", "fitted.toml"]))?;
         let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
         let model = Model::new(&scene, &arguments.vary, &settings)?.under(&measured)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {

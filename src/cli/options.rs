@@ -2,7 +2,7 @@
 
 use super::exit::CliError;
 use super::terminal;
-use crate::atomic::check_for_results;
+use crate::atomic::{INPUT, WriteError, check_for_results};
 use crate::control::Cancel;
 use crate::digits::{duration, parse_duration};
 use crate::export::figure::Format;
@@ -38,9 +38,21 @@ pub(super) struct SceneOptions {
 impl SceneOptions {
     /// The scene of a PRESET argument with the changes made, and a name that says so. What nobody has given is told.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
-        let (original, scene) = self.original_and_changed(preset)?;
-        let named = |parameter: &&'static Parameter| self.changes.iter().any(|(key, _)| key == parameter.key);
-        let assumed = presets::assumed(preset, &original, &scene).into_iter().filter(|parameter| !named(parameter));
+        self.scene_varied(preset, &[])
+    }
+
+    /// Likewise, of a command that gives these keys values of its own.
+    pub(super) fn scene_varied(&self, preset: &str, varied: &[&str]) -> Result<Scene, CliError> {
+        let (original, text) = original(preset)?;
+        let scene = self.changed(&original)?;
+        let named = |parameter: &&'static Parameter| {
+            self.changes.iter().any(|(key, _)| key == parameter.key)
+                || varied.contains(&parameter.key)
+                || parameter.alternatives().any(|other| varied.contains(&other.key))
+                || parameter.when.iter().any(|(selector, _)| varied.contains(selector))
+        };
+        let assumed =
+            presets::assumed(text.as_deref(), &original, &scene).into_iter().filter(|parameter| !named(parameter));
         let assumed = assumed.filter_map(|parameter| {
             let value = scene.get(parameter.key).filter(|value| value.as_number() != Some(0.0))?;
             Some(format!("{} = {}", parameter.key, parameter.with_unit(value)))
@@ -59,15 +71,20 @@ impl SceneOptions {
 
     /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
-        let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
+        let (original, _) = original(preset)?;
+        let scene = self.changed(&original)?;
+        Ok((original, scene))
+    }
+
+    fn changed(&self, original: &Scene) -> Result<Scene, CliError> {
         let mut scene = original.with(&self.changes)?;
         let changed = |key| scene.get(key) != original.get(key);
         if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
             warn_of_given_path(&scene);
         }
         // What was changed is no longer what the preset's name and description claim.
-        scene.retitle(&original);
-        Ok((original, scene))
+        scene.retitle(original);
+        Ok(scene)
     }
 
     /// The command that solves this scene alone, to be copied into a shell and added to.
@@ -112,13 +129,27 @@ pub(super) fn standard_input(limit: u64) -> Result<String, CliError> {
     Ok(text)
 }
 
-fn from_standard_input() -> Result<Scene, CliError> {
-    Ok(presets::disclaimed(Scene::from_toml(&standard_input(LARGEST)?, "standard input")?))
+/// The scene of a PRESET argument, and the text that it was read from; none of a built-in preset.
+fn original(preset: &str) -> Result<(Scene, Option<String>), CliError> {
+    if preset != STANDARD_INPUT {
+        return Ok((presets::find(preset)?, presets::text(preset)));
+    }
+    let text = standard_input(LARGEST)?;
+    Ok((presets::disclaimed(Scene::from_toml(&text, "standard input")?), Some(text)))
+}
+
+/// Refuses a folder in which one of these files is an input of this command: each of them will be written, and its content is another one.
+pub(super) fn spare_inputs(folder: &Folder<'_>, names: &[&str]) -> Result<(), CliError> {
+    let same = |path: &PathBuf, name: &&str| same_file::is_same_file(path, folder.path.join(name)).unwrap_or(false);
+    match input::read_so_far().into_iter().find(|path| names.iter().any(|name| same(path, name))) {
+        Some(path) => Err(WriteError { path, source: io::Error::new(io::ErrorKind::AlreadyExists, INPUT) }.into()),
+        None => Ok(()),
+    }
 }
 
 /// Reads a path that is written to, or that cannot be standard input: `-` is refused.
 pub(super) fn named_path() -> ValueParser {
-    let why = "- is standard input, which only a preset, fit --data and surface are read from: give a path";
+    let why = "- is no path: only a preset, fit --data and surface may be standard input, and no file goes to standard output";
     let named = move |path: PathBuf| if path.as_os_str() == STANDARD_INPUT { Err(why) } else { Ok(path) };
     PathBufValueParser::new().try_map(named).into()
 }
@@ -305,7 +336,12 @@ impl OutputOptions {
         let Some(path) = &self.out else { return Ok(None) };
         check_for_results(path)?;
         let formats = Format::ALL.into_iter().filter(|format| self.has(format.name())).collect();
-        Ok(Some(Folder { path, command, formats, vtk: self.has("vtk") }))
+        let folder = Folder { path, command, formats, vtk: self.has("vtk") };
+        // A preset that is changed is not the one that was read.
+        if command.iter().any(|word| word == "--set" || word.starts_with("--set=")) {
+            spare_inputs(&folder, &["scene.toml"])?;
+        }
+        Ok(Some(folder))
     }
 
     fn has(&self, format: &str) -> bool {

@@ -59,7 +59,8 @@ fn map() -> ValueParser {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let varied: Vec<&str> = MAPS.iter().flat_map(|map| map.axes).collect();
+    let scene = arguments.common.scene.scene_varied(&arguments.preset, &varied)?;
     if matches!(Problem::try_from(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
@@ -87,7 +88,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         // The key of a cell takes the place of another form of it.
         let mut given = arguments.common.scene.clone();
         let varied = cell.changes.iter().filter_map(|(key, _)| Parameter::find(key));
-        let replaced: Vec<&str> = varied.flat_map(Parameter::alternatives).map(|other| other.key).collect();
+        let replaced = varied.flat_map(|key| key.alternatives().chain([key])).map(|other| other.key);
+        let replaced: Vec<&str> = replaced.collect();
         given.changes.retain(|(key, _)| !replaced.contains(&key.as_str()));
         format!("{} {} {}", given.command(&arguments.preset), settings.fidelity.option(), cell.options())
     };

@@ -43,7 +43,7 @@ Files of --out:
 /// with the periodic solve, which does not march in time: they agree within their stated errors and the change still to come (--tolerance). Grids
 /// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
-/// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes. It shakes a
+/// A plate under a load is dropped instead, from twice the gap at which it floats, while the vibration comes up within four cycles, and followed until its height no longer changes. It shakes a
 /// little with the vibration, unlike the plate of the periodic solve. A heavy plate bounces for thousands of cycles, which may take a
 /// minute.
 #[derive(Debug, Args)]

@@ -91,7 +91,8 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let varied: Vec<&str> = arguments.vary.iter().map(|vary| vary.key.as_str()).collect();
+    let scene = arguments.common.scene.scene_varied(&arguments.preset, &varied)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
     let part = arguments.part.unwrap_or(Part::WHOLE);
     let mut sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;

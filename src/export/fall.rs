@@ -42,18 +42,26 @@ pub fn object(
         "mean_gap_error_um": floats.map(|found| found.error),
         "wall_s": wall_s,
         "rows": cycles.iter().map(row).collect::<Vec<_>>(),
-        "validity": validity(problem, ended),
+        "validity": validity(problem, ended, cycles),
         "warnings": ended.floats.as_ref().err().into_iter().collect::<Vec<_>>(),
     })
 }
 
-/// The limits of the model that are exceeded where the plate floats or, if it does not, where it would rest.
-pub fn validity(problem: &Problem, ended: &Fall) -> Vec<Excess> {
+/// The limits of the model that are exceeded where the plate floats or, if it does not, where it would rest; of one that is thrown up higher than it
+/// was dropped from, at its greatest height.
+pub fn validity(problem: &Problem, ended: &Fall, cycles: &[Cycle]) -> Vec<Excess> {
     let mut problem = problem.clone();
-    if let (Scenario::Plate(plate), None) = (&mut problem.scenario, &ended.outcome) {
-        *plate = plate.resting();
+    let heights = || cycles.iter().map(|cycle| cycle.height.value);
+    let highest = heights().fold(0.0, f64::max);
+    let thrown = heights().next().is_some_and(|start| highest > start);
+    if let Scenario::Plate(plate) = &mut problem.scenario {
+        if thrown {
+            plate.mean_gap = highest;
+        } else if ended.outcome.is_none() {
+            *plate = plate.resting();
+        }
     }
-    of_outcome(&problem, ended.outcome.as_ref(), &[])
+    of_outcome(&problem, ended.outcome.as_ref().filter(|_| !thrown), &[])
 }
 
 /// The mean gap \[µm\] at which it floats; `None` if it does not.

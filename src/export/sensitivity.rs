@@ -22,9 +22,9 @@ pub struct SensitivityStudy<'a> {
     pub carlo: Option<&'a MonteCarlo>,
 }
 
-/// The random draws: where the random numbers began, and how many draws were solved, failed and were drawn again.
-fn draws(MonteCarlo { seed, draws, failures, redrawn }: &MonteCarlo) -> Value {
-    json!({ "seed": seed, "solved": draws.len(), "failed": failures.len(), "redrawn": redrawn })
+/// The random draws: where the random numbers began, and how many draws were asked for, were solved, failed and were drawn again.
+fn draws(MonteCarlo { seed, asked, draws, failures, redrawn }: &MonteCarlo) -> Value {
+    json!({ "seed": seed, "asked": asked, "solved": draws.len(), "failed": failures.len(), "redrawn": redrawn })
 }
 
 /// How the draws of a result are distributed.
@@ -179,7 +179,9 @@ impl SensitivityStudy<'_> {
             carlo.draws.len()
         );
         let mut figure = self.figure_of(caption);
-        figure.provenance.note = format!("{} draws, seed {}", carlo.draws.len(), carlo.seed);
+        let (made, asked) = (carlo.draws.len(), carlo.asked);
+        let of = if made + carlo.failures.len() < asked { format!(" of {asked}, cancelled") } else { String::new() };
+        figure.provenance.note = format!("{made} draws{of}, seed {}", carlo.seed);
         let panel = |output| distribution(self.sensitivity, output, self.uncertainties, carlo);
         figure.panels = (0..self.sensitivity.outputs.len()).filter_map(panel).collect();
         Some(figure)

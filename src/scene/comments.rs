@@ -2,7 +2,7 @@
 
 use super::keys::PARAMETERS;
 use super::parameter::{Parameter, ParameterKind};
-use toml_edit::{Decor, DocumentMut, Item, RawString, Table};
+use toml_edit::{Decor, DocumentMut, Item, RawString, Table, Value};
 
 /// `fresh`, the text of a scene, with the comments of `old`, the text of a file that it replaces. Those of a key that is gone come before the next one.
 /// Comments that this program writes itself are not carried over. If `old` cannot be read, it has none.
@@ -12,10 +12,11 @@ pub(super) fn carried(fresh: &str, old: &str) -> String {
     };
     let mut homeless = String::new();
     carry(to.as_table_mut(), from.as_table(), &mut homeless);
-    homeless.push_str(&foreign("", from.trailing().as_str()));
+    // Its last line may end without a line break.
+    homeless.push_str(&foreign("", Some(&format!("{}\n", from.trailing().as_str().unwrap_or_default().trim_end()))));
     let trailing = joined(to.trailing().as_str(), &homeless);
     to.set_trailing(trailing);
-    to.to_string()
+    without_old_assumptions(&to.to_string(), &to)
 }
 
 /// Carries the comments of a table over. `homeless`: those of keys that `to` does not have, until a key comes that it has.
@@ -26,8 +27,23 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
         let before = header.or(key.map(|key| key.leaf_decor())).and_then(Decor::prefix);
         homeless.push_str(&foreign(name, before.and_then(RawString::as_str)));
         if let Some(array) = item.as_array() {
-            let inside = array.iter().filter_map(|row| row.decor().prefix()).chain([array.trailing()]);
-            inside.for_each(|row| homeless.push_str(&foreign(name, row.as_str())));
+            let around = |row: &Value| [row.decor().prefix(), row.decor().suffix()].map(|decor| decor.cloned());
+            let inside = array.iter().flat_map(around).flatten().chain([array.trailing().clone()]);
+            for row in inside {
+                homeless.push_str(&foreign(name, Some(&format!("{}\n", row.as_str().unwrap_or_default().trim_end()))));
+            }
+        }
+        let heads = item.as_array_of_tables().into_iter().flatten().chain(item.as_table());
+        for table in heads {
+            if item.is_array_of_tables() {
+                homeless.push_str(&foreign(name, table.decor().prefix().and_then(RawString::as_str)));
+            }
+            let behind = table.decor().suffix().and_then(RawString::as_str).unwrap_or_default().trim();
+            homeless.push_str(&foreign(name, Some(&format!("{behind}\n"))));
+        }
+        // Tables of an array are written as its rows.
+        for table in item.as_array_of_tables().into_iter().flatten() {
+            carry(&mut Table::new(), table, homeless);
         }
         let behind = item.as_value().and_then(|value| value.decor().suffix()?.as_str()).unwrap_or_default().trim();
         let own_words = !behind.is_empty() && !is_ours(name, behind);
@@ -51,6 +67,24 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
             _ => {}
         }
     }
+}
+
+/// `text` without what [`NewMotor`](super::new_motor::NewMotor) has assumed and this scene no longer has.
+fn without_old_assumptions(text: &str, scene: &DocumentMut) -> String {
+    let held = |line: &str| {
+        let told = line.strip_prefix("# Assumed: ").and_then(|told| told.split_once(" = "));
+        let Some(((table, leaf), value)) = told.and_then(|(key, value)| Some((key.split_once('.')?, value))) else {
+            return true;
+        };
+        let now = scene.get(table).and_then(|table| table.get(leaf)).and_then(Item::as_value);
+        let now = now.map(|now| now.to_string().trim().trim_matches('"').to_owned()).unwrap_or_default();
+        let value = value.split([' ', ':']).next().unwrap_or_default();
+        match (value.parse::<f64>(), now.split(' ').next().unwrap_or_default().parse::<f64>()) {
+            (Ok(value), Ok(now)) => value == now,
+            _ => now.starts_with(value),
+        }
+    };
+    text.split_inclusive('\n').filter(|line| held(line)).collect()
 }
 
 /// Puts comments before a key or the head of a table.
@@ -116,14 +150,14 @@ load_per_wave_n = 2.45  # spring 4
 # what the profilometer says
 [film]
 min_spacing_nm = 180 # three runs
-[rotor]
+[rotor] # worn
 model = \"table\"
 compliance = [
   [1, 1e-9], # guessed
-  [7, 1e-10],
+  [7, 1e-10] # measured
 ]
-# end
-";
+# almost
+# end";
 
     #[test]
     fn comments_of_a_file_outlive_a_change_of_its_scene() {
@@ -139,8 +173,10 @@ compliance = [
             "# spring 4\n",
             "# what the profilometer says\n[film]\n",
             "min_spacing_nm = 150.0  # three runs\n",
+            "# worn\n",
             "# guessed\n",
-            "# end\n",
+            "# measured\n",
+            "# almost\n# end",
         ];
         for comment in comments {
             assert_eq!(written.matches(comment).count(), 1, "{comment}\n{written}");
@@ -151,5 +187,22 @@ compliance = [
         scene.unset("motor.load_n").unwrap();
         assert_eq!(carried(&scene.to_toml(), &fresh), scene.to_toml());
         assert_eq!(carried(&fresh, "no TOML ["), fresh);
+    }
+
+    #[test]
+    fn comments_of_tables_of_an_array_stay_and_old_assumptions_go() {
+        let ring = "schema = 1\nscene = \"motor\"\n[rotor]\nmodel = \"ring\"\n# the lip\n[[rotor.part]] # of steel\n# turned\nname = \"lip\" # narrow\n";
+        let fresh = crate::scene::presets::find("ring-rotor").unwrap().to_toml();
+        let written = carried(&fresh, ring);
+        for comment in ["# the lip\n", "# of steel\n", "# turned\n", "# narrow\n"] {
+            assert_eq!(written.matches(comment).count(), 1, "{comment}\n{written}");
+        }
+        assert_eq!(Scene::from_toml(&written, "written").unwrap(), crate::scene::presets::find("ring-rotor").unwrap());
+        let new = "# Assumed: motor.dry_friction = 0.3: usual.\n# Assumed: film.min_spacing_nm = 200 nm: as there.\n\n";
+        let mut scene = Scene::motor();
+        let old = format!("{new}{}", scene.to_toml());
+        scene.set("motor.dry_friction", "0.5").unwrap();
+        let written = carried(&scene.to_toml(), &old);
+        assert!(!written.contains("usual") && written.contains("# Assumed: film.min_spacing_nm"), "{written}");
     }
 }

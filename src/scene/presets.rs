@@ -71,14 +71,18 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
+/// The text of the file that a PRESET argument names; `None` of a built-in preset.
+pub fn text(name_or_path: &str) -> Option<String> {
+    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
+    (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten()
+}
+
 /// Keys whose defaults are what everybody expects.
 const USUAL: [&str; 2] = ["film.temperature_c", "film.accommodation"];
 
-/// Numbers and choices of `scene` that nobody has given, so that they are those of the paper, or of the default strip: the file of a PRESET argument
+/// Numbers and choices of `scene` that nobody has given, so that they are those of the paper, or of the default strip: the `text` of a preset
 /// does not have them, or `original`, the scene that it describes, has no such key. Built-in presets give all of theirs.
-pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'static Parameter> {
-    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
-    let text = (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten();
+pub fn assumed(text: Option<&str>, original: &Scene, scene: &Scene) -> Vec<&'static Parameter> {
     let file = text.and_then(|text| text.parse::<toml::Table>().ok());
     let given = |parameter: &'static Parameter| {
         let written =
@@ -86,8 +90,8 @@ pub fn assumed(name_or_path: &str, original: &Scene, scene: &Scene) -> Vec<&'sta
         file.as_ref().is_none_or(written) && original.has(parameter)
     };
     let makes = |parameter: &&'static Parameter| {
-        let chosen =
-            matches!(parameter.kind, ParameterKind::Choice { .. }) && ["rotor", "film"].contains(&parameter.table());
+        // The gas follows from what is given of it.
+        let chosen = ["rotor.model", "film.slip"].contains(&parameter.key);
         let number = matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
         (chosen || number && parameter.table() != "numerics") && parameter.absent.is_none()
     };

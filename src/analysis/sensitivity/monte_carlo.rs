@@ -18,6 +18,8 @@ pub struct Draw {
 pub struct MonteCarlo {
     /// Where the random numbers began.
     pub seed: u64,
+    /// How many were asked for; fewer are here if it was cancelled.
+    pub asked: usize,
     /// Those that were solved, in the order in which they were drawn.
     pub draws: Vec<Draw>,
     /// Why others were not.

@@ -2,11 +2,12 @@
 //! outlive the window, and are solved again.
 
 use crate::analysis::compare::{ComparedRun, LONGEST_LABEL, ParameterRow, ResultRow, parameters, results, unique};
+use crate::digits::rounded;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
 use crate::job::pin::PinWork;
 use crate::job::task::TaskOf;
-use crate::scene::{Scene, show_up_to};
+use crate::scene::{Scene, Value, show_up_to};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -311,6 +312,8 @@ pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
 }
 
+/// Digits of values in the name of a pin.
+const DIGITS: usize = 6;
 /// Fewest characters that are left of the name of a scene.
 const SHORTEST_NAME: usize = 16;
 
@@ -319,7 +322,8 @@ const SHORTEST_NAME: usize = 16;
 pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
     let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
-        let value = row.values[1].as_ref()?;
+        let value = row.values[1].clone()?;
+        let value = value.as_number().map_or(value, |number| Value::Number(rounded(number, DIGITS)));
         Some(format!("{} {value} {}", row.parameter.words(), scene.unit(row.parameter)).trim_end().to_owned())
     });
     let differing: Vec<String> = differing.collect();

@@ -69,8 +69,10 @@ impl Updater {
         let problem = run.map(|run| &run.problem).or(state.problem.as_ref());
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
         let plate = match problem.map(|problem| &problem.scenario) {
-            // One that does not float is held where it would rest.
-            Some(Scenario::Plate(plate)) if known && scene.floats() && run.is_none() => Some(plate.resting()),
+            // Without a run its mean gap is a guess, above the true one: one below where it rests is that of a plate that does not float.
+            Some(Scenario::Plate(plate)) if known && scene.floats() && plate.mean_gap < plate.resting().mean_gap => {
+                Some(plate.resting())
+            }
             Some(Scenario::Plate(plate)) if known => Some(plate.clone()),
             _ => None,
         };

@@ -72,7 +72,7 @@ fn to_be_raised(answers: &Answers) -> Option<String> {
     let [more, until] = [more, until].map(|words| words.join(" and "));
     (!more.is_empty()).then(|| {
         format!(
-            "When it is made, the motor is solved with more {more} than assumed below, until it has the {until} of the data sheet"
+            "When it is made, the motor is solved with more {more} than assumed below, until it has the {until} of the data sheet, if it can"
         )
     })
 }

@@ -24,7 +24,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         ui.add_space(4.0);
         headline(ui, "", "Force", &uncertain(Estimate { value: reading.force, error: reading.error }), unit);
         let free = hold.free.is_some();
-        let mean = if free { "; mean over a cycle of the vibration" } else { "" };
+        let mean = if hold.free == Some(true) { "; mean over a cycle of the vibration" } else { "" };
         cx.note(ui, format!("force of the film on the plate, positive if it pushes{mean}"));
         ui.add_space(4.0);
         let [least, most] = hold.force_range;

@@ -245,7 +245,8 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
         if pins.runs.len() < 2 {
             ui.label(quiet("Pin another run to see differences"));
         } else {
-            ui.label(quiet("Differences are from the first, in per cent of its value. The ± is the solver's estimate of its numerical error"));
+            let about = "Differences are from the first, in per cent of its value. The ± is the solver's estimate of its numerical error";
+            ui.label(quiet(about));
         }
         if motors && plates {
             ui.label(quiet("Motors and plates have few numbers in common; what one does not have is left empty"));

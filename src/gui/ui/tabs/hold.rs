@@ -9,7 +9,7 @@ use crate::gui::ui::hint::Hint;
 use crate::gui::ui::parts::number_box;
 use crate::gui::ui::tabs::labels::LOW;
 use crate::gui::ui::{glossary, views};
-use crate::hold::leak_time;
+use crate::hold::{STRUCK, leak_time};
 use eframe::egui::{self, DragValue, Slider, TextStyle};
 
 /// Preset that is offered while the scene is a motor.
@@ -105,10 +105,8 @@ fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let longer = 1.0 / now.pace.max(1e-3);
     let slow = (now.pace < SLOW).then(|| format!("This computer takes {longer:.1} times as long as that"));
     let floating = hold.plate.load.is_some() && hold.plate == hold.plate.resting();
-    let rests = floating
-        .then(|| "It does not float: its mean gap here is that at which it would rest on its roughness".to_owned());
-    let struck = now.struck.then(|| {
-        "The vibrating face has struck the plate, which took the face's speed: how a real plate comes off is not part of the model".to_owned()
-    });
-    cx.alarm(ui, slow.iter().chain(&rests).chain(&struck).chain(&now.failure));
+    let rests =
+        floating.then_some("It does not float: its mean gap here is that at which it would rest on its roughness");
+    let struck = now.struck.then_some(STRUCK);
+    cx.alarm(ui, slow.as_deref().into_iter().chain(rests).chain(struck).chain(now.failure.as_deref()));
 }
