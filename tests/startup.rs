@@ -9,7 +9,7 @@ use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::control::Cancel;
 use squeezefilm::estimate::Estimate;
 use squeezefilm::export::startup::validity;
-use squeezefilm::fall::{Cycle, fall};
+use squeezefilm::fall::fall;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::MotorTransient;
 use squeezefilm::plan::Plan;
@@ -317,7 +317,13 @@ fn a_plate_that_rests_is_planned_and_judged_where_it_does() {
     let slip = limits.iter().find(|limit| limit.text.starts_with("At Kn")).unwrap();
     assert!(slip.text.contains("in a film of 200 nm"), "{limits:?}");
     // One that is thrown up is judged where it is highest.
-    let at = |height| Cycle { number: 0, time: 0.0, height: Estimate::exact(height), speed: 0.0, rests: false };
+    let at = |height| squeezefilm::fall::Cycle {
+        number: 0,
+        time: 0.0,
+        height: Estimate::exact(height),
+        speed: 0.0,
+        rests: false,
+    };
     let thrown = squeezefilm::export::fall::validity(&problem, &ended, &[at(3e-6), at(3e-4), at(1e-6)]);
     assert!(thrown.iter().any(|limit| limit.name == "gas-inertia" && limit.value > 10.0), "{thrown:?}");
 }
