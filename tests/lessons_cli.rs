@@ -112,5 +112,5 @@ fn lessons_are_printed_a_page_for_each() {
 fn a_place_that_is_not_there_and_a_step_without_a_lesson_are_refused() {
     refused(&["gui", "--step", "4"], 2, &["--lesson"]);
     refused(&["lessons", "summary", "absent.csv"], 2, &["absent.csv: cannot be read"]);
-    refused(&["lessons", "summary", "-"], 2, &["- is standard input"]);
+    refused(&["lessons", "summary", "-"], 2, &["- is no path"]);
 }

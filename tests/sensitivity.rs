@@ -334,7 +334,10 @@ fn text_object_and_files_agree() {
     let object = json(&output);
     let outputs = object["outputs"].as_array().unwrap();
     assert_eq!(object["whole_numbers"], serde_json::json!(["motor.waves", "stator.teeth_per_wave"]));
-    assert_eq!(object["monte_carlo"], serde_json::json!({ "seed": 1, "solved": 20, "failed": 0, "redrawn": 0 }));
+    assert_eq!(
+        object["monte_carlo"],
+        serde_json::json!({ "seed": 1, "asked": 20, "solved": 20, "failed": 0, "redrawn": 0 })
+    );
     let mut rows = csv::Reader::from_path(folder.path().join("sensitivity.csv")).unwrap();
     let names = rows.headers().unwrap().clone();
     let records: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
