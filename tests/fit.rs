@@ -196,6 +196,17 @@ fn what_cannot_be_told_apart_is_told() {
 }
 
 #[test]
+fn a_length_of_a_part_of_a_ring_is_found_again() {
+    let ring = scene("ring-rotor", &[]);
+    let top = "rotor.part.flange.z_top_mm";
+    let film = load(&ring, &[(top, "1.25".to_owned())]);
+    let measured = table(&ring, &format!("film_load_n\n{film}\n"));
+    let found = fitted(&ring, &[&format!("{top}=1.1:1.4")], &measured, &STANDARD, 1);
+    println!("{:?}, {} solves", found.unknowns[0], found.solves);
+    assert!(found.converged && (found.unknowns[0].value - 1.25).abs() < 2e-3, "{:?}", found.unknowns[0]);
+}
+
+#[test]
 fn several_starts_find_the_same_minimum() {
     let start = scene("plate-crossover", &[("plate.amplitude_um", "0.21"), ("film.viscosity_upa_s", "39")]);
     let measured = table(&start, &plate_loads(&exact_loads(), 3));

@@ -99,6 +99,10 @@ fn the_figures_are_those_of_the_curve() {
             assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.stator_speed);
             // The efficiency falls to nothing there, and is not heard of beyond.
             assert_eq!(there.efficiency.map(|share| share.value), Some(0.0));
+            // As little is known of it as of the output.
+            let given = there.friction.value + merit.film_power.value;
+            assert!(there.efficiency.unwrap().error > 0.9 * there.output.error / given, "{there:?}");
+            assert_eq!(there.torque.value, 0.0);
             assert!(found.curve.iter().filter(|point| point.speed > v).all(|point| point.efficiency.is_none()));
             assert!(found.curve.windows(2).all(|pair| pair[1].torque.value <= pair[0].torque.value + 1e-12));
             let most = found.curve.iter().map(|point| point.output.value).fold(0.0, f64::max);

@@ -432,13 +432,20 @@ impl<'a> Scaled<'a> {
         let force = unit * per_radius;
         let (at, loss) = near[1].1[0];
         let driven = efficiency(v, at, loss).filter(|_| unit.value > 0.0);
+        let known = |s0: f64| if s0.abs() < ROUNDING { 0.0 } else { s0 };
+        let output = scaled(force, speed.abs(), &|v, (s0, _), _| v * known(s0) * per_ratio);
+        let given = force.value * v0 * (at.1 + loss);
         OperatingPoint {
             speed,
-            torque: scaled(unit, 1.0, &|_, (s0, _), _| s0),
-            output: scaled(force, speed.abs(), &|v, (s0, _), _| v * s0 * per_ratio),
+            torque: scaled(unit, 1.0, &|_, (s0, _), _| known(s0)),
+            output,
             friction: scaled(force, v0 + speed.abs(), &|v, (s0, s1), _| s1 * v0 - v * s0 * per_ratio),
-            efficiency: driven
-                .map(|found| scaled(self.loss_scale(), found, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0))),
+            efficiency: driven.map(|found| {
+                let share = scaled(self.loss_scale(), found, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0));
+                // Where it vanishes, what is not driven on other grids tells nothing of it: it is as uncertain as the output.
+                let least = if found == 0.0 && given > 0.0 { output.error / given } else { 0.0 };
+                Estimate { error: share.error.max(least), ..share }
+            }),
         }
     }
 

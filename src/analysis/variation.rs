@@ -20,7 +20,7 @@ use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::ladder::Nested;
 use crate::problem::{Problem, RotorCompliance, Scenario};
-use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
+use crate::scene::{PARAMETERS, Parameter, ParameterKind, Scene, SceneError, Value};
 use crate::solution::Solution;
 use crate::solve::near::Centre;
 use crate::solve::{Settings, check};
@@ -135,7 +135,9 @@ impl Variation {
                     allowed()
                 )));
             }
-            if !all.contains(&parameter) {
+            // A value in an array of tables is not among all, but may be named.
+            let in_array = !PARAMETERS.contains(parameter) && scene.get(key).is_some();
+            if !all.contains(&parameter) && !in_array {
                 set?;
                 let allowed = allowed();
                 return Err(AnalysisError::Input(format!(

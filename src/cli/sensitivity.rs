@@ -46,7 +46,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,
 
-    /// Only these keys, separated by commas [default: all in use, except whole numbers]
+    /// Only these keys, separated by commas [default: all in use, except whole numbers and values of the parts of a ring]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     keys: Vec<String>,
 
