@@ -47,6 +47,8 @@ const OF_SHAPE: f64 = 0.5;
 const OF_SPEED: f64 = 0.5;
 /// Relative error of the film's power over that of its mean load, for want of nodes across (measured: 1.7 of the fundamental case with two).
 const OF_WIDTH: f64 = 2.0;
+/// Factor on what grids tell of the film's power (calibrated: docs/validation.md).
+const OF_POWER: f64 = 2.0;
 /// Least share of the load on contact that a change of it is compared with.
 const LEAST_SHARE: f64 = 1e-6;
 /// Factor on what grids tell of contact without film (calibrated: docs/validation.md).
@@ -339,7 +341,7 @@ impl<'a> Scaled<'a> {
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
         let load = Estimate { value: (1.0 - result.alpha.value).max(0.0), ..result.alpha } * motor.load;
         let spent = motor.friction_torque(load.value) * motor.stator_speed() / motor.contact_radius;
-        let lossy = |drive: Drive, loads| (drive, if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 });
+        let lossy = |drive: Drive, loads| (drive, if spent > 0.0 { taken(motor, loads).max(0.0) / spent } else { 0.0 });
         let extrapolated = |loads| lossy(Drive::new(loads), loads);
         let others = match &recording.yardsticks[..] {
             [before, finest] => vec![extrapolated(before), lossy(Drive::as_solved(finest), finest)],
@@ -567,44 +569,31 @@ fn judged(found: f64, yardsticks: &[f64]) -> Estimate {
     Estimate { value: found, error }
 }
 
-/// Mean power that the stator of the whole ring spends on the film \[W\]: ⟨∫ q ∂W_S/∂t⟩, q being film and contact. Rotor and
-/// contact take none of it: the rotor is elastic, and where there is contact the gap does not change. The gas takes
-/// ⟨−∫ film ∂h/∂t⟩. The difference of the two is part of the stated error.
+/// Mean power that the film of the whole ring takes from the stator \[W\]. Rotor and contact take none: the rotor is elastic, and where there is
+/// contact the gap does not change.
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
-    let loads = &recording.lines;
-    let others: Vec<f64> = recording.yardsticks.iter().map(|loads| given(motor, loads)).collect();
-    let given = judged(given(motor, loads), &others);
+    let others: Vec<f64> = recording.yardsticks.iter().map(|loads| taken(motor, loads)).collect();
+    let found = judged(taken(motor, &recording.lines), &others);
+    // What is left out may be all that the film takes, at most its load at the stator's speed.
+    let load = recording.film_load.iter().sum::<f64>() / recording.frames.max(1) as f64;
+    let most = load.abs() * f64::from(motor.waves) * TAU * motor.frequency * motor.normal_amplitude;
+    let relative = ROTOR_EFFECT * recording.rotor.relative_error + OF_WIDTH * recording.across.min(1.0);
+    let unseen = recording.forced.min(1.0) * most + relative * found.value.abs();
+    Estimate { value: found.value, error: OF_POWER * found.error + unseen }
+}
+
+/// ⟨−∫ film ∂h/∂t⟩ of the whole ring \[W\], of second order in the time step.
+fn taken(motor: &Motor, loads: &LineLoads) -> f64 {
     let (frames, nodes) = (loads.frames, loads.x.len());
-    let mut taken = 0.0;
+    let mut work = 0.0;
     for (line, (_, at)) in lines(loads).enumerate() {
         let next = (line / frames * frames + (line + 1) % frames) * nodes;
         for (i, length) in loads.node_length.iter().enumerate() {
-            let closing = recording.film_thickness[at + i] - recording.film_thickness[next + i];
-            taken += 0.5 * (loads.film[at + i] + loads.film[next + i]) * length * closing;
+            let closing = loads.film_thickness[at + i] - loads.film_thickness[next + i];
+            work += 0.5 * (loads.film[at + i] + loads.film[next + i]) * length * closing;
         }
     }
-    let taken = taken * motor.frequency * ring(motor, loads);
-    // What is left out may be all that the film takes, at most its load at the stator's speed.
-    let load = recording.film_load.iter().sum::<f64>() / frames.max(1) as f64;
-    let most = load.abs() * f64::from(motor.waves) * TAU * motor.frequency * motor.normal_amplitude;
-    let relative = ROTOR_EFFECT * recording.rotor.relative_error + OF_WIDTH * recording.across.min(1.0);
-    let unseen = recording.forced.min(1.0) * most + relative * given.value.abs();
-    Estimate { value: given.value, error: (given.value - taken).abs() + given.error + unseen }
-}
-
-/// ⟨∫ q ∂W_S/∂t⟩ of the whole ring \[W\].
-fn given(motor: &Motor, loads: &LineLoads) -> f64 {
-    let across: Vec<(f64, f64)> = loads.x.iter().map(|x| (TAU * x / loads.length).sin_cos()).collect();
-    let mut sum = 0.0;
-    for (phase, line) in lines(loads) {
-        let (sin, cos) = (TAU * phase).sin_cos();
-        for (i, (place, length)) in across.iter().zip(&loads.node_length).enumerate() {
-            let rise = -(sin * place.1 + cos * place.0);
-            sum += (loads.film[line + i] + loads.contact[line + i]) * length * rise;
-        }
-    }
-    let fastest = TAU * motor.frequency * motor.normal_amplitude;
-    sum * fastest / loads.frames.max(1) as f64 * ring(motor, loads)
+    work * motor.frequency * ring(motor, loads)
 }
 
 #[cfg(test)]
