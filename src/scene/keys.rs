@@ -6,9 +6,11 @@ use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
-use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale, names};
 use super::section::{PART, SUPPORT, parts};
+use crate::gas::GASES;
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
+use crate::surface::{HEIGHTS, LAWS};
 use std::fmt::Write as _;
 
 const BEAM: &[Model] = &[("rotor.model", &["beam"])];
@@ -22,7 +24,7 @@ const ROUND: &[Model] = &[("plate.shape", &["disc", "ring"])];
 const RING_PLATE: &[Model] = &[("plate.shape", &["ring"])];
 const BOLTZMANN: &[Model] = &[("film.slip", &["fukui-kaneko"])];
 const CUSTOM: &[Model] = &[("film.gas", &["custom"])];
-const NAMED: &[Model] = &[("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"])];
+const NAMED: &[Model] = &[("film.gas", names!(GASES))];
 const HARD: &[Model] = &[("surface.model", &["minimum-spacing"])];
 const ASPERITIES: &[Model] = &[("surface.model", &["asperities"])];
 const ROUGH_FLOW: &[Model] = &[("surface.flow_factors", &["patir-cheng"])];
@@ -113,7 +115,7 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
         "Spacing that roughness leaves where the faces touch; not used for a plate with a given gap").when(HARD).named("Minimum spacing H_m"),
-    choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
+    choice("film.gas", Any, names!("custom", GASES), "custom",
         "Gas, which sets the viscosity and mean free path; for a custom gas they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
@@ -131,9 +133,9 @@ pub static PARAMETERS: &[Parameter] = &[
 
     choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
         "Contact of the faces: a hard stop at the minimum spacing, or elastic asperities").named("Faces meet on"),
-    choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
+    choice("surface.contact_law", Motor, names!(LAWS), "greenwood-williamson",
         "Contact law: asperities of one face against a plane, or of both faces").when(ASPERITIES),
-    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
+    choice("surface.summit_heights", Motor, names!(HEIGHTS), "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
         .named("Heights of summits"),
     Parameter::new("surface.heights_csv", Motor,
         CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
@@ -317,27 +319,6 @@ mod tests {
             assert!(p.table() == replaced.table() && p.belongs == replaced.belongs, "{}", p.key);
             assert!(p.alternatives().any(|other| other == replaced) && replaced.alternatives().any(|other| other == p));
         }
-    }
-
-    #[test]
-    fn the_gases_of_the_key_are_those_that_there_are() {
-        let names: Vec<_> = crate::gas::GASES.iter().map(|gas| gas.name).collect();
-        assert_eq!(names, NAMED[0].1);
-        let ParameterKind::Choice { options, .. } = Parameter::find("film.gas").unwrap().kind else {
-            panic!("a choice")
-        };
-        assert_eq!([CUSTOM[0].1, NAMED[0].1].concat(), options);
-    }
-
-    #[test]
-    fn the_surface_laws_of_the_keys_are_those_that_there_are() {
-        let options = |key| match Parameter::find(key).unwrap().kind {
-            ParameterKind::Choice { options, .. } => options.to_vec(),
-            _ => panic!("a choice"),
-        };
-        let laws: Vec<_> = crate::surface::LAWS.iter().map(|law| law.name).collect();
-        let heights: Vec<_> = crate::surface::HEIGHTS.iter().map(|heights| heights.name).collect();
-        assert_eq!((options("surface.contact_law"), options("surface.summit_heights")), (laws, heights));
     }
 
     #[test]

@@ -5,6 +5,24 @@ use crate::digits::uncapitalised;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// The options of a key: any that are given here, then the names of the entries of a table.
+macro_rules! names {
+    ($($first:literal,)* $table:ident) => {{
+        const FIRST: &[&str] = &[$($first),*];
+        const NAMES: &[&str] = &{
+            let mut names = [""; FIRST.len() + $table.len()];
+            let mut i = 0;
+            while i < names.len() {
+                names[i] = if i < FIRST.len() { FIRST[i] } else { $table[i - FIRST.len()].name };
+                i += 1;
+            }
+            names
+        };
+        NAMES
+    }};
+}
+pub(super) use names;
+
 /// An interval of allowed values, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {

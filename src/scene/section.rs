@@ -23,20 +23,10 @@
 //! Radii are measured from the ring's axis. Heights grow away from the stator, which touches the lowest faces of the ring; their zero is
 //! arbitrary.
 
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale, names};
 use super::value::Value;
 use crate::digits::as_given;
 use crate::rotor::ring::MATERIALS;
-
-const NAMES: [&str; MATERIALS.len()] = {
-    let mut names = [""; MATERIALS.len()];
-    let mut i = 0;
-    while i < names.len() {
-        names[i] = MATERIALS[i].name;
-        i += 1;
-    }
-    names
-};
 
 /// The directions that a support may hold, and their combinations.
 const FIXED: [&str; 7] =
@@ -57,7 +47,7 @@ pub(super) static PART: [Parameter; 6] = [
     Parameter::new(
         "material",
         Belongs::Motor,
-        ParameterKind::Choice { options: &NAMES, default: "aluminium" },
+        ParameterKind::Choice { options: names!(MATERIALS), default: "aluminium" },
         "What it is made of",
     )
     .named("Material"),
