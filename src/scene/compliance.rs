@@ -17,7 +17,7 @@
 //! as it is.
 
 use super::error::{Fault, FaultKind, SceneError, check_count};
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Parameter, Scale, number, whole};
 use super::value::{Value, show_number, show_text};
 use std::path::Path;
 
@@ -37,15 +37,11 @@ pub static GREEN: [Parameter; 2] = [
 ];
 
 /// The column that a CSV file may have in place of the wavenumber.
-static HARMONIC: Parameter = Parameter {
-    kind: ParameterKind::Whole { min: 1, max: 1_000_000_000, default: 1 },
-    ..column("harmonic", "", 1.0, 1.0, "Harmonic n of the wavelength λ, k = 2πn/λ")
-};
+static HARMONIC: Parameter =
+    whole("harmonic", Belongs::Motor, (1, 1_000_000_000), 1, "Harmonic n of the wavelength λ, k = 2πn/λ");
 
 const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
-    let range = Range::new(min, max);
-    let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
-    Parameter { unit, ..Parameter::new(key, Belongs::Motor, kind, about) }
+    number(key, unit, Belongs::Motor, (min, max), (min, max), Scale::Log, max, about)
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.

@@ -6,7 +6,7 @@ use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
-use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale, names};
+use super::parameter::{Model, Parameter, ParameterKind, choice, flag, names, number, text, whole};
 use super::section::{PART, SUPPORT, parts};
 use crate::gas::GASES;
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
@@ -216,48 +216,6 @@ impl Parameter {
     const fn absent(self, meaning: &'static str, switch: &'static str) -> Self {
         Self { absent: Some(meaning), switch, ..self }
     }
-}
-
-const fn number(
-    key: &'static str,
-    unit: &'static str,
-    belongs: Belongs,
-    range: (f64, f64),
-    slider: (f64, f64),
-    scale: Scale,
-    default: f64,
-    about: &'static str,
-) -> Parameter {
-    let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
-    Parameter { unit, ..Parameter::new(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
-}
-
-const fn whole(
-    key: &'static str,
-    belongs: Belongs,
-    (min, max): (u32, u32),
-    default: u32,
-    about: &'static str,
-) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Whole { min, max, default }, about)
-}
-
-const fn choice(
-    key: &'static str,
-    belongs: Belongs,
-    options: &'static [&'static str],
-    default: &'static str,
-    about: &'static str,
-) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Choice { options, default }, about)
-}
-
-const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Flag { default }, about)
-}
-
-const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
-    Parameter::new(key, Any, ParameterKind::Text { default }, about)
 }
 
 /// The tables of a scene file, in the order they are written.

@@ -320,6 +320,48 @@ impl Parameter {
     }
 }
 
+pub(super) const fn number(
+    key: &'static str,
+    unit: &'static str,
+    belongs: Belongs,
+    range: (f64, f64),
+    slider: (f64, f64),
+    scale: Scale,
+    default: f64,
+    about: &'static str,
+) -> Parameter {
+    let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
+    Parameter { unit, ..Parameter::new(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
+}
+
+pub(super) const fn whole(
+    key: &'static str,
+    belongs: Belongs,
+    (min, max): (u32, u32),
+    default: u32,
+    about: &'static str,
+) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Whole { min, max, default }, about)
+}
+
+pub(super) const fn choice(
+    key: &'static str,
+    belongs: Belongs,
+    options: &'static [&'static str],
+    default: &'static str,
+    about: &'static str,
+) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Choice { options, default }, about)
+}
+
+pub(super) const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Flag { default }, about)
+}
+
+pub(super) const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
+    Parameter::new(key, Belongs::Any, ParameterKind::Text { default }, about)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
