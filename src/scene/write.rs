@@ -120,20 +120,22 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         text.push_str("]\n");
         return;
     }
-    let assignment = match value {
-        // Debug keeps a point or an exponent, without which TOML would read an integer.
-        Value::Number(number) => format!("{leaf} = {number:?}"),
-        Value::Text(words) => {
-            let quoted = format!("{leaf} = {}", quote(words));
-            if parameter.table().is_empty() {
-                let _ = writeln!(text, "{quoted}");
-                return;
-            }
-            quoted
-        }
-        value => format!("{leaf} = {value}"),
+    let assignment = format!("{leaf} = {}", literal(value));
+    let _ = if parameter.table().is_empty() {
+        writeln!(text, "{assignment}")
+    } else {
+        writeln!(text, "{assignment:<40} # {}", parameter.about)
     };
-    let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// A single value in TOML.
+fn literal(value: &Value) -> String {
+    match value {
+        // Debug keeps a point or an exponent, without which TOML would read an integer.
+        Value::Number(number) => format!("{number:?}"),
+        Value::Text(words) => quote(words),
+        value => value.to_string(),
+    }
 }
 
 /// The rows of a table, or an array of tables, each as an item of an array in TOML; `None` of any other value.
@@ -149,14 +151,7 @@ fn items(parameter: &Parameter, value: &Value) -> Option<Vec<String>> {
 
 /// One of an array of tables, as an inline table.
 fn inline(columns: &[Parameter], record: &[Value]) -> String {
-    let pair = |(column, value): (&Parameter, &Value)| {
-        let value = match value {
-            Value::Text(words) => quote(words),
-            Value::Number(number) => format!("{number:?}"),
-            value => value.to_string(),
-        };
-        format!("{} = {value}", column.key)
-    };
+    let pair = |(column, value): (&Parameter, &Value)| format!("{} = {}", column.key, literal(value));
     let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
     format!("{{ {} }}", pairs.join(", "))
 }
