@@ -15,12 +15,9 @@ pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> R
     check_count(key, "tables", count, fewest..=MOST_RECORDS)
 }
 
-/// The name of one of an array of tables in messages: its first value if that is a name, or else its number.
-pub(super) fn named(record: &[Value], number: usize) -> String {
-    match record.first() {
-        Some(Value::Text(name)) if !name.is_empty() => show_text(name),
-        _ => format!("number {number}"),
-    }
+/// The name of one of an array of tables in messages: its first value if that is a text, or else its number.
+pub(super) fn named(first: Option<&str>, number: usize) -> String {
+    first.filter(|name| !name.is_empty()).map_or_else(|| format!("number {number}"), show_text)
 }
 
 impl Parameter {
@@ -55,7 +52,7 @@ impl Parameter {
                     if record.len() != columns.len() {
                         return wrong_type(Value::Records(vec![record]));
                     }
-                    let which = named(&record, number);
+                    let which = named(record.first().and_then(Value::as_text), number);
                     let cells = columns.iter().zip(record).map(|(column, value)| column.accept(value));
                     let cells = cells.collect::<Result<_, _>>();
                     accepted.push(cells.map_err(|fault| FaultKind::Within {

@@ -69,7 +69,7 @@ impl Scene {
     fn cell(&self, key: &str) -> Option<Result<Place, FaultKind>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
-        let called = |record: &Vec<Value>| matches!(record.first(), Some(Value::Text(name)) if name == which);
+        let called = |record: &Vec<Value>| record.first().and_then(Value::as_text) == Some(which);
         let counted = || which.parse::<usize>().ok()?.checked_sub(1).filter(|number| *number < records.len());
         let place = records.iter().position(called).or_else(counted);
         Some(place.ok_or_else(|| self.unknown_key(key)).map(|row| (array, records, [row, column])))
@@ -128,10 +128,8 @@ impl Scene {
                 continue;
             };
             for (row, record) in records.iter().enumerate() {
-                let name = match record.first() {
-                    Some(Value::Text(name)) if columns[0].key == "name" && !name.is_empty() => name.clone(),
-                    _ => (row + 1).to_string(),
-                };
+                let name = record.first().and_then(Value::as_text).filter(|name| !name.is_empty());
+                let name = name.map_or_else(|| (row + 1).to_string(), str::to_owned);
                 let values = columns.iter().filter(|column| !matches!(column.kind, ParameterKind::Text { .. }));
                 keys.extend(values.map(|column| format!("{}.{name}.{}", array.key, column.key)));
             }

@@ -359,7 +359,7 @@ fn records_from_toml(
             continue;
         };
         let name = columns.first().and_then(|column| given.get(column.key)).and_then(|value| value.get_ref().as_str());
-        let which = named(&name.map(|name| Value::Text(name.to_owned())).into_iter().collect::<Vec<_>>(), number);
+        let which = named(name, number);
         let mut wrong = |span, what: FaultKind| {
             fault(span, FaultKind::Within { key, which: which.clone(), fault: what.into() });
         };
