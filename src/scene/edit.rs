@@ -56,7 +56,7 @@ impl Scene {
         let mut changed = self.clone();
         for (key, value) in heights::keys_of(&heights::read(parameter, given, path)?) {
             let of = changed.parameter(key)?;
-            if fills.contains(&key) && changed.applies(of).is_ok() {
+            if fills.contains(&key) && changed.has(of) {
                 changed.assign(of, Value::Number(value))?;
             }
         }

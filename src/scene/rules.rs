@@ -66,8 +66,7 @@ impl Scene {
     /// The range of a key in this scene: its own, narrowed to what the other keys allow. `None` for a key that is not a
     /// number or does not apply. The upper end of the range of `plate.amplitude_um` is itself not allowed.
     pub fn range(&self, key: &str) -> Option<Range> {
-        let parameter = Parameter::find(key)?;
-        self.applies(parameter).ok()?;
+        let parameter = Parameter::find(key).filter(|parameter| self.has(parameter))?;
         let own = parameter.range()?;
         let narrower = match key {
             "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
