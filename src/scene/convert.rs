@@ -39,7 +39,7 @@ impl Scene {
             mean_free_path: si("film.mean_free_path_nm")?,
             slip: choice(self, "film.slip")?,
             accommodation: si("film.accommodation")?,
-            ideal: match self.species()? {
+            ideal: match self.species() {
                 Some(species) => species.at(si("film.temperature_c")?),
                 None => IdealGas::UNNAMED,
             },

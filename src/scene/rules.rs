@@ -73,8 +73,8 @@ impl Scene {
             "plate.inner_radius_mm" => Range::new(0.0, WIDEST_HOLE * self.number("plate.radius_mm").ok()?),
             "plate.amplitude_um" if !self.floats() => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
             _ => match (parameter.instead_of, self.factor(key)) {
-                (Some(replaced), Some(factor)) => {
-                    let ([factor, divisor], Range { min, max }) = (factor.ok()?, Parameter::find(replaced)?.range()?);
+                (Some(replaced), Some([factor, divisor])) => {
+                    let Range { min, max } = Parameter::find(replaced)?.range()?;
                     Range::new(min * (factor / divisor), max * (factor / divisor))
                 }
                 _ => own,
