@@ -27,18 +27,13 @@ impl SceneError {
         Self { faults: Vec::new(), more: 0 }
     }
 
-    /// Whether further faults are only counted.
-    pub(super) fn is_full(&self) -> bool {
-        self.faults.len() >= MOST_FAULTS
-    }
-
     pub(super) fn push(&mut self, fault: impl Into<Fault>) {
-        if self.is_full() { self.more += 1 } else { self.faults.push(fault.into()) }
+        self.push_with(|| fault.into());
     }
 
-    /// Counts a fault beyond those that are told.
-    pub(super) fn count_one(&mut self) {
-        self.more += 1;
+    /// Adds a fault, which is composed only if it will be told.
+    pub(super) fn push_with(&mut self, fault: impl FnOnce() -> Fault) {
+        if self.faults.len() < MOST_FAULTS { self.faults.push(fault()) } else { self.more += 1 }
     }
 
     /// Adds the faults of another error.
@@ -68,14 +63,6 @@ impl SceneError {
     /// How many faults there are beside those.
     pub fn more(&self) -> usize {
         self.more
-    }
-
-    /// Sets `origin` as the file of those faults that name none of their own.
-    pub(super) fn at(mut self, origin: &Path) -> Self {
-        for fault in &mut self.faults {
-            fault.origin.get_or_insert_with(|| origin.to_owned());
-        }
-        self
     }
 }
 
@@ -112,6 +99,13 @@ pub struct Fault {
     pub what: FaultKind,
 }
 
+impl Fault {
+    /// A fault of a whole file.
+    pub(super) fn of_file(path: &Path, what: FaultKind) -> Self {
+        Self { origin: Some(path.to_owned()), ..what.into() }
+    }
+}
+
 impl From<FaultKind> for Fault {
     fn from(what: FaultKind) -> Self {
         Self { origin: None, line: None, column: None, what }
@@ -146,9 +140,6 @@ pub enum FaultKind {
     /// The text is not TOML; what its reader says.
     #[error("not valid TOML: {0}")]
     Syntax(String),
-    /// No `schema` key.
-    #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
-    SchemaMissing,
     /// A key or table that no scene has.
     #[error("unknown {kind} {key}{}", suggestion(nearest.as_deref(), siblings))]
     Unknown {
@@ -254,7 +245,6 @@ impl FaultKind {
             Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
             Self::BothGiven { key, .. } | Self::Rule { key, .. } | Self::Within { key, .. } => key,
             Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
-            Self::SchemaMissing => "schema",
             Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
         })
     }

@@ -25,8 +25,7 @@ impl Scene {
     /// # Errors
     /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text =
-            input::read_text(path, LARGEST_FILE).map_err(|error| SceneError::from(FaultKind::Read(error)).at(path))?;
+        let text = input::read_text(path, LARGEST_FILE).map_err(|error| Fault::of_file(path, error.into()))?;
         Self::from_toml(&text, path)
     }
 
@@ -35,9 +34,8 @@ impl Scene {
         let origin = origin.as_ref();
         let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
         let scene = reader.read();
-        // Without a fault there is a scene.
-        reader.faults.or(())?;
-        scene.ok_or_else(|| FaultKind::SchemaMissing.into())
+        // Without a scene there is a fault.
+        reader.faults.or(scene.unwrap_or_else(Scene::motor))
     }
 }
 
@@ -108,15 +106,18 @@ impl Reader<'_> {
 
     /// Whether the file is of a schema this program reads.
     fn schema(&mut self, root: &DeTable<'_>) -> bool {
-        match root.get("schema") {
-            None => self.fault(None, || FaultKind::SchemaMissing),
-            Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
+        let value = root.get("schema");
+        if value.is_some_and(|value| integer(value.get_ref()) == Some(SCHEMA)) {
+            return true;
+        }
+        let message = match value {
+            None => format!("the key schema is missing: write schema = {SCHEMA} at the top of the file"),
             Some(value) => {
                 let found = self.written(value.span());
-                let message = format!("schema = {found} is not supported: this program reads schema = {SCHEMA}");
-                self.fault(Some(value.span()), || FaultKind::Rule { key: "schema", message });
+                format!("schema = {found} is not supported: this program reads schema = {SCHEMA}")
             }
-        }
+        };
+        self.fault(value.map(Spanned::span), || FaultKind::Rule { key: "schema", message });
         false
     }
 
@@ -263,11 +264,10 @@ impl Reader<'_> {
 
     /// Adds a fault. The message is composed only if it will be shown, because a hostile file may have a fault on every line.
     fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> FaultKind) {
-        if self.faults.is_full() {
-            return self.faults.count_one();
-        }
-        let (line, column) = span.map(|span| line_and_column(self.text, span.start)).unzip();
-        self.faults.push(Fault { origin: Some(self.origin.to_owned()), line, column, what: what() });
+        self.faults.push_with(|| {
+            let (line, column) = span.map(|span| line_and_column(self.text, span.start)).unzip();
+            Fault { origin: Some(self.origin.to_owned()), line, column, what: what() }
+        });
     }
 
     /// A value as it is written in the file.

@@ -70,10 +70,8 @@ impl Scene {
         if let Some(old) = before.and_then(|before| input::read_text(before, LARGEST_FILE).ok()) {
             text = carried(&text, &old);
         }
-        write_file(path, |out| out.write_all(text.as_bytes())).map_err(|error| {
-            let what = FaultKind::Unwritable(error.source.to_string());
-            Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
-        })
+        write_file(path, |out| out.write_all(text.as_bytes()))
+            .map_err(|error| Fault::of_file(path, FaultKind::Unwritable(error.source.to_string())).into())
     }
 }
 
