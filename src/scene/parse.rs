@@ -17,7 +17,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// Largest file read \[MB\]. The largest compliance table takes a third of it.
-pub(super) const LARGEST_FILE: u64 = 16;
+const LARGEST_FILE: u64 = 16;
 
 impl Scene {
     /// Reads a preset file.
@@ -25,8 +25,12 @@ impl Scene {
     /// # Errors
     /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text = input::read_text(path, LARGEST_FILE).map_err(|error| Fault::of_file(path, error.into()))?;
-        Self::from_toml(&text, path)
+        Self::from_toml(&Self::text_of(path)?, path)
+    }
+
+    /// The text of a preset file.
+    pub(super) fn text_of(path: &Path) -> Result<String, SceneError> {
+        Ok(input::read_text(path, LARGEST_FILE).map_err(|error| Fault::of_file(path, error.into()))?)
     }
 
     /// Reads a preset from text. `origin` is the path that messages name; CSV files are looked for in its folder.

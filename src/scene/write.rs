@@ -4,11 +4,9 @@
 use super::comments::carried;
 use super::error::{Fault, FaultKind, SCHEMA, SceneError};
 use super::parameter::{Parameter, ParameterKind};
-use super::parse::LARGEST_FILE;
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
-use crate::input;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write as _;
@@ -67,7 +65,7 @@ impl Scene {
     pub fn save_instead_of(&self, path: &Path, before: Option<&Path>) -> Result<(), SceneError> {
         self.check()?;
         let mut text = self.to_toml();
-        if let Some(old) = before.and_then(|before| input::read_text(before, LARGEST_FILE).ok()) {
+        if let Some(old) = before.and_then(|before| Self::text_of(before).ok()) {
             text = carried(&text, &old);
         }
         write_file(path, |out| out.write_all(text.as_bytes()))
