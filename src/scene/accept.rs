@@ -1,6 +1,6 @@
 //! Checks whether a key accepts a value.
 
-use super::compliance;
+use super::compliance::{check_row_count, in_order};
 use super::error::{FaultKind, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -42,8 +42,12 @@ impl Parameter {
                 refused(format!("\"{}\"", show_text(&name)), "not available", nearest)
             }
             (ParameterKind::Rows { columns }, Value::Rows(rows)) => {
-                compliance::check_rows(self.key, columns, &rows)?;
-                Ok(Value::Rows(rows))
+                check_row_count(self.key, rows.len())?;
+                let (mut wrong, rows) = (None, rows.into_iter().map(|row| ((), Ok(row))));
+                let rows = in_order(self.key, columns, rows, |(), fault| {
+                    wrong.get_or_insert(fault);
+                });
+                wrong.map_or(Ok(Value::Rows(rows)), Err)
             }
             (ParameterKind::Records { columns, fewest, .. }, Value::Records(records)) => {
                 check_records(self.key, records.len(), fewest)?;

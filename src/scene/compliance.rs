@@ -45,11 +45,7 @@ const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.
-pub(super) fn check_row(
-    columns: &'static [Parameter; 2],
-    row: (f64, f64),
-    before: Option<f64>,
-) -> Result<(), FaultKind> {
+fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), before: Option<f64>) -> Result<(), FaultKind> {
     for (column, value) in columns.iter().zip([row.0, row.1]) {
         column.accept(Value::Number(value))?;
     }
@@ -70,26 +66,27 @@ pub(super) fn not_a_pair(found: &str, [first, second]: &[Parameter; 2]) -> Fault
     FaultKind::Rule { key: first.key, message }
 }
 
-/// The fault of row `row`, counted from 1.
-pub(super) fn in_row(key: &'static str, row: usize, fault: FaultKind) -> FaultKind {
-    FaultKind::Within { key, which: format!("row {row}"), fault: fault.into() }
-}
-
 /// Checks how many rows there are.
 pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), FaultKind> {
     check_count(key, "rows", rows, 1..=MOST_ROWS)
 }
 
-/// Checks a table held in memory, up to its first fault.
-pub(super) fn check_rows(
+/// Those rows of a table that are in order. `fault` is told of every other one, with its place.
+pub(super) fn in_order<P>(
     key: &'static str,
     columns: &'static [Parameter; 2],
-    rows: &[(f64, f64)],
-) -> Result<(), FaultKind> {
-    check_row_count(key, rows.len())?;
-    let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
-    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(columns, *row, before)).zip(1..);
-    checked.try_for_each(|(checked, row)| checked.map_err(|fault| in_row(key, row, fault)))
+    rows: impl Iterator<Item = (P, Result<(f64, f64), FaultKind>)>,
+    mut fault: impl FnMut(P, FaultKind),
+) -> Vec<(f64, f64)> {
+    let mut good: Vec<(f64, f64)> = Vec::new();
+    for ((place, row), number) in rows.zip(1..) {
+        let before = good.last().map(|row| row.0);
+        match row.and_then(|row| check_row(columns, row, before).map(|()| row)) {
+            Ok(row) => good.push(row),
+            Err(wrong) => fault(place, FaultKind::Within { key, which: format!("row {number}"), fault: wrong.into() }),
+        }
+    }
+    good
 }
 
 /// Reads the text of a CSV file for the `key` that names it. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and
@@ -141,30 +138,18 @@ pub(super) fn read_csv(
         _ => return Err(fault(line_of(&header), other_header()).into()),
     };
 
-    let mut rows: Vec<(f64, f64)> = Vec::new();
+    let mut count = 0;
+    let records = records.take(MOST_ROWS + 1).inspect(|_| count += 1).map(|record| match record {
+        Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
+        Err(error) => {
+            let line = error.position().map(|position| position.line() as usize);
+            (line, Err(not_a_pair(&error.to_string(), columns)))
+        }
+    });
     let mut faults = SceneError::none();
-    for (i, record) in records.enumerate() {
-        let row = i + 1;
-        if let Err(too_many) = check_row_count(key, row) {
-            faults.push(fault(None, too_many));
-            break;
-        }
-        let (line, parsed) = match record {
-            Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
-            Err(error) => {
-                let line = error.position().map(|position| position.line() as usize);
-                (line, Err(not_a_pair(&error.to_string(), columns)))
-            }
-        };
-        let before = rows.last().map(|row| row.0);
-        match parsed.and_then(|row| check_row(columns, row, before).map(|()| row)) {
-            Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, in_row(key, row, wrong))),
-        }
-    }
-    let rows = faults.or(rows)?;
-    check_row_count(key, rows.len()).map_err(|none| fault(None, none))?;
-    Ok(rows)
+    let rows = in_order(key, columns, records, |line, wrong| faults.push(fault(line, wrong)));
+    check_row_count(key, count).unwrap_or_else(|wrong| faults.push(fault(None, wrong)));
+    faults.or(rows)
 }
 
 fn row_of(

@@ -2,7 +2,7 @@
 //! and all faults are found in one reading.
 
 use super::accept::{check_records, named};
-use super::compliance::{self, check_row, check_row_count, in_row, not_a_pair};
+use super::compliance::{self, check_row_count, in_order, not_a_pair};
 use super::error::{Fault, FaultKind, SCHEMA, SceneError, did_you_mean};
 use super::keys::tables;
 use super::nearest::nearest;
@@ -329,21 +329,14 @@ fn rows_from_toml(
     text: &str,
     fault: OnFault<'_>,
 ) -> Vec<(f64, f64)> {
-    let mut rows: Vec<(f64, f64)> = Vec::new();
-    for (row, i) in array.iter().zip(1..) {
+    let pair = |row: &Spanned<DeValue<'_>>| {
         let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
-        let checked = match numbers.map(Vec::from_iter).as_deref() {
-            Some([Some(first), Some(second)]) => {
-                let pair = (*first, *second);
-                check_row(columns, pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
-            }
+        match numbers.map(Vec::from_iter).as_deref() {
+            Some([Some(first), Some(second)]) => Ok((*first, *second)),
             _ => Err(not_a_pair(text.get(row.span()).unwrap_or_default(), columns)),
-        };
-        if let Err(wrong) = checked {
-            fault(row.span(), in_row(key, i, wrong));
         }
-    }
-    rows
+    };
+    in_order(key, columns, array.iter().map(|row| (row.span(), pair(row))), fault)
 }
 
 /// An array of tables, each with a key for every column.
