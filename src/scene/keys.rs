@@ -82,11 +82,11 @@ pub static PARAMETERS: &[Parameter] = &[
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
-    Parameter::new("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
+    Parameter::new("rotor.compliance_csv", Motor, CsvPath { table: Some("rotor.compliance") },
         "CSV of the compliance; path relative to the preset's folder").when(TABLE).named("Compliance from a CSV file"),
     Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE)
         .named("Compliance table"),
-    Parameter::new("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
+    Parameter::new("rotor.green_csv", Motor, CsvPath { table: Some("rotor.green") },
         "CSV of the deflection under a unit force; path relative to the preset's folder").when(GREENS).named("Deflection from a CSV file"),
     Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of distance from a unit force and deflection there").when(GREENS)
         .named("Deflection table"),
@@ -137,8 +137,7 @@ pub static PARAMETERS: &[Parameter] = &[
         "Contact law: asperities of one face against a plane, or of both faces").when(ASPERITIES),
     choice("surface.summit_heights", Motor, names!(HEIGHTS), "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
         .named("Heights of summits"),
-    Parameter::new("surface.heights_csv", Motor,
-        CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
+    Parameter::new("surface.heights_csv", Motor, CsvPath { table: None },
         "CSV of the measured heights of both faces; path relative to the preset's folder. It gives roughness, summits and lay where they are not set")
         .when(ROUGH).named("Measured heights from a CSV file"),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
@@ -191,7 +190,7 @@ impl Parameter {
         match self.kind {
             // A load or a mass on a plate decides which other keys have an effect.
             _ if self.selects() || self.instead_of == Some("plate.mean_gap_um") => 0,
-            ParameterKind::CsvPath { fills: [_, _, ..] } => 1,
+            ParameterKind::CsvPath { table: None } => 1,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 4,
             // A value of an array comes after the array.
             _ if self.key.matches('.').count() > 1 => 5,

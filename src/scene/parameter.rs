@@ -114,8 +114,9 @@ pub enum ParameterKind {
     },
     /// The path of a CSV file, which is read together with the scene. The scene keeps the values that follow from the file, not the path.
     CsvPath {
-        /// The keys whose values follow from the file: one table, or several numbers. Numbers that the preset gives are not replaced.
-        fills: &'static [&'static str],
+        /// The key of the table that is in the file; `None` of measured heights, from which several numbers follow
+        /// ([`super::heights::keys_of`]). Those that the preset gives are not replaced.
+        table: Option<&'static str>,
     },
     /// An array of tables.
     Records {

@@ -206,7 +206,7 @@ impl Reader<'_> {
                 }
                 Ok(read)
             }
-            ParameterKind::CsvPath { fills } => return self.csv(scene, parameter, fills, value),
+            ParameterKind::CsvPath { table } => return self.csv(scene, parameter, table, value),
             _ => value_from_toml(value.get_ref())
                 .ok_or_else(|| FaultKind::wrong_type(parameter, self.written(span.clone()))),
         };
@@ -222,23 +222,23 @@ impl Reader<'_> {
         }
     }
 
-    /// Sets the keys `fills` from the CSV file that a key names.
-    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, fills: &[&str], value: &Spanned<DeValue<'_>>) {
+    /// Sets the key `table`, or those that follow from measured heights, from the CSV file that a key names.
+    fn csv(&mut self, scene: &mut Scene, file: &'static Parameter, table: Option<&str>, value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
             let found = self.written(value.span());
-            return self.fault(span, || FaultKind::wrong_type(parameter, found));
+            return self.fault(span, || FaultKind::wrong_type(file, found));
         };
-        if let [rows] = fills {
-            if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
-                return self.fault(span, || FaultKind::BothGiven { key: parameter.key, other: other.key });
+        if let Some(table) = table {
+            if let Some(other) = Parameter::find(table).filter(|other| self.spans.contains_key(other.key)) {
+                return self.fault(span, || FaultKind::BothGiven { key: file.key, other: other.key });
             }
             if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
                 return;
             }
         }
         let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
-        if let Err(error) = scene.take_csv(parameter, fills, given, &path) {
+        if let Err(error) = scene.take_csv(file, table, given, &path) {
             match error.faults() {
                 // The fault is about the whole file, and not about a line of it.
                 [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),
