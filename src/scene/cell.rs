@@ -84,11 +84,8 @@ impl Scene {
     /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), FaultKind>> {
         let put = |(array, mut records, [row, column]): Place| {
-            let ParameterKind::Records { columns, fewest, .. } = array.kind else {
-                return (array, Value::Records(records));
-            };
-            match value.as_number() {
-                Some(to) if fewest > 0 => {
+            match (value.as_number(), array.kind) {
+                (Some(to), ParameterKind::Records { columns, fewest: 1.., .. }) => {
                     let side = columns[..column].iter().filter(|column| column.range().is_some()).count();
                     records = with_edge(&records, (row, side), to);
                 }
