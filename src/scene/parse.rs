@@ -85,7 +85,7 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                self.fault(error.span(), || FaultKind::Syntax(syntax_message(error.message())));
+                self.fault(error.span(), |_| FaultKind::Syntax(syntax_message(error.message())));
                 return None;
             }
         };
@@ -111,18 +111,17 @@ impl Reader<'_> {
     /// Whether the file is of a schema this program reads.
     fn schema(&mut self, root: &DeTable<'_>) -> bool {
         let value = root.get("schema");
-        if value.is_some_and(|value| integer(value.get_ref()) == Some(SCHEMA)) {
-            return true;
+        let good = value.is_some_and(|value| integer(value.get_ref()) == Some(SCHEMA));
+        if !good {
+            self.fault(value.map(Spanned::span), |found| {
+                let message = match value {
+                    None => format!("the key schema is missing: write schema = {SCHEMA} at the top of the file"),
+                    Some(_) => format!("schema = {found} is not supported: this program reads schema = {SCHEMA}"),
+                };
+                FaultKind::Rule { key: "schema", message }
+            });
         }
-        let message = match value {
-            None => format!("the key schema is missing: write schema = {SCHEMA} at the top of the file"),
-            Some(value) => {
-                let found = self.written(value.span());
-                format!("schema = {found} is not supported: this program reads schema = {SCHEMA}")
-            }
-        };
-        self.fault(value.map(Spanned::span), || FaultKind::Rule { key: "schema", message });
-        false
+        good
     }
 
     /// The default scene of the kind the file asks for.
@@ -133,16 +132,17 @@ impl Reader<'_> {
             let message = format!(
                 "{missing}; allowed \"motor\" or \"plate\", and without it the scene is a motor, which has no [plate]"
             );
-            self.fault(Some(plate.span()), || FaultKind::Rule { key: "scene", message });
+            self.fault(Some(plate.span()), |_| FaultKind::Rule { key: "scene", message });
             return None;
         };
         let name = value.get_ref().as_str().unwrap_or_default();
         let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name);
         if kind.is_none() {
-            let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
-            let found = self.written(value.span());
-            let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
-            self.fault(Some(value.span()), || FaultKind::Rule { key: "scene", message });
+            self.fault(Some(value.span()), |found| {
+                let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
+                let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
+                FaultKind::Rule { key: "scene", message }
+            });
         }
         kind.map(Scene::new)
     }
@@ -157,18 +157,17 @@ impl Reader<'_> {
             match (tables.iter().copied().find(|table| *table == name), value.get_ref()) {
                 _ if matches!(name, "schema" | "scene") => {}
                 (Some(table), DeValue::Table(inside)) => match scene.has_table(table, format!("[{table}]")) {
-                    Err(foreign) => self.fault(Some(at), || foreign),
+                    Err(foreign) => self.fault(Some(at), |_| foreign),
                     Ok(()) => {
                         let dotted = |key: &str| format!("{table}.{key}");
                         entries.extend(inside.iter().map(|(key, value)| (key.span(), dotted(key.get_ref()), value)));
                     }
                 },
-                (Some(table), _) => {
-                    let found = self.written(value.span());
+                (Some(table), _) => self.fault(Some(value.span()), |found| {
                     let message = format!("{table} = {found} is not a table: write [{table}] with its keys below");
-                    self.fault(Some(value.span()), || FaultKind::Rule { key: table, message });
-                }
-                (None, DeValue::Table(_)) => self.fault(Some(at), || {
+                    FaultKind::Rule { key: table, message }
+                }),
+                (None, DeValue::Table(_)) => self.fault(Some(at), |_| {
                     let siblings = scene.tables();
                     let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
                     FaultKind::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
@@ -181,17 +180,17 @@ impl Reader<'_> {
 
     fn key(&mut self, scene: &mut Scene, at: Bytes<usize>, key: &str, value: &Spanned<DeValue<'_>>) {
         let Some(parameter) = Parameter::find(key) else {
-            return self.fault(Some(at), || scene.unknown_key(key));
+            return self.fault(Some(at), |_| scene.unknown_key(key));
         };
         let span = value.span();
         if let Some(other) = parameter.alternatives().find(|other| self.spans.contains_key(other.key)) {
-            return self.fault(Some(at), || FaultKind::BothGiven { key: parameter.key, other: other.key });
+            return self.fault(Some(at), |_| FaultKind::BothGiven { key: parameter.key, other: other.key });
         }
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
             // If the model itself is at fault, it is not known which keys there are.
             Err(FaultKind::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
-            Err(what) => return self.fault(Some(at), || what),
+            Err(what) => return self.fault(Some(at), |_| what),
             Ok(()) => {}
         }
         let read = match parameter.kind {
@@ -199,7 +198,7 @@ impl Reader<'_> {
                 let (mut in_order, text) = (true, self.text);
                 let read = array_from_toml(parameter, value, text, &mut |span, what| {
                     in_order = false;
-                    self.fault(Some(span), || what);
+                    self.fault(Some(span), |_| what);
                 });
                 if !in_order {
                     return;
@@ -207,15 +206,13 @@ impl Reader<'_> {
                 Ok(read)
             }
             ParameterKind::CsvPath { table } => return self.csv(scene, parameter, table, value),
-            _ => value_from_toml(value.get_ref())
-                .ok_or_else(|| FaultKind::wrong_type(parameter, self.written(span.clone()))),
+            _ => value_from_toml(value.get_ref()).ok_or_else(|| FaultKind::wrong_type(parameter, String::new())),
         };
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
-            let found = self.written(span.clone());
-            self.fault(Some(span), || match what {
+            self.fault(Some(span), |found| match what {
                 // The message shows the value as it is written in the file.
                 FaultKind::Refused { parameter, why: "of the wrong type", .. } => {
-                    FaultKind::wrong_type(parameter, found)
+                    FaultKind::wrong_type(parameter, found.to_owned())
                 }
                 what => what,
             });
@@ -226,12 +223,11 @@ impl Reader<'_> {
     fn csv(&mut self, scene: &mut Scene, file: &'static Parameter, table: Option<&str>, value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
-            let found = self.written(value.span());
-            return self.fault(span, || FaultKind::wrong_type(file, found));
+            return self.fault(span, |found| FaultKind::wrong_type(file, found.to_owned()));
         };
         if let Some(table) = table {
             if let Some(other) = Parameter::find(table).filter(|other| self.spans.contains_key(other.key)) {
-                return self.fault(span, || FaultKind::BothGiven { key: file.key, other: other.key });
+                return self.fault(span, |_| FaultKind::BothGiven { key: file.key, other: other.key });
             }
             if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
                 return;
@@ -241,7 +237,7 @@ impl Reader<'_> {
         if let Err(error) = scene.take_csv(file, table, given, &path) {
             match error.faults() {
                 // The fault is about the whole file, and not about a line of it.
-                [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),
+                [Fault { origin: None, what, .. }, ..] => self.fault(span, |_| what.clone()),
                 _ => self.faults.join(error),
             }
         }
@@ -257,7 +253,7 @@ impl Reader<'_> {
             if !self.at_fault(keys) && !unread {
                 // The line of the first key of the rule that the file gives.
                 let span = keys.iter().find_map(|key| self.spans.get(key)).cloned();
-                self.fault(span, || what);
+                self.fault(span, |_| what);
             }
         }
     }
@@ -266,17 +262,14 @@ impl Reader<'_> {
         self.faults.faults().iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
     }
 
-    /// Adds a fault. The message is composed only if it will be shown, because a hostile file may have a fault on every line.
-    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> FaultKind) {
+    /// Adds a fault, which is told what is written at its place. The message is composed only if it will be shown, because a hostile file may
+    /// have a fault on every line.
+    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce(&str) -> FaultKind) {
         self.faults.push_with(|| {
-            let (line, column) = span.map(|span| line_and_column(self.text, span.start)).unzip();
-            Fault { origin: Some(self.origin.to_owned()), line, column, what: what() }
+            let (line, column) = span.clone().map(|span| line_and_column(self.text, span.start)).unzip();
+            let written = show_text(span.and_then(|span| self.text.get(span)).unwrap_or_default());
+            Fault { origin: Some(self.origin.to_owned()), line, column, what: what(&written) }
         });
-    }
-
-    /// A value as it is written in the file.
-    fn written(&self, span: Bytes<usize>) -> String {
-        show_text(self.text.get(span).unwrap_or_default())
     }
 }
 
