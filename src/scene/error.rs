@@ -68,12 +68,7 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, fault) in self.faults.iter().enumerate() {
-            if i > 0 {
-                f.write_str("\n")?;
-            }
-            write!(f, "{fault}")?;
-        }
+        f.write_str(&self.faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n"))?;
         if self.more > 0 { write!(f, "\nand {} more", self.more) } else { Ok(()) }
     }
 }
