@@ -1,6 +1,7 @@
 //! Checks whether a key accepts a value.
 
 use super::compliance::{check_row_count, in_order};
+use super::edges;
 use super::error::{FaultKind, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -56,7 +57,7 @@ impl Parameter {
                     if record.len() != columns.len() {
                         return wrong_type(Value::Records(vec![record]));
                     }
-                    let which = named(record.first().and_then(Value::as_text), number);
+                    let which = named(edges::name(&record), number);
                     let cells = columns.iter().zip(record).map(|(column, value)| column.accept(value));
                     let cells = cells.collect::<Result<_, _>>();
                     accepted.push(cells.map_err(|fault| FaultKind::Within {

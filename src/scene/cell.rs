@@ -4,7 +4,7 @@
 //! The [`Parameter`] of such a key is made from those of the array and of the column. It is not among `PARAMETERS`, and a scene keeps its
 //! value in the array.
 
-use super::edges::with_edge;
+use super::edges::{self, with_edge};
 use super::error::FaultKind;
 use super::keys::PARAMETERS;
 use super::parameter::{Parameter, ParameterKind};
@@ -125,8 +125,7 @@ impl Scene {
                 continue;
             };
             for (row, record) in records.iter().enumerate() {
-                let name = record.first().and_then(Value::as_text).filter(|name| !name.is_empty());
-                let name = name.map_or_else(|| (row + 1).to_string(), str::to_owned);
+                let name = edges::name(record).map_or_else(|| (row + 1).to_string(), str::to_owned);
                 let values = columns.iter().filter(|column| !matches!(column.kind, ParameterKind::Text { .. }));
                 keys.extend(values.map(|column| format!("{}.{name}.{}", array.key, column.key)));
             }
