@@ -8,6 +8,7 @@ use super::values::Scene;
 use crate::digits::as_given;
 use crate::gas::species::Species;
 use crate::gas::{self, atmosphere};
+use std::f64::consts::TAU;
 
 /// A key whose value may follow from others.
 struct Following {
@@ -24,7 +25,7 @@ type Alternative = (&'static str, fn(&Scene) -> Option<[f64; 2]>);
 
 const ALTERNATIVES: &[Alternative] = &[
     ("motor.load_n", |scene| Some([scene.number("motor.waves").ok()?, 1.0])),
-    ("motor.rotor_speed_mm_per_s", |scene| Some([scene.circumference_mm().ok()?, 60.0])),
+    ("motor.rotor_speed_mm_per_s", |scene| Some([TAU * scene.number("motor.contact_radius_mm").ok()?, 60.0])),
     ("stator.tooth_share", |scene| Some([1.0, scene.pitch_mm().ok()?])),
 ];
 

@@ -343,11 +343,6 @@ impl Scene {
         }
     }
 
-    /// Length of the circle on which teeth and rotor touch \[mm\].
-    pub(super) fn circumference_mm(&self) -> Result<f64, FaultKind> {
-        Ok(std::f64::consts::TAU * self.number("motor.contact_radius_mm")?)
-    }
-
     /// Pitch of the teeth of a motor \[mm\].
     pub(super) fn pitch_mm(&self) -> Result<f64, FaultKind> {
         Ok(self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?)
