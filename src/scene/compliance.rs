@@ -19,6 +19,7 @@
 use super::error::{Fault, FaultKind, SceneError, check_count};
 use super::parameter::{Belongs, Parameter, Scale, number, whole};
 use super::value::{Value, show_number, show_text};
+use crate::input::csv_line;
 use std::path::Path;
 
 /// Most rows of a table.
@@ -100,13 +101,15 @@ pub(super) fn read_csv(
 ) -> Result<Vec<(f64, f64)>, SceneError> {
     let fault =
         |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
+    let text = text.trim_start_matches('\u{feff}');
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-    let mut records = reader.records();
+        .from_reader(text.as_bytes());
+    // Of text, with lines of any length, the reader refuses none.
+    let mut records = reader.records().filter_map(Result::ok);
 
     // What is in the file instead is not shown: the file may be any of this machine.
     let other_header = || {
@@ -120,18 +123,8 @@ pub(super) fn read_csv(
             message: format!("{key}: this is no {what}: expected the header {other}{first},{second}"),
         }
     };
-    let header = match records.next() {
-        Some(Ok(header)) => header,
-        _ => return Err(fault(Some(1), other_header()).into()),
-    };
-    let line_of = |record: &csv::StringRecord| {
-        // The position is before the blank lines and comments that the reader skips: they are counted here.
-        record.position().map(|position| {
-            let rest = text.trim_start_matches('\u{feff}').get(position.byte() as usize..).unwrap_or_default();
-            let skipped = rest.lines().take_while(|l| l.trim().is_empty() || l.starts_with('#')).count();
-            position.line() as usize + skipped
-        })
-    };
+    let Some(header) = records.next() else { return Err(fault(Some(1), other_header()).into()) };
+    let line_of = |record: &csv::StringRecord| csv_line(text, record.position()).map(|line| line as usize);
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
         ["harmonic", second] if second == COMPLIANCE[1].key && columns[1].key == second => true,
         [first, second] if [first, second] == [columns[0].key, columns[1].key] => false,
@@ -139,13 +132,8 @@ pub(super) fn read_csv(
     };
 
     let mut count = 0;
-    let records = records.take(MOST_ROWS + 1).inspect(|_| count += 1).map(|record| match record {
-        Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
-        Err(error) => {
-            let line = error.position().map(|position| position.line() as usize);
-            (line, Err(not_a_pair(&error.to_string(), columns)))
-        }
-    });
+    let records = records.take(MOST_ROWS + 1).inspect(|_| count += 1);
+    let records = records.map(|record| (line_of(&record), row_of(&record, columns, harmonics, wavelength)));
     let mut faults = SceneError::none();
     let rows = in_order(key, columns, records, |line, wrong| faults.push(fault(line, wrong)));
     check_row_count(key, count).unwrap_or_else(|wrong| faults.push(fault(None, wrong)));
