@@ -99,8 +99,7 @@ pub(super) fn read_csv(
     path: &Path,
     wavelength: f64,
 ) -> Result<Vec<(f64, f64)>, SceneError> {
-    let fault =
-        |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
+    let fault = |line, what| Fault { line, ..Fault::of_file(path, what) };
     let text = text.trim_start_matches('\u{feff}');
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)

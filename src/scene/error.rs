@@ -88,7 +88,7 @@ pub struct Fault {
     pub origin: Option<PathBuf>,
     /// Line in the file, from 1.
     pub line: Option<usize>,
-    /// Column in the line, in characters, from 1.
+    /// Column in the line, in characters, from 1, where the text is not TOML.
     pub column: Option<usize>,
     /// The fault itself.
     pub what: FaultKind,
@@ -114,7 +114,7 @@ impl fmt::Display for Fault {
             if let Some(line) = self.line {
                 write!(f, "{line}:")?;
             }
-            if let (FaultKind::Syntax(_), Some(column)) = (&self.what, self.column) {
+            if let Some(column) = self.column {
                 write!(f, "{column}:")?;
             }
             f.write_str(" ")?;

@@ -85,7 +85,9 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                self.fault(error.span(), |_| FaultKind::Syntax(syntax_message(error.message())));
+                let (line, column) = error.span().map(|span| line_and_column(self.text, span.start)).unzip();
+                let what = FaultKind::Syntax(syntax_message(error.message()));
+                self.faults.push(Fault { line, column, ..Fault::of_file(self.origin, what) });
                 return None;
             }
         };
@@ -266,9 +268,9 @@ impl Reader<'_> {
     /// have a fault on every line.
     fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce(&str) -> FaultKind) {
         self.faults.push_with(|| {
-            let (line, column) = span.clone().map(|span| line_and_column(self.text, span.start)).unzip();
+            let line = span.as_ref().map(|span| line_and_column(self.text, span.start).0);
             let written = show_text(span.and_then(|span| self.text.get(span)).unwrap_or_default());
-            Fault { origin: Some(self.origin.to_owned()), line, column, what: what(&written) }
+            Fault { line, ..Fault::of_file(self.origin, what(&written)) }
         });
     }
 }
