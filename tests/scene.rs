@@ -283,7 +283,7 @@ fn of_many_faults_ten_are_told_and_the_others_counted() {
         ),
     ] {
         let error = read(&format!("schema = 1\n{text}")).unwrap_err();
-        assert_eq!((error.faults().len(), error.more()), (10, count - 10));
+        assert_eq!(error.faults().len(), 10);
         let message = error.to_string();
         let told: Vec<_> = message.lines().collect();
         assert_eq!((told.len(), told[10]), (11, format!("and {} more", count - 10).as_str()));

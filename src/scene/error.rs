@@ -59,11 +59,6 @@ impl SceneError {
     pub fn faults(&self) -> &[Fault] {
         &self.faults
     }
-
-    /// How many faults there are beside those.
-    pub fn more(&self) -> usize {
-        self.more
-    }
 }
 
 impl fmt::Display for SceneError {
