@@ -1,5 +1,5 @@
-//! Every key a scene can have: its unit, range, default and meaning. They are stated in this table only; files, `--set`, checks, sliders,
-//! sweeps and the documentation all read it. Besides an entry here, a new key needs its field in `problem.rs`, which `convert.rs` fills.
+//! Every key a scene can have: its unit, range, default and meaning. They are stated in this table only; files, `--set`, checks, sliders
+//! and sweeps all read it. Besides an entry here, a new key needs its field in `problem.rs`, which `convert.rs` fills.
 //! A key of `[numerics]` needs only a field of the same name in [`Numerics`](crate::problem::Numerics).
 
 use super::compliance::{COMPLIANCE, GREEN};
@@ -11,7 +11,6 @@ use super::section::{PART, SUPPORT, parts};
 use crate::gas::GASES;
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use crate::surface::{HEIGHTS, LAWS};
-use std::fmt::Write as _;
 
 const BEAM: &[Model] = &[("rotor.model", &["beam"])];
 const SECTION: &[Model] = &[("rotor.model", &["section"])];
@@ -224,19 +223,6 @@ pub(super) fn tables() -> Vec<&'static str> {
     tables
 }
 
-/// All keys as a Markdown table, for the documentation.
-pub fn markdown() -> String {
-    let mut page = "| key | unit | accepts | default | meaning |\n| --- | --- | --- | --- | --- |\n".to_owned();
-    for p in PARAMETERS {
-        let accepts = match p.range() {
-            Some(range) => range.to_string(),
-            None => p.accepts_if_given(),
-        };
-        let _ = writeln!(page, "| `{}` | {} | {accepts} | {} | {} |", p.key, p.unit, p.default_words(), p.about);
-    }
-    page
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,11 +281,5 @@ mod tests {
                 _ => {}
             }
         }
-    }
-
-    #[test]
-    fn markdown_has_a_row_per_key() {
-        assert_eq!(markdown().lines().count(), PARAMETERS.len() + 2);
-        assert!(markdown().contains("| `film.min_spacing_nm` | nm | 5 to 10000 | 200 |"));
     }
 }

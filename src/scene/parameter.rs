@@ -310,15 +310,6 @@ impl Parameter {
             ParameterKind::CsvPath { .. } => "the path of a CSV file".to_owned(),
         }
     }
-
-    pub(super) fn default_words(&self) -> String {
-        match (self.absent, self.default()) {
-            (Some(meaning), _) => format!("absent: {meaning}"),
-            (_, Some(Value::Text(default))) => format!("\"{default}\""),
-            (_, None | Some(Value::Rows(_))) => String::new(),
-            (_, Some(default)) => default.to_string(),
-        }
-    }
 }
 
 pub(super) const fn number(
