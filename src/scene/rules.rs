@@ -25,7 +25,7 @@ static RULES: &[Rule] = &[
         keys: &["rotor.model", "rotor.compliance", "rotor.compliance_csv", "rotor.green", "rotor.green_csv"],
         check: table_is_given,
     },
-    Rule { keys: &["rotor.part", "rotor.support"], check: ring_hangs_together },
+    Rule { keys: &["rotor.part", "rotor.support"], check: |scene| scene.section().map(drop) },
     Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
     Rule { keys: &["numerics.time", "surface.flow_factors"], check: gas_has_time },
     Rule {
@@ -99,10 +99,6 @@ fn table_is_given(scene: &Scene) -> Result<(), FaultKind> {
     unless(scene.rows(rows).is_empty(), "rotor.model", || {
         format!("rotor.model = \"{model}\" needs {rows}_csv or {rows}")
     })
-}
-
-fn ring_hangs_together(scene: &Scene) -> Result<(), FaultKind> {
-    scene.section().map(|_| ())
 }
 
 fn wedge_is_there(scene: &Scene) -> Result<(), FaultKind> {
