@@ -84,6 +84,14 @@ pub fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
     if rest.is_empty() { String::from_utf16(&units).map_err(|_| ReadError::NotText) } else { Err(ReadError::NotText) }
 }
 
+/// The line of a record in the text of a CSV file, from 1. The reader's position is before the blank lines and comments that it skips.
+pub fn csv_line(text: &str, at: Option<&csv::Position>) -> Option<u64> {
+    let at = at?;
+    let rest = text.get(usize::try_from(at.byte()).ok()?..)?;
+    let skipped = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#')).count();
+    Some(at.line() + skipped as u64)
+}
+
 /// Why a line of a CSV file cannot be read, in plain words.
 pub fn csv_fault(error: &csv::Error) -> String {
     match error.kind() {

@@ -278,8 +278,11 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         ("", "table.csv: no table: expected a line that names the columns, as in rotor_speed_rpm,torque_nm"),
         ("\n\n", "table.csv: no table"),
         ("alpha,alpha\n1,2\n", "table.csv:1: column alpha: given twice"),
+        ("# rig 2\nalpha,alpha\n1,2\n", "table.csv:2: column alpha: given twice"),
         ("alpha\n0.2\nhigh\n", "table.csv:3: column alpha: high is not a number"),
         ("alpha\n0.2\ninf\n", "table.csv:3: column alpha: inf is not a number"),
+        ("alpha\n0.2\n\n# hot\nhigh\n", "table.csv:5: column alpha: high is not a number"),
+        ("alpha\n# hot\n0.2,100\n", "table.csv:3: 2 cells: expected 1, one for each column"),
         ("alpha,alpha_error\n0.2,0\n", "table.csv:2: column alpha_error: \"0\": expected a number above 0"),
         (
             "alpha,film_load_n,alpha_error\n0.2,0.5,0.1\n",

@@ -6,7 +6,7 @@
 use proptest::prelude::*;
 use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::input::ReadError;
-use squeezefilm::problem::{Gas, Motor, Problem, RotorCompliance, Scenario};
+use squeezefilm::problem::{Gas, Motor, Problem, RotorCompliance};
 use squeezefilm::scene::{
     FaultKind, PARAMETERS, Parameter, ParameterKind, Range, Scene, SceneError, Value, heights, presets, table1,
 };
@@ -20,6 +20,15 @@ fn read(text: &str) -> Result<Scene, SceneError> {
 /// The message for a motor file of these lines after `schema` and `scene`, so that the first is line 3.
 fn message(lines: &str) -> String {
     read(&format!("schema = 1\nscene = \"motor\"\n{lines}")).unwrap_err().to_string()
+}
+
+/// The motor of a scene.
+fn motor(scene: &Scene) -> Motor {
+    Problem::try_from(scene).unwrap().scenario.motor().unwrap().clone()
+}
+
+fn dimensionless(scene: &Scene) -> Dimensionless {
+    Dimensionless::of(&Problem::try_from(scene).unwrap())
 }
 
 fn plate_message(lines: &str) -> String {
@@ -203,8 +212,8 @@ fn deep_nesting_is_refused() {
         let text = format!("schema = 1\n[rotor]\n{open}{}{close}\n", middle.repeat(100_000));
         let error = read(&text).unwrap_err().to_string();
         assert!(error.len() < 1000 && error.starts_with("my.toml:"), "{error}");
-        assert!(Scene::motor().set("rotor.compliance", &"[".repeat(100_000)).is_err());
     }
+    assert!(Scene::motor().set("rotor.compliance", &"[".repeat(100_000)).is_err());
 }
 
 #[test]
@@ -274,7 +283,7 @@ fn of_many_faults_ten_are_told_and_the_others_counted() {
         ),
     ] {
         let error = read(&format!("schema = 1\n{text}")).unwrap_err();
-        assert_eq!((error.faults().len(), error.more()), (10, count - 10));
+        assert_eq!(error.faults().len(), 10);
         let message = error.to_string();
         let told: Vec<_> = message.lines().collect();
         assert_eq!((told.len(), told[10]), (11, format!("and {} more", count - 10).as_str()));
@@ -324,15 +333,9 @@ fn a_key_at_fault_hides_the_rules_about_it() {
 
 // ---- the gas
 
-fn gas(scene: &Scene) -> Gas {
-    match Problem::try_from(scene).unwrap().scenario {
-        Scenario::Motor(motor) => motor.gas,
-        Scenario::Plate(plate) => plate.gas,
-    }
-}
-
 #[test]
 fn viscosity_and_mean_free_path_follow_a_named_gas() {
+    let gas = |scene: &Scene| motor(scene).gas;
     let mut scene = Scene::motor();
     assert_eq!(gas(&scene), Gas::default());
     scene.set("film.viscosity_upa_s", "30").unwrap();
@@ -486,8 +489,7 @@ fn what_is_not_given_follows_from_measured_heights() {
 #[test]
 fn a_compliance_table_is_read_inline_and_from_csv() {
     let inline = read("schema = 1\n[rotor]\nmodel = \"table\"\ncompliance = [[241.5, 2e-9],\n[483, 1e-9]]\n").unwrap();
-    let Scenario::Motor(motor) = Problem::try_from(&inline).unwrap().scenario else { panic!("a motor") };
-    assert_eq!(motor.rotor, RotorCompliance::Table(vec![(241.5, 2e-9), (483.0, 1e-9)]));
+    assert_eq!(motor(&inline).rotor, RotorCompliance::Table(vec![(241.5, 2e-9), (483.0, 1e-9)]));
 
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("r.csv"), "harmonic,compliance_m2_per_n\n1,2e-9\n2,1e-9\n").unwrap();
@@ -495,7 +497,7 @@ fn a_compliance_table_is_read_inline_and_from_csv() {
     let text = "schema = 1\n[rotor]\ncompliance_csv = \"r.csv\"\nmodel = \"table\"\n[motor]\nwaves = 6\n";
     std::fs::write(&preset, text).unwrap();
     let scene = Scene::load(&preset).unwrap();
-    let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
+    let motor = motor(&scene);
     let RotorCompliance::Table(rows) = &motor.rotor else { panic!("a table") };
     assert_eq!(rows.len(), 2);
     assert!((rows[1].0 * motor.wavelength() / std::f64::consts::TAU - 2.0).abs() < 1e-14);
@@ -556,7 +558,7 @@ fn a_section_is_read_in_either_notation_and_saved() {
          r_outer_mm = 30\nz_bottom_mm = 0\nz_top_mm = 2\nfixed = \"axial-radial\"\n[film]\nmin_spacing_nm = 100\n"
     );
     let scene = read(&text).unwrap();
-    let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
+    let motor = motor(&scene);
     let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
     let (part, support) = (&section.parts()[0], &section.supports()[0]);
     assert_eq!((part.name.as_str(), part.material.name), ("web", "brass"));
@@ -587,7 +589,7 @@ fn a_ring_that_is_chosen_suits_the_contact() {
         let contact = [("motor.contact_radius_mm", radius), ("rotor.contact_width_mm", width)];
         let ring = [("rotor.model", "ring"), ("stator.tooth_share", "0.5")];
         let mut scene = Scene::motor().with([ring, contact].concat()).unwrap();
-        let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
+        let motor = motor(&scene);
         let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
         let [(inner, outer)] = section.contact_faces()[..] else { panic!("one lining") };
         let (middle, wide) = (0.5 * (inner + outer), outer - inner);
@@ -805,7 +807,7 @@ fn an_unknown_preset_suggests_the_nearest() {
 fn the_fundamental_case_in_si() {
     let scene = presets::find("fundamental").unwrap().with([("motor.rotor_speed_rpm", "60")]).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
-    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    let motor = problem.scenario.motor().unwrap();
     assert_eq!(problem.name, "Fundamental case");
     assert_eq!((motor.waves, motor.teeth, motor.tooth_radius), (7, 9, None));
     let RotorCompliance::Beam { decay_length, point_compliance, local_compliance } = motor.rotor else {
@@ -1070,7 +1072,7 @@ fn close(a: f64, b: f64) -> bool {
 
 #[test]
 fn fundamental_case_by_hand() {
-    let numbers = Dimensionless::of(&Problem::try_from(&Scene::motor()).unwrap());
+    let numbers = dimensionless(&Scene::motor());
     let omega = std::f64::consts::TAU * 30e3;
     let sigma = 12.0 * 18.1e-6 * omega * 1.7353e-3 * 1.7353e-3 / (101_325.0 * 200e-9 * 200e-9);
     assert!(close(numbers.squeeze_number, sigma));
@@ -1086,27 +1088,21 @@ fn fundamental_case_by_hand() {
 
 #[test]
 fn the_rotor_adds_to_the_sliding_speed_whichever_way_it_turns() {
-    let of = |rpm: &str| {
-        let scene = Scene::motor().with([("motor.rotor_speed_rpm", rpm)]).unwrap();
-        Dimensionless::of(&Problem::try_from(&scene).unwrap()).bearing_number
-    };
+    let of = |rpm: &str| dimensionless(&Scene::motor().with([("motor.rotor_speed_rpm", rpm)]).unwrap()).bearing_number;
     assert!(of("300") > 2.0 * of("0"));
     assert_eq!(of("300"), of("-300"));
 }
 
 #[test]
 fn slip_thickens_the_layer() {
-    let of = |slip: &str| {
-        let scene = Scene::plate().with([("film.slip", slip)]).unwrap();
-        Dimensionless::of(&Problem::try_from(&scene).unwrap()).boundary_layer
-    };
+    let of = |slip: &str| dimensionless(&Scene::plate().with([("film.slip", slip)]).unwrap()).boundary_layer;
     assert!(close((of("first-order") / of("none")).powi(2), 1.384));
     assert!(of("second-order") > of("first-order"));
 }
 
 #[test]
 fn plate_presets_span_the_regimes() {
-    let of = |name: &str| Dimensionless::of(&Problem::try_from(&presets::find(name).unwrap()).unwrap());
+    let of = |name: &str| dimensionless(&presets::find(name).unwrap());
     assert!((0.25..0.35).contains(&of("plate-viscous").squeeze_number));
     assert!((10.0..20.0).contains(&of("plate-crossover").squeeze_number));
     assert!(of("plate-trapped").squeeze_number > 3000.0);
@@ -1115,8 +1111,7 @@ fn plate_presets_span_the_regimes() {
 
 #[test]
 fn a_table_says_what_it_does_not_cover() {
-    let problem = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap();
-    let Scenario::Motor(motor) = problem.scenario else { panic!("a motor") };
+    let motor = motor(&presets::find("fundamental").unwrap());
     let told = |rows: &[(f64, f64)]| {
         Motor { rotor: RotorCompliance::Table(rows.to_vec()), ..motor.clone() }.compliance_not_covered()
     };

@@ -5,7 +5,7 @@ use super::options::{AccuracyOptions, MemoryOptions, STANDARD_INPUT, SceneOption
 use crate::gui;
 use crate::gui::state::document::Document;
 use crate::gui::state::link::Link;
-use crate::scene::presets::BUILT_IN;
+use crate::scene::presets::BuiltIn;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         }
         Some(_) if link.is_some() => None,
         Some(preset) => {
-            let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
+            let built_in = BuiltIn::find(preset).is_some();
             // What --set changed is not in the file.
             let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;

@@ -29,7 +29,7 @@ mod terminal;
 mod tradeoff;
 
 use crate::export::files::ExportError;
-use crate::scene::presets::BUILT_IN;
+use crate::scene::presets::BuiltIn;
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::{CliError, Exit};
@@ -114,7 +114,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(cli) => cli,
         Err(usage) => {
             if let Some(ContextValue::String(word)) = usage.get(ContextKind::InvalidSubcommand)
-                && (BUILT_IN.iter().any(|preset| preset.name == word) || Path::new(word).is_file())
+                && (BuiltIn::find(word).is_some() || Path::new(word).is_file())
             {
                 terminal::error(&format!("{word} is a preset, not a command: squeezefilm solve {word}"));
                 return Exit::BadInput.code();

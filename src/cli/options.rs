@@ -132,7 +132,7 @@ pub(super) fn standard_input(limit: u64) -> Result<String, CliError> {
 /// The scene of a PRESET argument, and the text that it was read from; none of a built-in preset.
 fn original(preset: &str) -> Result<(Scene, Option<String>), CliError> {
     if preset != STANDARD_INPUT {
-        return Ok((presets::find(preset)?, presets::text(preset)));
+        return Ok(presets::read(preset)?);
     }
     let text = standard_input(LARGEST)?;
     Ok((presets::disclaimed(Scene::from_toml(&text, "standard input")?), Some(text)))

@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
 fn object(preset: &str, scene: &Scene, toml: Option<&str>) -> Value {
     let mut object = json!({ "preset": preset, "name": scene.name, "about": scene.about, "scene": scene.scene() });
-    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == preset) {
+    if let Some(built_in) = BuiltIn::find(preset) {
         object["group"] = built_in.group.into();
     }
     toml.into_iter().for_each(|toml| object["toml"] = toml.into());
@@ -62,9 +62,8 @@ fn object(preset: &str, scene: &Scene, toml: Option<&str>) -> Value {
 
 fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.scene.scene(preset)?;
-    let built_in = BUILT_IN.iter().find(|built_in| built_in.name == preset);
     // An unchanged built-in preset keeps the remarks in its file.
-    let toml = match built_in {
+    let toml = match BuiltIn::find(preset) {
         Some(built_in) if arguments.scene.changes.is_empty() => built_in.toml.to_owned(),
         _ => scene.to_toml(),
     };

@@ -15,7 +15,7 @@ use crate::export::json::{self, Summary};
 use crate::memory;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::scene::presets::BUILT_IN;
+use crate::scene::presets::BuiltIn;
 use crate::solution::{Status, settled};
 use crate::solve::{Settings, check, solve};
 use clap::Args;
@@ -180,7 +180,7 @@ fn one(
 
 /// The folder of one preset among several: its name, or that of its file, once.
 fn own(preset: &str, names: &mut Vec<String>) -> String {
-    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
+    let built_in = BuiltIn::find(preset).is_some();
     let name = match Path::new(preset).file_stem() {
         _ if preset == STANDARD_INPUT => "standard-input".to_owned(),
         Some(stem) if !built_in => stem.to_string_lossy().into_owned(),

@@ -1,6 +1,7 @@
 //! Checks whether a key accepts a value.
 
-use super::compliance;
+use super::compliance::{check_row_count, in_order};
+use super::edges;
 use super::error::{FaultKind, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -15,12 +16,9 @@ pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> R
     check_count(key, "tables", count, fewest..=MOST_RECORDS)
 }
 
-/// The name of one of an array of tables in messages: its first value if that is a name, or else its number.
-pub(super) fn named(record: &[Value], number: usize) -> String {
-    match record.first() {
-        Some(Value::Text(name)) if !name.is_empty() => show_text(name),
-        _ => format!("number {number}"),
-    }
+/// The name of one of an array of tables in messages: its first value if that is a text, or else its number.
+pub(super) fn named(first: Option<&str>, number: usize) -> String {
+    first.filter(|name| !name.is_empty()).map_or_else(|| format!("number {number}"), show_text)
 }
 
 impl Parameter {
@@ -45,8 +43,12 @@ impl Parameter {
                 refused(format!("\"{}\"", show_text(&name)), "not available", nearest)
             }
             (ParameterKind::Rows { columns }, Value::Rows(rows)) => {
-                compliance::check_rows(self.key, columns, &rows)?;
-                Ok(Value::Rows(rows))
+                check_row_count(self.key, rows.len())?;
+                let (mut wrong, rows) = (None, rows.into_iter().map(|row| ((), Ok(row))));
+                let rows = in_order(self.key, columns, rows, |(), fault| {
+                    wrong.get_or_insert(fault);
+                });
+                wrong.map_or(Ok(Value::Rows(rows)), Err)
             }
             (ParameterKind::Records { columns, fewest, .. }, Value::Records(records)) => {
                 check_records(self.key, records.len(), fewest)?;
@@ -55,7 +57,7 @@ impl Parameter {
                     if record.len() != columns.len() {
                         return wrong_type(Value::Records(vec![record]));
                     }
-                    let which = named(&record, number);
+                    let which = named(edges::name(&record), number);
                     let cells = columns.iter().zip(record).map(|(column, value)| column.accept(value));
                     let cells = cells.collect::<Result<_, _>>();
                     accepted.push(cells.map_err(|fault| FaultKind::Within {

@@ -4,7 +4,7 @@
 //! The [`Parameter`] of such a key is made from those of the array and of the column. It is not among `PARAMETERS`, and a scene keeps its
 //! value in the array.
 
-use super::edges::with_edge;
+use super::edges::{self, with_edge};
 use super::error::FaultKind;
 use super::keys::PARAMETERS;
 use super::parameter::{Parameter, ParameterKind};
@@ -69,7 +69,7 @@ impl Scene {
     fn cell(&self, key: &str) -> Option<Result<Place, FaultKind>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
-        let called = |record: &Vec<Value>| matches!(record.first(), Some(Value::Text(name)) if name == which);
+        let called = |record: &Vec<Value>| record.first().and_then(Value::as_text) == Some(which);
         let counted = || which.parse::<usize>().ok()?.checked_sub(1).filter(|number| *number < records.len());
         let place = records.iter().position(called).or_else(counted);
         Some(place.ok_or_else(|| self.unknown_key(key)).map(|row| (array, records, [row, column])))
@@ -84,11 +84,8 @@ impl Scene {
     /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), FaultKind>> {
         let put = |(array, mut records, [row, column]): Place| {
-            let ParameterKind::Records { columns, fewest, .. } = array.kind else {
-                return (array, Value::Records(records));
-            };
-            match value.as_number() {
-                Some(to) if fewest > 0 => {
+            match (value.as_number(), array.kind) {
+                (Some(to), ParameterKind::Records { columns, fewest: 1.., .. }) => {
                     let side = columns[..column].iter().filter(|column| column.range().is_some()).count();
                     records = with_edge(&records, (row, side), to);
                 }
@@ -128,10 +125,7 @@ impl Scene {
                 continue;
             };
             for (row, record) in records.iter().enumerate() {
-                let name = match record.first() {
-                    Some(Value::Text(name)) if columns[0].key == "name" && !name.is_empty() => name.clone(),
-                    _ => (row + 1).to_string(),
-                };
+                let name = edges::name(record).map_or_else(|| (row + 1).to_string(), str::to_owned);
                 let values = columns.iter().filter(|column| !matches!(column.kind, ParameterKind::Text { .. }));
                 keys.extend(values.map(|column| format!("{}.{name}.{}", array.key, column.key)));
             }

@@ -12,8 +12,7 @@ pub(super) fn carried(fresh: &str, old: &str) -> String {
     };
     let mut homeless = String::new();
     carry(to.as_table_mut(), from.as_table(), &mut homeless);
-    // Its last line may end without a line break.
-    homeless.push_str(&foreign("", Some(&format!("{}\n", from.trailing().as_str().unwrap_or_default().trim_end()))));
+    homeless.push_str(&foreign("", from.trailing().as_str().unwrap_or_default().trim_end()));
     let trailing = joined(to.trailing().as_str(), &homeless);
     to.set_trailing(trailing);
     without_old_assumptions(&to.to_string(), &to)
@@ -25,21 +24,22 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
         let key = from.key(name);
         let header = item.as_table().filter(|table| !table.is_dotted()).map(Table::decor);
         let before = header.or(key.map(|key| key.leaf_decor())).and_then(Decor::prefix);
-        homeless.push_str(&foreign(name, before.and_then(RawString::as_str)));
+        homeless.push_str(&foreign(name, before.and_then(RawString::as_str).unwrap_or_default()));
         if let Some(array) = item.as_array() {
             let around = |row: &Value| [row.decor().prefix(), row.decor().suffix()].map(|decor| decor.cloned());
             let inside = array.iter().flat_map(around).flatten().chain([array.trailing().clone()]);
             for row in inside {
-                homeless.push_str(&foreign(name, Some(&format!("{}\n", row.as_str().unwrap_or_default().trim_end()))));
+                homeless.push_str(&foreign(name, row.as_str().unwrap_or_default().trim_end()));
             }
         }
         let heads = item.as_array_of_tables().into_iter().flatten().chain(item.as_table());
         for table in heads {
+            let [before, behind] = [table.decor().prefix(), table.decor().suffix()]
+                .map(|decor| decor.and_then(RawString::as_str).unwrap_or_default());
             if item.is_array_of_tables() {
-                homeless.push_str(&foreign(name, table.decor().prefix().and_then(RawString::as_str)));
+                homeless.push_str(&foreign(name, before));
             }
-            let behind = table.decor().suffix().and_then(RawString::as_str).unwrap_or_default().trim();
-            homeless.push_str(&foreign(name, Some(&format!("{behind}\n"))));
+            homeless.push_str(&foreign(name, behind));
         }
         // Tables of an array are written as its rows.
         for table in item.as_array_of_tables().into_iter().flatten() {
@@ -106,10 +106,9 @@ fn joined(there: Option<&str>, comments: &str) -> String {
 }
 
 /// The lines of `decor`, at the key `leaf`, without those that this program writes; nothing if no comment is left.
-fn foreign(leaf: &str, decor: Option<&str>) -> String {
+fn foreign(leaf: &str, decor: &str) -> String {
     // What is behind the last line break indents what follows.
-    let decor = decor.unwrap_or_default();
-    let lines = decor.rsplit_once('\n').map_or(decor, |(lines, _)| lines).split('\n').map(str::trim);
+    let lines = decor.trim_end_matches([' ', '\t']).lines().map(str::trim);
     let lines: Vec<&str> = lines.filter(|line| !is_absent(line) && !is_ours(leaf, line)).collect();
     let comment = lines.iter().any(|line| line.starts_with('#'));
     if comment { lines.join("\n") + "\n" } else { String::new() }

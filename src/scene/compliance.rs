@@ -17,8 +17,9 @@
 //! as it is.
 
 use super::error::{Fault, FaultKind, SceneError, check_count};
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Parameter, Scale, number, whole};
 use super::value::{Value, show_number, show_text};
+use crate::input::csv_line;
 use std::path::Path;
 
 /// Most rows of a table.
@@ -37,23 +38,15 @@ pub static GREEN: [Parameter; 2] = [
 ];
 
 /// The column that a CSV file may have in place of the wavenumber.
-static HARMONIC: Parameter = Parameter {
-    kind: ParameterKind::Whole { min: 1, max: 1_000_000_000, default: 1 },
-    ..column("harmonic", "", 1.0, 1.0, "Harmonic n of the wavelength λ, k = 2πn/λ")
-};
+static HARMONIC: Parameter =
+    whole("harmonic", Belongs::Motor, (1, 1_000_000_000), 1, "Harmonic n of the wavelength λ, k = 2πn/λ");
 
 const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
-    let range = Range::new(min, max);
-    let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
-    Parameter { unit, ..Parameter::new(key, Belongs::Motor, kind, about) }
+    number(key, unit, Belongs::Motor, (min, max), (min, max), Scale::Log, max, about)
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.
-pub(super) fn check_row(
-    columns: &'static [Parameter; 2],
-    row: (f64, f64),
-    before: Option<f64>,
-) -> Result<(), FaultKind> {
+fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), before: Option<f64>) -> Result<(), FaultKind> {
     for (column, value) in columns.iter().zip([row.0, row.1]) {
         column.accept(Value::Number(value))?;
     }
@@ -74,26 +67,27 @@ pub(super) fn not_a_pair(found: &str, [first, second]: &[Parameter; 2]) -> Fault
     FaultKind::Rule { key: first.key, message }
 }
 
-/// The fault of row `row`, counted from 1.
-pub(super) fn in_row(key: &'static str, row: usize, fault: FaultKind) -> FaultKind {
-    FaultKind::Within { key, which: format!("row {row}"), fault: fault.into() }
-}
-
 /// Checks how many rows there are.
 pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), FaultKind> {
     check_count(key, "rows", rows, 1..=MOST_ROWS)
 }
 
-/// Checks a table held in memory, up to its first fault.
-pub(super) fn check_rows(
+/// Those rows of a table that are in order. `fault` is told of every other one, with its place.
+pub(super) fn in_order<P>(
     key: &'static str,
     columns: &'static [Parameter; 2],
-    rows: &[(f64, f64)],
-) -> Result<(), FaultKind> {
-    check_row_count(key, rows.len())?;
-    let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
-    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(columns, *row, before)).zip(1..);
-    checked.try_for_each(|(checked, row)| checked.map_err(|fault| in_row(key, row, fault)))
+    rows: impl Iterator<Item = (P, Result<(f64, f64), FaultKind>)>,
+    mut fault: impl FnMut(P, FaultKind),
+) -> Vec<(f64, f64)> {
+    let mut good: Vec<(f64, f64)> = Vec::new();
+    for ((place, row), number) in rows.zip(1..) {
+        let before = good.last().map(|row| row.0);
+        match row.and_then(|row| check_row(columns, row, before).map(|()| row)) {
+            Ok(row) => good.push(row),
+            Err(wrong) => fault(place, FaultKind::Within { key, which: format!("row {number}"), fault: wrong.into() }),
+        }
+    }
+    good
 }
 
 /// Reads the text of a CSV file for the `key` that names it. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and
@@ -105,15 +99,16 @@ pub(super) fn read_csv(
     path: &Path,
     wavelength: f64,
 ) -> Result<Vec<(f64, f64)>, SceneError> {
-    let fault =
-        |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
+    let fault = |line, what| Fault { line, ..Fault::of_file(path, what) };
+    let text = text.trim_start_matches('\u{feff}');
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-    let mut records = reader.records();
+        .from_reader(text.as_bytes());
+    // Of text, with lines of any length, the reader refuses none.
+    let mut records = reader.records().filter_map(Result::ok);
 
     // What is in the file instead is not shown: the file may be any of this machine.
     let other_header = || {
@@ -127,48 +122,21 @@ pub(super) fn read_csv(
             message: format!("{key}: this is no {what}: expected the header {other}{first},{second}"),
         }
     };
-    let header = match records.next() {
-        Some(Ok(header)) => header,
-        _ => return Err(fault(Some(1), other_header()).into()),
-    };
-    let line_of = |record: &csv::StringRecord| {
-        // The position is before the blank lines and comments that the reader skips: they are counted here.
-        record.position().map(|position| {
-            let rest = text.trim_start_matches('\u{feff}').get(position.byte() as usize..).unwrap_or_default();
-            let skipped = rest.lines().take_while(|l| l.trim().is_empty() || l.starts_with('#')).count();
-            position.line() as usize + skipped
-        })
-    };
+    let Some(header) = records.next() else { return Err(fault(Some(1), other_header()).into()) };
+    let line_of = |record: &csv::StringRecord| csv_line(text, record.position()).map(|line| line as usize);
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
         ["harmonic", second] if second == COMPLIANCE[1].key && columns[1].key == second => true,
         [first, second] if [first, second] == [columns[0].key, columns[1].key] => false,
         _ => return Err(fault(line_of(&header), other_header()).into()),
     };
 
-    let mut rows: Vec<(f64, f64)> = Vec::new();
+    let mut count = 0;
+    let records = records.take(MOST_ROWS + 1).inspect(|_| count += 1);
+    let records = records.map(|record| (line_of(&record), row_of(&record, columns, harmonics, wavelength)));
     let mut faults = SceneError::none();
-    for (i, record) in records.enumerate() {
-        let row = i + 1;
-        if let Err(too_many) = check_row_count(key, row) {
-            faults.push(fault(None, too_many));
-            break;
-        }
-        let (line, parsed) = match record {
-            Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
-            Err(error) => {
-                let line = error.position().map(|position| position.line() as usize);
-                (line, Err(not_a_pair(&error.to_string(), columns)))
-            }
-        };
-        let before = rows.last().map(|row| row.0);
-        match parsed.and_then(|row| check_row(columns, row, before).map(|()| row)) {
-            Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, in_row(key, row, wrong))),
-        }
-    }
-    let rows = faults.or(rows)?;
-    check_row_count(key, rows.len()).map_err(|none| fault(None, none))?;
-    Ok(rows)
+    let rows = in_order(key, columns, records, |line, wrong| faults.push(fault(line, wrong)));
+    check_row_count(key, count).unwrap_or_else(|wrong| faults.push(fault(None, wrong)));
+    faults.or(rows)
 }
 
 fn row_of(

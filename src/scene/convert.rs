@@ -1,9 +1,9 @@
 //! Turns a scene into a problem: values of keys become fields, in SI units.
 
 use super::compliance::GREEN;
+use super::edges;
 use super::error::{FaultKind, SceneError};
-use super::parameter::Parameter;
-use super::section::{PART, SUPPORT};
+use super::section::PART;
 use super::value::Value;
 use super::values::{Kind, Scene};
 use crate::gas::species::IdealGas;
@@ -39,7 +39,7 @@ impl Scene {
             mean_free_path: si("film.mean_free_path_nm")?,
             slip: choice(self, "film.slip")?,
             accommodation: si("film.accommodation")?,
-            ideal: match self.species()? {
+            ideal: match self.species() {
                 Some(species) => species.at(si("film.temperature_c")?),
                 None => IdealGas::UNNAMED,
             },
@@ -151,22 +151,16 @@ impl Scene {
             Some(Value::Records(records)) => records,
             _ => Vec::new(),
         };
-        let lengths = |columns: &[Parameter], cells: &[Value]| -> Vec<f64> {
-            let numbers = columns.iter().zip(cells).filter(|(column, _)| column.range().is_some());
-            numbers.filter_map(|(column, cell)| Some(column.si(cell.as_number()?))).collect()
-        };
-        let text = |cell: Option<&Value>| match cell {
-            Some(Value::Text(text)) => text.clone(),
-            _ => String::new(),
-        };
+        let metres = |cells: &[Value]| Some(edges::lengths(cells)?.map(|length| PART[1].si(length)));
+        let text = |cell: Option<&Value>| cell.and_then(Value::as_text).unwrap_or_default().to_owned();
         let parts = records("rotor.part").into_iter().filter_map(|cells| {
-            let [inner_radius, outer_radius, bottom, top] = lengths(&PART, &cells)[..] else { return None };
+            let [inner_radius, outer_radius, bottom, top] = metres(&cells)?;
             let material = text(cells.last());
             let material = *MATERIALS.iter().find(|known| known.name == material)?;
             Some(Part { name: text(cells.first()), inner_radius, outer_radius, bottom, top, material })
         });
         let supports = records("rotor.support").into_iter().filter_map(|cells| {
-            let [inner_radius, outer_radius, bottom, top] = lengths(&SUPPORT, &cells)[..] else { return None };
+            let [inner_radius, outer_radius, bottom, top] = metres(&cells)?;
             let fixed = text(cells.last());
             let holds = |direction: &str| fixed == "all" || fixed.split('-').any(|held| held == direction);
             let [radial, axial, circumferential] = ["radial", "axial", "circumferential"].map(holds);

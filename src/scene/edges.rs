@@ -14,6 +14,11 @@ pub fn lengths(part: &[Value]) -> Option<[f64; 4]> {
     numbers.try_into().ok()
 }
 
+/// The name of a part; a support has none.
+pub fn name(part: &[Value]) -> Option<&str> {
+    part.first()?.as_text().filter(|name| !name.is_empty())
+}
+
 /// The [`lengths`] of a box on the inner edge of the innermost of `parts` \[mm\]; `None` if there is no part.
 pub fn inner_edge(parts: &[Vec<Value>]) -> Option<[f64; 4]> {
     let boxes = parts.iter().filter_map(|part| lengths(part));

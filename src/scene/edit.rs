@@ -33,30 +33,30 @@ impl Scene {
         }
         let value = match parameter.kind {
             ParameterKind::Rows { .. } | ParameterKind::Records { .. } => parse::array_from_text(parameter, text)?,
-            ParameterKind::CsvPath { fills } => return self.take_csv(parameter, fills, text, Path::new(text)),
+            ParameterKind::CsvPath { table } => return self.take_csv(parameter, table, text, Path::new(text)),
             _ => parameter.read(text)?,
         };
         Ok(self.change(parameter, value)?)
     }
 
-    /// Reads the CSV file at `path`, and sets those keys in `fills` that this scene has. `parameter` names the file, with the value `given`,
-    /// which messages quote.
+    /// Reads the CSV file at `path`, and sets the key `table`, or those that follow from measured heights and that this scene has.
+    /// `parameter` names the file, with the value `given`, which messages quote.
     pub(super) fn take_csv(
         &mut self,
         parameter: &'static Parameter,
-        fills: &[&str],
+        table: Option<&str>,
         given: &str,
         path: &Path,
     ) -> Result<(), SceneError> {
-        if let [rows] = fills {
-            let of = self.parameter(rows)?;
+        if let Some(table) = table {
+            let of = self.parameter(table)?;
             let rows = parse::read_table(parameter, of, given, path, self.wavelength()?)?;
             return Ok(self.assign(of, rows)?);
         }
         let mut changed = self.clone();
         for (key, value) in heights::keys_of(&heights::read(parameter, given, path)?) {
             let of = changed.parameter(key)?;
-            if fills.contains(&key) && changed.applies(of).is_ok() {
+            if changed.has(of) {
                 changed.assign(of, Value::Number(value))?;
             }
         }
@@ -143,7 +143,7 @@ impl Scene {
             }
             (
                 Err(FaultKind::Elsewhere { selector, .. }),
-                ParameterKind::Rows { .. } | ParameterKind::CsvPath { fills: [_] } | ParameterKind::Records { .. },
+                ParameterKind::Rows { .. } | ParameterKind::CsvPath { table: Some(_) } | ParameterKind::Records { .. },
             ) if selector != "scene" => Ok(parameter),
             // The key that is set replaces the one that was given.
             (Err(FaultKind::BothGiven { .. }), _) => Ok(parameter),

@@ -27,18 +27,13 @@ impl SceneError {
         Self { faults: Vec::new(), more: 0 }
     }
 
-    /// Whether further faults are only counted.
-    pub(super) fn is_full(&self) -> bool {
-        self.faults.len() >= MOST_FAULTS
-    }
-
     pub(super) fn push(&mut self, fault: impl Into<Fault>) {
-        if self.is_full() { self.more += 1 } else { self.faults.push(fault.into()) }
+        self.push_with(|| fault.into());
     }
 
-    /// Counts a fault beyond those that are told.
-    pub(super) fn count_one(&mut self) {
-        self.more += 1;
+    /// Adds a fault, which is composed only if it will be told.
+    pub(super) fn push_with(&mut self, fault: impl FnOnce() -> Fault) {
+        if self.faults.len() < MOST_FAULTS { self.faults.push(fault()) } else { self.more += 1 }
     }
 
     /// Adds the faults of another error.
@@ -64,29 +59,11 @@ impl SceneError {
     pub fn faults(&self) -> &[Fault] {
         &self.faults
     }
-
-    /// How many faults there are beside those.
-    pub fn more(&self) -> usize {
-        self.more
-    }
-
-    /// Sets `origin` as the file of those faults that name none of their own.
-    pub(super) fn at(mut self, origin: &Path) -> Self {
-        for fault in &mut self.faults {
-            fault.origin.get_or_insert_with(|| origin.to_owned());
-        }
-        self
-    }
 }
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, fault) in self.faults.iter().enumerate() {
-            if i > 0 {
-                f.write_str("\n")?;
-            }
-            write!(f, "{fault}")?;
-        }
+        f.write_str(&self.faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n"))?;
         if self.more > 0 { write!(f, "\nand {} more", self.more) } else { Ok(()) }
     }
 }
@@ -106,10 +83,17 @@ pub struct Fault {
     pub origin: Option<PathBuf>,
     /// Line in the file, from 1.
     pub line: Option<usize>,
-    /// Column in the line, in characters, from 1.
+    /// Column in the line, in characters, from 1, where the text is not TOML.
     pub column: Option<usize>,
     /// The fault itself.
     pub what: FaultKind,
+}
+
+impl Fault {
+    /// A fault of a whole file.
+    pub(super) fn of_file(path: &Path, what: FaultKind) -> Self {
+        Self { origin: Some(path.to_owned()), ..what.into() }
+    }
 }
 
 impl From<FaultKind> for Fault {
@@ -125,7 +109,7 @@ impl fmt::Display for Fault {
             if let Some(line) = self.line {
                 write!(f, "{line}:")?;
             }
-            if let (FaultKind::Syntax(_), Some(column)) = (&self.what, self.column) {
+            if let Some(column) = self.column {
                 write!(f, "{column}:")?;
             }
             f.write_str(" ")?;
@@ -146,9 +130,6 @@ pub enum FaultKind {
     /// The text is not TOML; what its reader says.
     #[error("not valid TOML: {0}")]
     Syntax(String),
-    /// No `schema` key.
-    #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
-    SchemaMissing,
     /// A key or table that no scene has.
     #[error("unknown {kind} {key}{}", suggestion(nearest.as_deref(), siblings))]
     Unknown {
@@ -254,7 +235,6 @@ impl FaultKind {
             Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
             Self::BothGiven { key, .. } | Self::Rule { key, .. } | Self::Within { key, .. } => key,
             Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
-            Self::SchemaMissing => "schema",
             Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
         })
     }

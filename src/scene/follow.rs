@@ -8,6 +8,7 @@ use super::values::Scene;
 use crate::digits::as_given;
 use crate::gas::species::Species;
 use crate::gas::{self, atmosphere};
+use std::f64::consts::TAU;
 
 /// A key whose value may follow from others.
 struct Following {
@@ -15,17 +16,15 @@ struct Following {
     /// The key that it follows from: the one that is given instead, or the one that chooses a model.
     source: &'static str,
     /// The value in the unit of `key`, from the scene and `source`; `None` if the scene gives it.
-    value: fn(&Scene, &str) -> Result<Option<f64>, FaultKind>,
+    value: fn(&Scene, &str) -> Option<f64>,
 }
 
 /// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
 /// one, as `[numerator, denominator]` of a fraction. It depends on the scene.
-type Alternative = (&'static str, fn(&Scene) -> Result<[f64; 2], FaultKind>);
-
-const ALTERNATIVES: &[Alternative] = &[
-    ("motor.load_n", |scene| Ok([scene.number("motor.waves")?, 1.0])),
-    ("motor.rotor_speed_mm_per_s", |scene| Ok([scene.circumference_mm()?, 60.0])),
-    ("stator.tooth_share", |scene| Ok([1.0, scene.pitch_mm()?])),
+const ALTERNATIVES: &[(&str, fn(&Scene) -> Option<[f64; 2]>)] = &[
+    ("motor.load_n", |scene| Some([scene.number("motor.waves").ok()?, 1.0])),
+    ("motor.rotor_speed_mm_per_s", |scene| Some([TAU * scene.number("motor.contact_radius_mm").ok()?, 60.0])),
+    ("stator.tooth_share", |scene| Some([1.0, scene.pitch_mm().ok()?])),
 ];
 
 static FOLLOWING: &[Following] = &[
@@ -42,44 +41,41 @@ impl Scene {
     /// The value of a key that is not given in this scene, and that follows from others; in the unit of the key.
     pub fn following(&self, key: &str) -> Option<f64> {
         let following = FOLLOWING.iter().find(|following| following.key == key && self.is_set(following.source))?;
-        (following.value)(self, following.source).ok().flatten()
+        (following.value)(self, following.source)
     }
 
     /// The value \[in its own unit\] that an optional key would have, where the scene gives the key that it could replace; `None` if the scene
     /// gives it, or if it is not proportional to the other one.
     pub fn alternative(&self, parameter: &Parameter) -> Option<f64> {
         let given = parameter.instead_of.filter(|_| self.given(parameter.key).is_none())?;
-        let [factor, divisor] = self.factor(parameter.key)?.ok()?;
+        let [factor, divisor] = self.factor(parameter.key)?;
         Some(self.number(given).ok()? * factor / divisor)
     }
 
     /// The factor of a key in [`ALTERNATIVES`], as a fraction; `None` of any other key.
-    pub(super) fn factor(&self, key: &str) -> Option<Result<[f64; 2], FaultKind>> {
-        ALTERNATIVES.iter().find(|(alternative, _)| *alternative == key).map(|(_, factor)| factor(self))
+    pub(super) fn factor(&self, key: &str) -> Option<[f64; 2]> {
+        ALTERNATIVES.iter().find(|(alternative, _)| *alternative == key)?.1(self)
     }
 
     /// Values that follow and are out of the range of their key: for each the key that it follows from, and what is wrong.
     pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], FaultKind)> + '_ {
         FOLLOWING.iter().filter(|following| self.is_set(following.source)).filter_map(
             |Following { key, source, value }| {
-                let (parameter, value) = (Parameter::find(key)?, value(self, source).ok()??);
                 // To ten digits, as a person would write it.
-                let value = as_given(value);
+                let (parameter, value) = (Parameter::find(key)?, as_given(value(self, source)?));
                 let range = parameter.range().filter(|range| !range.contains(value))?;
                 let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
                 let unit = parameter.unit;
-                let message =
-                    format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
+                let message = format!("{given}{key} = {value} {unit}, which is out of range: allowed {range} {unit}");
                 Some((std::slice::from_ref(source), FaultKind::Rule { key: source, message }))
             },
         )
     }
 
     /// The value of the key that a key in [`ALTERNATIVES`] replaces, if that key is given.
-    fn replaced_by(&self, key: &str) -> Result<Option<f64>, FaultKind> {
-        let (Some(given), Some(factor)) = (self.given(key), self.factor(key)) else { return Ok(None) };
-        let [factor, divisor] = factor?;
-        Ok(Some(divisor * given / factor))
+    fn replaced_by(&self, key: &str) -> Option<f64> {
+        let [factor, divisor] = self.factor(key)?;
+        Some(divisor * self.given(key)? / factor)
     }
 
     /// The mean free path \[nm\] if it is given and matters. It then does not follow the pressure.
@@ -89,8 +85,8 @@ impl Scene {
     }
 
     /// The gas of the film, if it has a name.
-    pub(super) fn species(&self) -> Result<Option<&'static Species>, FaultKind> {
-        Ok(gas::find(self.text("film.gas")?))
+    pub(super) fn species(&self) -> Option<&'static Species> {
+        gas::find(self.text("film.gas").ok()?)
     }
 
     /// A number of this scene in SI.
@@ -100,28 +96,27 @@ impl Scene {
 }
 
 /// C_p = ℓ³/(8 EI) of a beam on a foundation that lets its deflection die out over ℓ, with I = w t³/12.
-fn point_compliance(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
-    if scene.text("rotor.model")? != "section" {
-        return Ok(None);
+fn point_compliance(scene: &Scene, _: &str) -> Option<f64> {
+    if scene.text("rotor.model") != Ok("section") {
+        return None;
     }
-    let second_moment = scene.si("rotor.width_mm")? * scene.si("rotor.thickness_mm")?.powi(3) / 12.0;
-    let bending = scene.si("rotor.elastic_modulus_gpa")? * second_moment;
-    Ok(Some(scene.si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6))
+    let si = |key| scene.si(key).ok();
+    let second_moment = si("rotor.width_mm")? * si("rotor.thickness_mm")?.powi(3) / 12.0;
+    let bending = si("rotor.elastic_modulus_gpa")? * second_moment;
+    Some(si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6)
 }
 
-fn pressure_at_altitude(scene: &Scene, altitude: &str) -> Result<Option<f64>, FaultKind> {
-    Ok(scene.given(altitude).map(|altitude| atmosphere::pressure(altitude) / 1e3))
+fn pressure_at_altitude(scene: &Scene, altitude: &str) -> Option<f64> {
+    Some(atmosphere::pressure(scene.given(altitude)?) / 1e3)
 }
 
-fn viscosity(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
-    let Some(gas) = scene.species()? else { return Ok(None) };
-    Ok(Some((gas.viscosity)(scene.si("film.temperature_c")?) * 1e6))
+fn viscosity(scene: &Scene, _: &str) -> Option<f64> {
+    Some((scene.species()?.viscosity)(scene.si("film.temperature_c").ok()?) * 1e6)
 }
 
-fn mean_free_path(scene: &Scene, _: &str) -> Result<Option<f64>, FaultKind> {
-    let Some(gas) = scene.species()? else { return Ok(None) };
-    let (pressure, temperature) = (scene.si("film.ambient_pressure_kpa")?, scene.si("film.temperature_c")?);
-    Ok(Some(gas.mean_free_path(pressure, temperature) * 1e9))
+fn mean_free_path(scene: &Scene, _: &str) -> Option<f64> {
+    let [pressure, temperature] = ["film.ambient_pressure_kpa", "film.temperature_c"].map(|key| scene.si(key).ok());
+    Some(scene.species()?.mean_free_path(pressure?, temperature?) * 1e9)
 }
 
 #[cfg(test)]

@@ -1,15 +1,16 @@
-//! Every key a scene can have: its unit, range, default and meaning. They are stated in this table only; files, `--set`, checks, sliders,
-//! sweeps and the documentation all read it. Besides an entry here, a new key needs its field in `problem.rs`, which `convert.rs` fills.
+//! Every key a scene can have: its unit, range, default and meaning. They are stated in this table only; files, `--set`, checks, sliders
+//! and sweeps all read it. Besides an entry here, a new key needs its field in `problem.rs`, which `convert.rs` fills.
 //! A key of `[numerics]` needs only a field of the same name in [`Numerics`](crate::problem::Numerics).
 
 use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
-use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Model, Parameter, ParameterKind, choice, flag, names, number, text, whole};
 use super::section::{PART, SUPPORT, parts};
+use crate::gas::GASES;
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
-use std::fmt::Write as _;
+use crate::surface::{HEIGHTS, LAWS};
 
 const BEAM: &[Model] = &[("rotor.model", &["beam"])];
 const SECTION: &[Model] = &[("rotor.model", &["section"])];
@@ -22,7 +23,7 @@ const ROUND: &[Model] = &[("plate.shape", &["disc", "ring"])];
 const RING_PLATE: &[Model] = &[("plate.shape", &["ring"])];
 const BOLTZMANN: &[Model] = &[("film.slip", &["fukui-kaneko"])];
 const CUSTOM: &[Model] = &[("film.gas", &["custom"])];
-const NAMED: &[Model] = &[("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"])];
+const NAMED: &[Model] = &[("film.gas", names!(GASES))];
 const HARD: &[Model] = &[("surface.model", &["minimum-spacing"])];
 const ASPERITIES: &[Model] = &[("surface.model", &["asperities"])];
 const ROUGH_FLOW: &[Model] = &[("surface.flow_factors", &["patir-cheng"])];
@@ -80,11 +81,11 @@ pub static PARAMETERS: &[Parameter] = &[
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
-    Parameter::new("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
+    Parameter::new("rotor.compliance_csv", Motor, CsvPath { table: Some("rotor.compliance") },
         "CSV of the compliance; path relative to the preset's folder").when(TABLE).named("Compliance from a CSV file"),
     Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE)
         .named("Compliance table"),
-    Parameter::new("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
+    Parameter::new("rotor.green_csv", Motor, CsvPath { table: Some("rotor.green") },
         "CSV of the deflection under a unit force; path relative to the preset's folder").when(GREENS).named("Deflection from a CSV file"),
     Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of distance from a unit force and deflection there").when(GREENS)
         .named("Deflection table"),
@@ -113,7 +114,7 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
         "Spacing that roughness leaves where the faces touch; not used for a plate with a given gap").when(HARD).named("Minimum spacing H_m"),
-    choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
+    choice("film.gas", Any, names!("custom", GASES), "custom",
         "Gas, which sets the viscosity and mean free path; for a custom gas they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
@@ -131,12 +132,11 @@ pub static PARAMETERS: &[Parameter] = &[
 
     choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
         "Contact of the faces: a hard stop at the minimum spacing, or elastic asperities").named("Faces meet on"),
-    choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
+    choice("surface.contact_law", Motor, names!(LAWS), "greenwood-williamson",
         "Contact law: asperities of one face against a plane, or of both faces").when(ASPERITIES),
-    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
+    choice("surface.summit_heights", Motor, names!(HEIGHTS), "gaussian", "Distribution of the heights of the summits").when(ASPERITIES)
         .named("Heights of summits"),
-    Parameter::new("surface.heights_csv", Motor,
-        CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
+    Parameter::new("surface.heights_csv", Motor, CsvPath { table: None },
         "CSV of the measured heights of both faces; path relative to the preset's folder. It gives roughness, summits and lay where they are not set")
         .when(ROUGH).named("Measured heights from a CSV file"),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
@@ -189,7 +189,7 @@ impl Parameter {
         match self.kind {
             // A load or a mass on a plate decides which other keys have an effect.
             _ if self.selects() || self.instead_of == Some("plate.mean_gap_um") => 0,
-            ParameterKind::CsvPath { fills: [_, _, ..] } => 1,
+            ParameterKind::CsvPath { table: None } => 1,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 4,
             // A value of an array comes after the array.
             _ if self.key.matches('.').count() > 1 => 5,
@@ -216,66 +216,11 @@ impl Parameter {
     }
 }
 
-const fn number(
-    key: &'static str,
-    unit: &'static str,
-    belongs: Belongs,
-    range: (f64, f64),
-    slider: (f64, f64),
-    scale: Scale,
-    default: f64,
-    about: &'static str,
-) -> Parameter {
-    let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
-    Parameter { unit, ..Parameter::new(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
-}
-
-const fn whole(
-    key: &'static str,
-    belongs: Belongs,
-    (min, max): (u32, u32),
-    default: u32,
-    about: &'static str,
-) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Whole { min, max, default }, about)
-}
-
-const fn choice(
-    key: &'static str,
-    belongs: Belongs,
-    options: &'static [&'static str],
-    default: &'static str,
-    about: &'static str,
-) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Choice { options, default }, about)
-}
-
-const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
-    Parameter::new(key, belongs, ParameterKind::Flag { default }, about)
-}
-
-const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
-    Parameter::new(key, Any, ParameterKind::Text { default }, about)
-}
-
 /// The tables of a scene file, in the order they are written.
 pub(super) fn tables() -> Vec<&'static str> {
     let mut tables: Vec<_> = PARAMETERS.iter().map(Parameter::table).filter(|table| !table.is_empty()).collect();
     tables.dedup();
     tables
-}
-
-/// All keys as a Markdown table, for the documentation.
-pub fn markdown() -> String {
-    let mut page = "| key | unit | accepts | default | meaning |\n| --- | --- | --- | --- | --- |\n".to_owned();
-    for p in PARAMETERS {
-        let accepts = match p.range() {
-            Some(range) => range.to_string(),
-            None => p.accepts_if_given(),
-        };
-        let _ = writeln!(page, "| `{}` | {} | {accepts} | {} | {} |", p.key, p.unit, p.default_words(), p.about);
-    }
-    page
 }
 
 #[cfg(test)]
@@ -320,27 +265,6 @@ mod tests {
     }
 
     #[test]
-    fn the_gases_of_the_key_are_those_that_there_are() {
-        let names: Vec<_> = crate::gas::GASES.iter().map(|gas| gas.name).collect();
-        assert_eq!(names, NAMED[0].1);
-        let ParameterKind::Choice { options, .. } = Parameter::find("film.gas").unwrap().kind else {
-            panic!("a choice")
-        };
-        assert_eq!([CUSTOM[0].1, NAMED[0].1].concat(), options);
-    }
-
-    #[test]
-    fn the_surface_laws_of_the_keys_are_those_that_there_are() {
-        let options = |key| match Parameter::find(key).unwrap().kind {
-            ParameterKind::Choice { options, .. } => options.to_vec(),
-            _ => panic!("a choice"),
-        };
-        let laws: Vec<_> = crate::surface::LAWS.iter().map(|law| law.name).collect();
-        let heights: Vec<_> = crate::surface::HEIGHTS.iter().map(|heights| heights.name).collect();
-        assert_eq!((options("surface.contact_law"), options("surface.summit_heights")), (laws, heights));
-    }
-
-    #[test]
     fn defaults_and_sliders_are_inside_the_range() {
         for p in PARAMETERS {
             match p.kind {
@@ -357,11 +281,5 @@ mod tests {
                 _ => {}
             }
         }
-    }
-
-    #[test]
-    fn markdown_has_a_row_per_key() {
-        assert_eq!(markdown().lines().count(), PARAMETERS.len() + 2);
-        assert!(markdown().contains("| `film.min_spacing_nm` | nm | 5 to 10000 | 200 |"));
     }
 }

@@ -46,7 +46,7 @@ mod values;
 mod write;
 
 pub use error::{Fault, FaultKind, SCHEMA, SceneError};
-pub use keys::{PARAMETERS, markdown};
+pub use keys::PARAMETERS;
 pub(crate) use nearest::nearest;
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use restate::SolvedPlate;

@@ -20,20 +20,17 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
 /// The dotted key nearest to `key`: one with the same last part in another table, or else the most similar one in the same table, or else
 /// the most similar one anywhere.
 pub(super) fn nearest_key<'a>(key: &str, candidates: &[&'a str]) -> Option<&'a str> {
-    fn leaf(key: &str) -> &str {
-        key.rsplit('.').next().unwrap_or_default()
+    fn split(key: &str) -> (&str, &str) {
+        key.rsplit_once('.').unwrap_or(("", key))
     }
-    fn table(key: &str) -> Option<&str> {
-        key.rsplit_once('.').map(|(table, _)| table)
-    }
-    let own = leaf(key);
-    if let Some(elsewhere) = candidates.iter().find(|candidate| leaf(candidate) == own) {
+    let (table, leaf) = split(key);
+    if let Some(elsewhere) = candidates.iter().find(|candidate| split(candidate).1 == leaf) {
         return Some(elsewhere);
     }
     let alike = |same_table: bool| {
-        let candidates = || candidates.iter().filter(|candidate| !same_table || table(candidate) == table(key));
-        let found = nearest(own, candidates().map(|candidate| leaf(candidate)))?;
-        candidates().find(|candidate| leaf(candidate) == found).copied()
+        let candidates = || candidates.iter().filter(|candidate| !same_table || split(candidate).0 == table);
+        let found = nearest(leaf, candidates().map(|candidate| split(candidate).1))?;
+        candidates().find(|candidate| split(candidate).1 == found).copied()
     };
     alike(true).or_else(|| alike(false))
 }

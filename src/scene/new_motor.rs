@@ -3,12 +3,13 @@
 //!
 //! The command line and the window ask the same questions. A question without an answer has a value that is assumed, or is required.
 
-use super::parameter::Parameter;
+use super::parameter::{Parameter, names};
 use super::quantity_text;
 use super::value::{Value, show_number, show_text};
 use super::values::Scene;
 use crate::atomic::{WriteError, write_file};
 use crate::digits::{as_given, brief, rounded};
+use crate::gas::GASES;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -49,7 +50,6 @@ const ELLIPSE: f64 = 1.3;
 const MUCH_FRICTION: f64 = 0.5;
 /// Usual coefficients of friction, in words.
 const USUAL: &str = "usual are 0.1 to 0.5, and 0.7 is that of Maeno and Bogy";
-const GASES: &[&str] = &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"];
 
 const fn question(
     name: &'static str,
@@ -79,7 +79,7 @@ pub static QUESTIONS: &[Question] = &[
     question("thickness-mm", "Thickness of the rotor's rim", Accepts::Key("rotor.thickness_mm"), Some("a fortieth of the diameter")),
     question("elastic-modulus-gpa", "Elastic modulus of the rotor", Accepts::Key("rotor.elastic_modulus_gpa"), Some("70, aluminium")),
     question("min-spacing-nm", "Spacing that roughness leaves", Accepts::Key("film.min_spacing_nm"), Some("200")),
-    question("gas", "Gas", Accepts::Choice(GASES), Some("air")),
+    question("gas", "Gas", Accepts::Choice(names!(GASES)), Some("air")),
     question("temperature-c", "Temperature", Accepts::Key("film.temperature_c"), Some("20")),
     question("altitude-m", "Altitude", Accepts::Key("film.altitude_m"), Some("sea level")),
 ];
@@ -225,14 +225,19 @@ impl Draft<'_> {
         self.pairs.push((key, value));
     }
 
-    /// Whether a key can have what follows from the answer to `name`.
-    fn possible(&self, name: &str, key: &str, value: Option<f64>) -> Result<Option<f64>, String> {
-        let Some(wanted) = value else { return Ok(None) };
-        let given = answer(self.answers, name).unwrap_or_default();
-        match Scene::motor().set_value(key, Value::Number(brief(wanted))) {
-            Ok(()) => Ok(value),
-            Err(fault) => Err(format!("{name} = {given} does not go with the other answers: {fault}")),
+    /// What `value` makes of the answer to `name`, for a key that has to accept it; `None` if there is no answer.
+    fn following(&self, name: &str, key: &str, value: impl Fn(f64) -> f64) -> Result<Option<f64>, String> {
+        let Some(value) = self.number(name).map(|answer| rounded(value(answer), DIGITS)) else { return Ok(None) };
+        match Scene::motor().set_value(key, Value::Number(brief(value))) {
+            Ok(()) => Ok(Some(value)),
+            Err(fault) => Err(self.unsuited(name, &fault.to_string())),
         }
+    }
+
+    /// The message for an answer that does not go with the others.
+    fn unsuited(&self, name: &str, why: &str) -> String {
+        let given = answer(self.answers, name).unwrap_or_default();
+        format!("{name} = {given} does not go with the other answers: {why}")
     }
 
     /// Gives a key the answer to `name` as it is, or else assumes `otherwise`.
@@ -280,10 +285,7 @@ impl NewMotor {
         match draft.number("teeth").map(|teeth| teeth / waves) {
             Some(teeth) if teeth.fract() == 0.0 => draft.give("stator.teeth_per_wave", teeth),
             Some(teeth) if teeth < 1.0 => {
-                let given = answer(answers, "teeth").unwrap_or_default();
-                return Err(format!(
-                    "teeth = {given} does not go with the other answers: each of the {waves} waves has one tooth or more"
-                ));
+                return Err(draft.unsuited("teeth", &format!("each of the {waves} waves has one tooth or more")));
             }
             Some(teeth) => {
                 let (given, taken) = (teeth * waves, teeth.round() * waves);
@@ -301,10 +303,8 @@ impl NewMotor {
             Some(width) => draft.give("stator.tooth_width_mm", width),
             None => draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch"),
         }
-        let friction = draft
-            .number("stall-torque-nm")
-            .map(|torque| rounded(factors.friction * torque / (load * radius * 1e-3), DIGITS));
-        match draft.possible("stall-torque-nm", "motor.dry_friction", friction)? {
+        let of_torque = |torque: f64| factors.friction * torque / (load * radius * 1e-3);
+        match draft.following("stall-torque-nm", "motor.dry_friction", of_torque)? {
             Some(friction) => {
                 let why = match factors {
                     Factors::LEAST => {
@@ -317,10 +317,8 @@ impl NewMotor {
             }
             None => draft.assume("motor.dry_friction", 0.3, "a filled polymer on metal"),
         }
-        let amplitude = draft
-            .number("no-load-speed-rpm")
-            .map(|speed| rounded(factors.amplitude * speed / 60.0 * radius / frequency, DIGITS));
-        let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
+        let of_speed = |speed: f64| factors.amplitude * speed / 60.0 * radius / frequency;
+        let amplitude = draft.following("no-load-speed-rpm", "stator.tangential_amplitude_um", of_speed)?;
         let (tangential, why) = match (amplitude, draft.number("normal-amplitude-um")) {
             (Some(amplitude), _) if factors == Factors::LEAST => {
                 (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
@@ -502,10 +500,9 @@ mod tests {
     }
 
     #[test]
-    fn questions_are_about_keys_and_gases_that_there_are() {
+    fn questions_are_about_keys_that_there_are() {
         for question in QUESTIONS.iter().filter(|question| matches!(question.accepts, Accepts::Key(_))) {
             assert!(question.parameter().is_some_and(|parameter| parameter.range().is_some()), "{}", question.name);
         }
-        assert_eq!(GASES, crate::gas::GASES.iter().map(|gas| gas.name).collect::<Vec<_>>());
     }
 }

@@ -5,6 +5,24 @@ use crate::digits::uncapitalised;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// The options of a key: any that are given here, then the names of the entries of a table.
+macro_rules! names {
+    ($($first:literal,)* $table:ident) => {{
+        const FIRST: &[&str] = &[$($first),*];
+        const NAMES: &[&str] = &{
+            let mut names = [""; FIRST.len() + $table.len()];
+            let mut i = 0;
+            while i < names.len() {
+                names[i] = if i < FIRST.len() { FIRST[i] } else { $table[i - FIRST.len()].name };
+                i += 1;
+            }
+            names
+        };
+        NAMES
+    }};
+}
+pub(super) use names;
+
 /// An interval of allowed values, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -96,8 +114,9 @@ pub enum ParameterKind {
     },
     /// The path of a CSV file, which is read together with the scene. The scene keeps the values that follow from the file, not the path.
     CsvPath {
-        /// The keys whose values follow from the file: one table, or several numbers. Numbers that the preset gives are not replaced.
-        fills: &'static [&'static str],
+        /// The key of the table that is in the file; `None` of measured heights, from which several numbers follow
+        /// ([`super::heights::keys_of`]). Those that the preset gives are not replaced.
+        table: Option<&'static str>,
     },
     /// An array of tables.
     Records {
@@ -291,15 +310,48 @@ impl Parameter {
             ParameterKind::CsvPath { .. } => "the path of a CSV file".to_owned(),
         }
     }
+}
 
-    pub(super) fn default_words(&self) -> String {
-        match (self.absent, self.default()) {
-            (Some(meaning), _) => format!("absent: {meaning}"),
-            (_, Some(Value::Text(default))) => format!("\"{default}\""),
-            (_, None | Some(Value::Rows(_))) => String::new(),
-            (_, Some(default)) => default.to_string(),
-        }
-    }
+pub(super) const fn number(
+    key: &'static str,
+    unit: &'static str,
+    belongs: Belongs,
+    range: (f64, f64),
+    slider: (f64, f64),
+    scale: Scale,
+    default: f64,
+    about: &'static str,
+) -> Parameter {
+    let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
+    Parameter { unit, ..Parameter::new(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
+}
+
+pub(super) const fn whole(
+    key: &'static str,
+    belongs: Belongs,
+    (min, max): (u32, u32),
+    default: u32,
+    about: &'static str,
+) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Whole { min, max, default }, about)
+}
+
+pub(super) const fn choice(
+    key: &'static str,
+    belongs: Belongs,
+    options: &'static [&'static str],
+    default: &'static str,
+    about: &'static str,
+) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Choice { options, default }, about)
+}
+
+pub(super) const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
+    Parameter::new(key, belongs, ParameterKind::Flag { default }, about)
+}
+
+pub(super) const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
+    Parameter::new(key, Belongs::Any, ParameterKind::Text { default }, about)
 }
 
 #[cfg(test)]

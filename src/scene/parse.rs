@@ -2,7 +2,7 @@
 //! and all faults are found in one reading.
 
 use super::accept::{check_records, named};
-use super::compliance::{self, check_row, check_row_count, in_row, not_a_pair};
+use super::compliance::{self, check_row_count, in_order, not_a_pair};
 use super::error::{Fault, FaultKind, SCHEMA, SceneError, did_you_mean};
 use super::keys::tables;
 use super::nearest::nearest;
@@ -17,7 +17,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// Largest file read \[MB\]. The largest compliance table takes a third of it.
-pub(super) const LARGEST_FILE: u64 = 16;
+const LARGEST_FILE: u64 = 16;
 
 impl Scene {
     /// Reads a preset file.
@@ -25,9 +25,12 @@ impl Scene {
     /// # Errors
     /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text =
-            input::read_text(path, LARGEST_FILE).map_err(|error| SceneError::from(FaultKind::Read(error)).at(path))?;
-        Self::from_toml(&text, path)
+        Self::from_toml(&Self::text_of(path)?, path)
+    }
+
+    /// The text of a preset file.
+    pub(super) fn text_of(path: &Path) -> Result<String, SceneError> {
+        Ok(input::read_text(path, LARGEST_FILE).map_err(|error| Fault::of_file(path, error.into()))?)
     }
 
     /// Reads a preset from text. `origin` is the path that messages name; CSV files are looked for in its folder.
@@ -35,9 +38,8 @@ impl Scene {
         let origin = origin.as_ref();
         let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
         let scene = reader.read();
-        // Without a fault there is a scene.
-        reader.faults.or(())?;
-        scene.ok_or_else(|| FaultKind::SchemaMissing.into())
+        // Without a scene there is a fault.
+        reader.faults.or(scene.unwrap_or_else(Scene::motor))
     }
 }
 
@@ -83,7 +85,9 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                self.fault(error.span(), || FaultKind::Syntax(syntax_message(error.message())));
+                let (line, column) = error.span().map(|span| line_and_column(self.text, span.start)).unzip();
+                let what = FaultKind::Syntax(syntax_message(error.message()));
+                self.faults.push(Fault { line, column, ..Fault::of_file(self.origin, what) });
                 return None;
             }
         };
@@ -108,16 +112,18 @@ impl Reader<'_> {
 
     /// Whether the file is of a schema this program reads.
     fn schema(&mut self, root: &DeTable<'_>) -> bool {
-        match root.get("schema") {
-            None => self.fault(None, || FaultKind::SchemaMissing),
-            Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
-            Some(value) => {
-                let found = self.written(value.span());
-                let message = format!("schema = {found} is not supported: this program reads schema = {SCHEMA}");
-                self.fault(Some(value.span()), || FaultKind::Rule { key: "schema", message });
-            }
+        let value = root.get("schema");
+        let good = value.is_some_and(|value| integer(value.get_ref()) == Some(SCHEMA));
+        if !good {
+            self.fault(value.map(Spanned::span), |found| {
+                let message = match value {
+                    None => format!("the key schema is missing: write schema = {SCHEMA} at the top of the file"),
+                    Some(_) => format!("schema = {found} is not supported: this program reads schema = {SCHEMA}"),
+                };
+                FaultKind::Rule { key: "schema", message }
+            });
         }
-        false
+        good
     }
 
     /// The default scene of the kind the file asks for.
@@ -128,16 +134,17 @@ impl Reader<'_> {
             let message = format!(
                 "{missing}; allowed \"motor\" or \"plate\", and without it the scene is a motor, which has no [plate]"
             );
-            self.fault(Some(plate.span()), || FaultKind::Rule { key: "scene", message });
+            self.fault(Some(plate.span()), |_| FaultKind::Rule { key: "scene", message });
             return None;
         };
         let name = value.get_ref().as_str().unwrap_or_default();
         let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name);
         if kind.is_none() {
-            let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
-            let found = self.written(value.span());
-            let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
-            self.fault(Some(value.span()), || FaultKind::Rule { key: "scene", message });
+            self.fault(Some(value.span()), |found| {
+                let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
+                let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
+                FaultKind::Rule { key: "scene", message }
+            });
         }
         kind.map(Scene::new)
     }
@@ -152,18 +159,17 @@ impl Reader<'_> {
             match (tables.iter().copied().find(|table| *table == name), value.get_ref()) {
                 _ if matches!(name, "schema" | "scene") => {}
                 (Some(table), DeValue::Table(inside)) => match scene.has_table(table, format!("[{table}]")) {
-                    Err(foreign) => self.fault(Some(at), || foreign),
+                    Err(foreign) => self.fault(Some(at), |_| foreign),
                     Ok(()) => {
                         let dotted = |key: &str| format!("{table}.{key}");
                         entries.extend(inside.iter().map(|(key, value)| (key.span(), dotted(key.get_ref()), value)));
                     }
                 },
-                (Some(table), _) => {
-                    let found = self.written(value.span());
+                (Some(table), _) => self.fault(Some(value.span()), |found| {
                     let message = format!("{table} = {found} is not a table: write [{table}] with its keys below");
-                    self.fault(Some(value.span()), || FaultKind::Rule { key: table, message });
-                }
-                (None, DeValue::Table(_)) => self.fault(Some(at), || {
+                    FaultKind::Rule { key: table, message }
+                }),
+                (None, DeValue::Table(_)) => self.fault(Some(at), |_| {
                     let siblings = scene.tables();
                     let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
                     FaultKind::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
@@ -176,17 +182,17 @@ impl Reader<'_> {
 
     fn key(&mut self, scene: &mut Scene, at: Bytes<usize>, key: &str, value: &Spanned<DeValue<'_>>) {
         let Some(parameter) = Parameter::find(key) else {
-            return self.fault(Some(at), || scene.unknown_key(key));
+            return self.fault(Some(at), |_| scene.unknown_key(key));
         };
         let span = value.span();
         if let Some(other) = parameter.alternatives().find(|other| self.spans.contains_key(other.key)) {
-            return self.fault(Some(at), || FaultKind::BothGiven { key: parameter.key, other: other.key });
+            return self.fault(Some(at), |_| FaultKind::BothGiven { key: parameter.key, other: other.key });
         }
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
             // If the model itself is at fault, it is not known which keys there are.
             Err(FaultKind::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
-            Err(what) => return self.fault(Some(at), || what),
+            Err(what) => return self.fault(Some(at), |_| what),
             Ok(()) => {}
         }
         let read = match parameter.kind {
@@ -194,49 +200,46 @@ impl Reader<'_> {
                 let (mut in_order, text) = (true, self.text);
                 let read = array_from_toml(parameter, value, text, &mut |span, what| {
                     in_order = false;
-                    self.fault(Some(span), || what);
+                    self.fault(Some(span), |_| what);
                 });
                 if !in_order {
                     return;
                 }
                 Ok(read)
             }
-            ParameterKind::CsvPath { fills } => return self.csv(scene, parameter, fills, value),
-            _ => value_from_toml(value.get_ref())
-                .ok_or_else(|| FaultKind::wrong_type(parameter, self.written(span.clone()))),
+            ParameterKind::CsvPath { table } => return self.csv(scene, parameter, table, value),
+            _ => value_from_toml(value.get_ref()).ok_or_else(|| FaultKind::wrong_type(parameter, String::new())),
         };
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
-            let found = self.written(span.clone());
-            self.fault(Some(span), || match what {
+            self.fault(Some(span), |found| match what {
                 // The message shows the value as it is written in the file.
                 FaultKind::Refused { parameter, why: "of the wrong type", .. } => {
-                    FaultKind::wrong_type(parameter, found)
+                    FaultKind::wrong_type(parameter, found.to_owned())
                 }
                 what => what,
             });
         }
     }
 
-    /// Sets the keys `fills` from the CSV file that a key names.
-    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, fills: &[&str], value: &Spanned<DeValue<'_>>) {
+    /// Sets the key `table`, or those that follow from measured heights, from the CSV file that a key names.
+    fn csv(&mut self, scene: &mut Scene, file: &'static Parameter, table: Option<&str>, value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
-            let found = self.written(value.span());
-            return self.fault(span, || FaultKind::wrong_type(parameter, found));
+            return self.fault(span, |found| FaultKind::wrong_type(file, found.to_owned()));
         };
-        if let [rows] = fills {
-            if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
-                return self.fault(span, || FaultKind::BothGiven { key: parameter.key, other: other.key });
+        if let Some(table) = table {
+            if let Some(other) = Parameter::find(table).filter(|other| self.spans.contains_key(other.key)) {
+                return self.fault(span, |_| FaultKind::BothGiven { key: file.key, other: other.key });
             }
             if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
                 return;
             }
         }
         let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
-        if let Err(error) = scene.take_csv(parameter, fills, given, &path) {
+        if let Err(error) = scene.take_csv(file, table, given, &path) {
             match error.faults() {
                 // The fault is about the whole file, and not about a line of it.
-                [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),
+                [Fault { origin: None, what, .. }, ..] => self.fault(span, |_| what.clone()),
                 _ => self.faults.join(error),
             }
         }
@@ -252,7 +255,7 @@ impl Reader<'_> {
             if !self.at_fault(keys) && !unread {
                 // The line of the first key of the rule that the file gives.
                 let span = keys.iter().find_map(|key| self.spans.get(key)).cloned();
-                self.fault(span, || what);
+                self.fault(span, |_| what);
             }
         }
     }
@@ -261,18 +264,14 @@ impl Reader<'_> {
         self.faults.faults().iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
     }
 
-    /// Adds a fault. The message is composed only if it will be shown, because a hostile file may have a fault on every line.
-    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> FaultKind) {
-        if self.faults.is_full() {
-            return self.faults.count_one();
-        }
-        let (line, column) = span.map(|span| line_and_column(self.text, span.start)).unzip();
-        self.faults.push(Fault { origin: Some(self.origin.to_owned()), line, column, what: what() });
-    }
-
-    /// A value as it is written in the file.
-    fn written(&self, span: Bytes<usize>) -> String {
-        show_text(self.text.get(span).unwrap_or_default())
+    /// Adds a fault, which is told what is written at its place. The message is composed only if it will be shown, because a hostile file may
+    /// have a fault on every line.
+    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce(&str) -> FaultKind) {
+        self.faults.push_with(|| {
+            let line = span.as_ref().map(|span| line_and_column(self.text, span.start).0);
+            let written = show_text(span.and_then(|span| self.text.get(span)).unwrap_or_default());
+            Fault { line, ..Fault::of_file(self.origin, what(&written)) }
+        });
     }
 }
 
@@ -325,21 +324,14 @@ fn rows_from_toml(
     text: &str,
     fault: OnFault<'_>,
 ) -> Vec<(f64, f64)> {
-    let mut rows: Vec<(f64, f64)> = Vec::new();
-    for (row, i) in array.iter().zip(1..) {
+    let pair = |row: &Spanned<DeValue<'_>>| {
         let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
-        let checked = match numbers.map(Vec::from_iter).as_deref() {
-            Some([Some(first), Some(second)]) => {
-                let pair = (*first, *second);
-                check_row(columns, pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
-            }
+        match numbers.map(Vec::from_iter).as_deref() {
+            Some([Some(first), Some(second)]) => Ok((*first, *second)),
             _ => Err(not_a_pair(text.get(row.span()).unwrap_or_default(), columns)),
-        };
-        if let Err(wrong) = checked {
-            fault(row.span(), in_row(key, i, wrong));
         }
-    }
-    rows
+    };
+    in_order(key, columns, array.iter().map(|row| (row.span(), pair(row))), fault)
 }
 
 /// An array of tables, each with a key for every column.
@@ -359,7 +351,7 @@ fn records_from_toml(
             continue;
         };
         let name = columns.first().and_then(|column| given.get(column.key)).and_then(|value| value.get_ref().as_str());
-        let which = named(&name.map(|name| Value::Text(name.to_owned())).into_iter().collect::<Vec<_>>(), number);
+        let which = named(name, number);
         let mut wrong = |span, what: FaultKind| {
             fault(span, FaultKind::Within { key, which: which.clone(), fault: what.into() });
         };

@@ -3,10 +3,8 @@
 use super::error::{FaultKind, SceneError};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
-use super::parse::LARGEST_FILE;
 use super::value::show_text;
 use super::values::Scene;
-use crate::input;
 use std::path::Path;
 
 /// A preset built into the program.
@@ -21,6 +19,11 @@ pub struct BuiltIn {
 }
 
 impl BuiltIn {
+    /// The preset of a name.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        BUILT_IN.iter().find(|built_in| built_in.name == name)
+    }
+
     /// The scene.
     ///
     /// # Errors
@@ -71,12 +74,6 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
-/// The text of the file that a PRESET argument names; `None` of a built-in preset.
-pub fn text(name_or_path: &str) -> Option<String> {
-    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == name_or_path);
-    (!built_in).then(|| input::read_text(Path::new(name_or_path), LARGEST_FILE).ok()).flatten()
-}
-
 /// Keys whose defaults are what everybody expects.
 const USUAL: [&str; 2] = ["film.temperature_c", "film.accommodation"];
 
@@ -115,13 +112,19 @@ pub fn disclaimed(mut scene: Scene) -> Scene {
 /// # Errors
 /// The faults of the file; or, if there is no such file, [`FaultKind::UnknownPreset`] with the nearest built-in name.
 pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
-    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == name_or_path) {
-        return built_in.scene();
+    Ok(read(name_or_path)?.0)
+}
+
+/// As [`find`], with the text of the file; none of a built-in preset.
+pub fn read(name_or_path: &str) -> Result<(Scene, Option<String>), SceneError> {
+    if let Some(built_in) = BuiltIn::find(name_or_path) {
+        return Ok((built_in.scene()?, None));
     }
     let path = Path::new(name_or_path);
-    // If the path exists but cannot be read, loading it gives the reason.
+    // If the path exists but cannot be read, reading it gives the reason.
     if path.try_exists().unwrap_or(true) && !name_or_path.is_empty() {
-        return Scene::load(path).map(disclaimed);
+        let text = Scene::text_of(path)?;
+        return Ok((disclaimed(Scene::from_toml(&text, path)?), Some(text)));
     }
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
     let stem = stem.strip_suffix(".toml").unwrap_or(&stem).replace(['_', ' '], "-");

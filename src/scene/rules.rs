@@ -25,7 +25,7 @@ static RULES: &[Rule] = &[
         keys: &["rotor.model", "rotor.compliance", "rotor.compliance_csv", "rotor.green", "rotor.green_csv"],
         check: table_is_given,
     },
-    Rule { keys: &["rotor.part", "rotor.support"], check: ring_hangs_together },
+    Rule { keys: &["rotor.part", "rotor.support"], check: |scene| scene.section().map(drop) },
     Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
     Rule { keys: &["numerics.time", "surface.flow_factors"], check: gas_has_time },
     Rule {
@@ -66,16 +66,15 @@ impl Scene {
     /// The range of a key in this scene: its own, narrowed to what the other keys allow. `None` for a key that is not a
     /// number or does not apply. The upper end of the range of `plate.amplitude_um` is itself not allowed.
     pub fn range(&self, key: &str) -> Option<Range> {
-        let parameter = Parameter::find(key)?;
-        self.applies(parameter).ok()?;
+        let parameter = Parameter::find(key).filter(|parameter| self.has(parameter))?;
         let own = parameter.range()?;
         let narrower = match key {
             "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
             "plate.inner_radius_mm" => Range::new(0.0, WIDEST_HOLE * self.number("plate.radius_mm").ok()?),
             "plate.amplitude_um" if !self.floats() => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
             _ => match (parameter.instead_of, self.factor(key)) {
-                (Some(replaced), Some(factor)) => {
-                    let ([factor, divisor], Range { min, max }) = (factor.ok()?, Parameter::find(replaced)?.range()?);
+                (Some(replaced), Some([factor, divisor])) => {
+                    let Range { min, max } = Parameter::find(replaced)?.range()?;
                     Range::new(min * (factor / divisor), max * (factor / divisor))
                 }
                 _ => own,
@@ -100,10 +99,6 @@ fn table_is_given(scene: &Scene) -> Result<(), FaultKind> {
     unless(scene.rows(rows).is_empty(), "rotor.model", || {
         format!("rotor.model = \"{model}\" needs {rows}_csv or {rows}")
     })
-}
-
-fn ring_hangs_together(scene: &Scene) -> Result<(), FaultKind> {
-    scene.section().map(|_| ())
 }
 
 fn wedge_is_there(scene: &Scene) -> Result<(), FaultKind> {

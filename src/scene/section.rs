@@ -23,20 +23,11 @@
 //! Radii are measured from the ring's axis. Heights grow away from the stator, which touches the lowest faces of the ring; their zero is
 //! arbitrary.
 
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::Belongs::Motor;
+use super::parameter::{Parameter, Scale, choice, names, number, text};
 use super::value::Value;
 use crate::digits::as_given;
 use crate::rotor::ring::MATERIALS;
-
-const NAMES: [&str; MATERIALS.len()] = {
-    let mut names = [""; MATERIALS.len()];
-    let mut i = 0;
-    while i < names.len() {
-        names[i] = MATERIALS[i].name;
-        i += 1;
-    }
-    names
-};
 
 /// The directions that a support may hold, and their combinations.
 const FIXED: [&str; 7] =
@@ -44,23 +35,12 @@ const FIXED: [&str; 7] =
 
 /// The keys of a part.
 pub(super) static PART: [Parameter; 6] = [
-    Parameter::new(
-        "name",
-        Belongs::Motor,
-        ParameterKind::Text { default: "" },
-        "The name that messages and drawings use",
-    ),
+    text("name", "", "The name that messages and drawings use"),
     length("r_inner_mm", 0.05, "Inner radius").named("Inner radius"),
     length("r_outer_mm", 0.05, "Outer radius").named("Outer radius"),
     length("z_bottom_mm", -1000.0, "Height of its lower face").named("Bottom"),
     length("z_top_mm", -1000.0, "Height of its upper face").named("Top"),
-    Parameter::new(
-        "material",
-        Belongs::Motor,
-        ParameterKind::Choice { options: &NAMES, default: "aluminium" },
-        "What it is made of",
-    )
-    .named("Material"),
+    choice("material", Motor, names!(MATERIALS), "aluminium", "What it is made of").named("Material"),
 ];
 
 /// The keys of a support.
@@ -69,13 +49,7 @@ pub(super) static SUPPORT: [Parameter; 5] = [
     length("r_outer_mm", 0.0, "Outer radius of the box").named("Outer radius"),
     length("z_bottom_mm", -1000.0, "Height of its lower edge").named("Bottom"),
     length("z_top_mm", -1000.0, "Height of its upper edge").named("Top"),
-    Parameter::new(
-        "fixed",
-        Belongs::Motor,
-        ParameterKind::Choice { options: &FIXED, default: "axial" },
-        "Directions in which what lies in the box cannot move",
-    )
-    .named("Fixed"),
+    choice("fixed", Motor, &FIXED, "axial", "Directions in which what lies in the box cannot move").named("Fixed"),
 ];
 
 /// From the contact radius to either side of the default rim \[mm\].
@@ -118,7 +92,6 @@ pub(super) fn parts_at(radius: f64, width: f64) -> Vec<Vec<Value>> {
 }
 
 const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {
-    let (range, slider) = (Range::new(min, 1000.0), Range::new(if min < 0.0 { -20.0 } else { min }, 60.0));
-    let kind = ParameterKind::Number { range, slider, scale: Scale::Linear, default: 1.0 };
-    Parameter { unit: "mm", ..Parameter::new(key, Belongs::Motor, kind, about) }
+    let slider = (if min < 0.0 { -20.0 } else { min }, 60.0);
+    number(key, "mm", Motor, (min, 1000.0), slider, Scale::Linear, 1.0, about)
 }

@@ -30,6 +30,11 @@ impl Value {
             Self::Flag(_) | Self::Text(_) | Self::Rows(_) | Self::Records(_) => None,
         }
     }
+
+    /// The value as text, if it is one.
+    pub(super) fn as_text(&self) -> Option<&str> {
+        if let Self::Text(text) = self { Some(text) } else { None }
+    }
 }
 
 impl fmt::Display for Value {

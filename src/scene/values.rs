@@ -81,7 +81,7 @@ impl Scene {
             "name" => Some(Value::Text(self.name.clone())),
             "about" => Some(Value::Text(self.about.clone())),
             _ => self.values.get(key).cloned().or_else(|| {
-                let parameter = Parameter::find(key).filter(|parameter| self.applies(parameter).is_ok())?;
+                let parameter = Parameter::find(key).filter(|parameter| self.has(parameter))?;
                 self.cell_value(key).or_else(|| parameter.default())
             }),
         }
@@ -102,12 +102,8 @@ impl Scene {
     }
 
     /// Whether this scene has a key: its own kind and model do, and no other key replaces it.
-    pub fn has(&self, parameter: &'static Parameter) -> bool {
-        // The cheap tests come first: `applies` also composes the reason.
-        let other =
-            matches!((parameter.belongs, self.kind), (Belongs::Motor, Kind::Plate) | (Belongs::Plate, Kind::Motor));
-        let chosen = |(selector, needs): &Model| self.text(selector).is_ok_and(|model| needs.contains(&model));
-        !other && (parameter.when.is_empty() || parameter.when.iter().any(chosen)) && self.applies(parameter).is_ok()
+    pub fn has(&self, parameter: &Parameter) -> bool {
+        self.elsewhere(parameter).is_none() && self.replacing(parameter).is_none()
     }
 
     /// Whether a key that this scene has can change its results. The file of a plate may have keys that only a motor uses; setting or varying
@@ -164,33 +160,37 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether a key applies to this scene; if not, why.
-    pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), FaultKind> {
-        let elsewhere = |selector, needs, chosen: &str| {
-            let (key, chosen) = (parameter.key.to_owned(), chosen.to_owned());
-            Err(FaultKind::Elsewhere { key, selector, needs, chosen })
-        };
+    /// If the scene or its model does not have a key: the key that chooses, and those of its values that have it.
+    fn elsewhere(&self, parameter: &Parameter) -> Option<Model> {
         match (parameter.belongs, self.kind) {
-            (Belongs::Motor, Kind::Plate) => return elsewhere("scene", &["motor"], self.scene()),
-            (Belongs::Plate, Kind::Motor) => return elsewhere("scene", &["plate"], self.scene()),
+            (Belongs::Motor, Kind::Plate) => return Some(("scene", &["motor"])),
+            (Belongs::Plate, Kind::Motor) => return Some(("scene", &["plate"])),
             _ => {}
         }
-        let mut fault = Ok(());
-        for (selector, needs) in parameter.when {
-            let chosen = self.text(selector)?;
-            if needs.contains(&chosen) {
-                fault = Ok(());
-                break;
-            }
-            fault = fault.and(elsewhere(selector, needs, chosen));
+        let chosen = |(selector, needs): &Model| self.text(selector).is_ok_and(|model| needs.contains(&model));
+        parameter.when.first().filter(|_| !parameter.when.iter().any(chosen)).copied()
+    }
+
+    /// The key that is given in place of another one.
+    fn replacing(&self, parameter: &Parameter) -> Option<&'static Parameter> {
+        PARAMETERS.iter().find(|other| other.instead_of == Some(parameter.key) && self.is_set(other.key))
+    }
+
+    /// Whether a key applies to this scene; if not, why.
+    pub(super) fn applies(&self, parameter: &Parameter) -> Result<(), FaultKind> {
+        if let Some(model) = self.elsewhere(parameter) {
+            return Err(self.foreign(parameter.key.to_owned(), model));
         }
-        fault?;
-        let replaces =
-            |other: &&Parameter| other.instead_of == Some(parameter.key) && self.values.contains_key(other.key);
-        match PARAMETERS.iter().find(replaces) {
+        match self.replacing(parameter) {
             Some(other) => Err(FaultKind::BothGiven { key: parameter.key, other: other.key }),
             None => Ok(()),
         }
+    }
+
+    /// The fault of a key or table that only other scenes or models have.
+    fn foreign(&self, key: String, (selector, needs): Model) -> FaultKind {
+        let chosen = if selector == "scene" { self.scene() } else { self.text(selector).unwrap_or_default() };
+        FaultKind::Elsewhere { key, selector, needs, chosen: chosen.to_owned() }
     }
 
     /// The fault of a key that does not exist.
@@ -224,10 +224,8 @@ impl Scene {
     /// Whether this kind of scene has a table; if not, why, with `key` as the subject of the message. A table that does not exist is not a
     /// fault here.
     pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), FaultKind> {
-        match PARAMETERS.iter().find(|p| p.table() == table).map(|p| self.applies(p)) {
-            Some(Err(FaultKind::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
-                Err(FaultKind::Elsewhere { key, selector, needs, chosen })
-            }
+        match PARAMETERS.iter().find(|p| p.table() == table).and_then(|p| self.elsewhere(p)) {
+            Some(model @ ("scene", _)) => Err(self.foreign(key, model)),
             _ => Ok(()),
         }
     }
@@ -287,7 +285,7 @@ impl Scene {
             }
         }
         if parameter.selects() {
-            let foreign = PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_err());
+            let foreign = PARAMETERS.iter().filter(|parameter| !self.has(parameter));
             for key in foreign.map(|parameter| parameter.key).collect::<Vec<_>>() {
                 self.values.remove(key);
             }
@@ -343,11 +341,6 @@ impl Scene {
             Some(Value::Rows(rows)) => rows,
             _ => &[],
         }
-    }
-
-    /// Length of the circle on which teeth and rotor touch \[mm\].
-    pub(super) fn circumference_mm(&self) -> Result<f64, FaultKind> {
-        Ok(std::f64::consts::TAU * self.number("motor.contact_radius_mm")?)
     }
 
     /// Pitch of the teeth of a motor \[mm\].

@@ -4,11 +4,9 @@
 use super::comments::carried;
 use super::error::{Fault, FaultKind, SCHEMA, SceneError};
 use super::parameter::{Parameter, ParameterKind};
-use super::parse::LARGEST_FILE;
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
-use crate::input;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write as _;
@@ -67,13 +65,11 @@ impl Scene {
     pub fn save_instead_of(&self, path: &Path, before: Option<&Path>) -> Result<(), SceneError> {
         self.check()?;
         let mut text = self.to_toml();
-        if let Some(old) = before.and_then(|before| input::read_text(before, LARGEST_FILE).ok()) {
+        if let Some(old) = before.and_then(|before| Self::text_of(before).ok()) {
             text = carried(&text, &old);
         }
-        write_file(path, |out| out.write_all(text.as_bytes())).map_err(|error| {
-            let what = FaultKind::Unwritable(error.source.to_string());
-            Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
-        })
+        write_file(path, |out| out.write_all(text.as_bytes()))
+            .map_err(|error| Fault::of_file(path, FaultKind::Unwritable(error.source.to_string())).into())
     }
 }
 
@@ -120,20 +116,22 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         text.push_str("]\n");
         return;
     }
-    let assignment = match value {
-        // Debug keeps a point or an exponent, without which TOML would read an integer.
-        Value::Number(number) => format!("{leaf} = {number:?}"),
-        Value::Text(words) => {
-            let quoted = format!("{leaf} = {}", quote(words));
-            if parameter.table().is_empty() {
-                let _ = writeln!(text, "{quoted}");
-                return;
-            }
-            quoted
-        }
-        value => format!("{leaf} = {value}"),
+    let assignment = format!("{leaf} = {}", literal(value));
+    let _ = if parameter.table().is_empty() {
+        writeln!(text, "{assignment}")
+    } else {
+        writeln!(text, "{assignment:<40} # {}", parameter.about)
     };
-    let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// A single value in TOML.
+fn literal(value: &Value) -> String {
+    match value {
+        // Debug keeps a point or an exponent, without which TOML would read an integer.
+        Value::Number(number) => format!("{number:?}"),
+        Value::Text(words) => quote(words),
+        value => value.to_string(),
+    }
 }
 
 /// The rows of a table, or an array of tables, each as an item of an array in TOML; `None` of any other value.
@@ -149,14 +147,7 @@ fn items(parameter: &Parameter, value: &Value) -> Option<Vec<String>> {
 
 /// One of an array of tables, as an inline table.
 fn inline(columns: &[Parameter], record: &[Value]) -> String {
-    let pair = |(column, value): (&Parameter, &Value)| {
-        let value = match value {
-            Value::Text(words) => quote(words),
-            Value::Number(number) => format!("{number:?}"),
-            value => value.to_string(),
-        };
-        format!("{} = {value}", column.key)
-    };
+    let pair = |(column, value): (&Parameter, &Value)| format!("{} = {}", column.key, literal(value));
     let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
     format!("{{ {} }}", pairs.join(", "))
 }

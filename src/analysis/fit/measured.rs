@@ -2,7 +2,7 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
-use crate::input::{csv_fault, read_text};
+use crate::input::{csv_fault, csv_line, read_text};
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::published;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
@@ -215,15 +215,16 @@ impl Measured {
         reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(delimiter);
         let mut reader = reader.from_reader(text.as_bytes());
         let head = reader.headers().map_err(|error| fault(Some(1), csv_fault(&error)))?.clone();
+        let first = csv_line(text, head.position());
         if head.iter().all(str::is_empty) {
             let expected = "expected a line that names the columns, as in rotor_speed_rpm,torque_nm, and a line for each measurement";
             return Err(fault(None, format!("no table: {expected}")));
         }
-        let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(Some(1), what)));
+        let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(first, what)));
         let columns = columns.collect::<Result<Vec<Column>, _>>()?;
         for (i, name) in head.iter().enumerate() {
             if head.iter().take(i).any(|other| other == name) {
-                return Err(fault(Some(1), format!("column {name}: given twice")));
+                return Err(fault(first, format!("column {name}: given twice")));
             }
         }
         let place = |wanted: &dyn Fn(&Column) -> bool| columns.iter().position(wanted);
@@ -233,7 +234,7 @@ impl Measured {
         if values.is_empty() {
             let allowed = names(problem);
             return Err(fault(
-                Some(1),
+                first,
                 format!("no column holds what was measured; allowed: {allowed}, {TORQUE} with {SPEED}"),
             ));
         }
@@ -244,7 +245,7 @@ impl Measured {
             } else {
                 format!("{SPEED} needs a column {TORQUE}")
             };
-            return Err(fault(Some(1), what));
+            return Err(fault(first, what));
         }
         let error_of = |value: usize| {
             let Column::Value(of) = columns[value] else { return None };
@@ -254,15 +255,15 @@ impl Measured {
         let errors = place(&|column| matches!(column, Column::Error(_))).is_some();
         if errors && (known.contains(&false) || weight.is_some()) {
             return Err(fault(
-                Some(1),
+                first,
                 "give the errors of all that was measured, or of none; a weight only where there are none".to_owned(),
             ));
         }
         let mut measured =
             Self { name: origin.to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: errors };
         for record in reader.records().take(MOST_LINES + 1) {
-            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), csv_fault(&error)))?;
-            let line = record.position().map(csv::Position::line);
+            let record = record.map_err(|error| fault(csv_line(text, error.position()), csv_fault(&error)))?;
+            let line = csv_line(text, record.position());
             if measured.measurements.len() >= MOST_LINES {
                 return Err(fault(line, format!("more than {MOST_LINES} measurements")));
             }

@@ -5,7 +5,7 @@
 //! `%` and two digits. A link names no file.
 
 use super::view::Tab;
-use crate::scene::presets::BUILT_IN;
+use crate::scene::presets::{BUILT_IN, BuiltIn};
 use crate::scene::{Scene, SceneError};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use std::fmt::Write as _;
@@ -89,8 +89,7 @@ impl Link {
             }
             return Ok(Self::Lesson { lesson: link.0, step: link.1 });
         }
-        let found = BUILT_IN.iter().find(|preset| preset.name == first);
-        let preset = found.ok_or(LinkError::Preset(first))?;
+        let preset = BuiltIn::find(&first).ok_or(LinkError::Preset(first))?;
         let (mut pairs, mut tab) = (Vec::new(), None);
         for part in parts {
             let Some((key, value)) = part.split_once('=') else { return Err(LinkError::Pair(part)) };

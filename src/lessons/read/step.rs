@@ -68,7 +68,7 @@ impl Reader<'_> {
         setup.sets = preset.is_some() || !changes.is_empty();
         if let Some((name, line)) = preset {
             self.scene = None;
-            let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
+            let built_in = || presets::BuiltIn::find(&name).map(|preset| preset.scene());
             match (self.beside.preset)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
                 Some(Err(error)) => self.key_fault(line, SETUP, "preset", format!(": {error}")),

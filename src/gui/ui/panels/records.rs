@@ -7,7 +7,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::show_list;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::parts::entered_box;
-use crate::scene::edges::{inner_edge, with_edge};
+use crate::scene::edges::{self, inner_edge, with_edge};
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, Id, RichText};
 
@@ -78,10 +78,7 @@ pub fn show(
     let drawn = ui.ctx().cumulative_frame_nr();
     let refused = Tried::refused(ui, cx, parameter.key);
     for (number, record) in records.iter().enumerate() {
-        let name = match record.first() {
-            Some(Value::Text(name)) if !name.is_empty() => name.clone(),
-            _ => format!("{one} {}", number + 1),
-        };
+        let name = edges::name(record).map_or_else(|| format!("{one} {}", number + 1), str::to_owned);
         let refused = refused.as_ref().filter(|(tried, _)| tried.at[0] == number);
         let frame = egui::Frame::new().stroke(ui.visuals().widgets.noninteractive.bg_stroke).corner_radius(4);
         frame.inner_margin(4).show(ui, |ui| {

@@ -15,7 +15,7 @@ use crate::gui::ui::paint::Axes;
 use crate::gui::ui::parts::{BESIDE_CHARTS, scrolled};
 use crate::problem::{Problem, Scenario};
 use crate::scene::Value;
-use crate::scene::edges::{lengths, reach, with_edge};
+use crate::scene::edges::{self, lengths, reach, with_edge};
 use eframe::egui::{self, CursorIcon, Rect, Sense, Stroke, TextStyle, Tooltip, Ui, vec2};
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
@@ -167,10 +167,7 @@ fn section(
     let mut dragging = false;
     for (number, (part, lengths)) in parts.iter().zip(&boxes).enumerate() {
         let [inner, outer, low, high] = *lengths;
-        let name = match part.first() {
-            Some(Value::Text(name)) if !name.is_empty() => name.clone(),
-            _ => format!("part {}", number + 1),
-        };
+        let name = edges::name(part).map_or_else(|| format!("part {}", number + 1), str::to_owned);
         let area = Rect::from_two_pos(scale.at(inner, low), scale.at(outer, high));
         let text = TextStyle::Small.resolve(ui.style());
         if area.width() > 4.0 * text.size && area.height() > 1.2 * text.size {
