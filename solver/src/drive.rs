@@ -530,7 +530,10 @@ pub fn warnings(motor: &Motor, result: &MotorResult, found: &Performance) -> Vec
     let unresolved =
         !result.levitated && stall.error > 0.0 && stall.error >= stall.value.abs() && stall.error.is_finite();
     let unresolved = unresolved.then(|| {
-        format!("the stall torque, {stall} N·m, is not resolved at this fidelity: its error is as large as itself")
+        format!(
+            "the stall torque, {stall} N·m, is not resolved at this fidelity: its error is as large as itself, so the speed without load, \
+             the greatest power and the efficiency are not resolved either"
+        )
     });
     let braking = all_touch.then(|| {
         format!(
