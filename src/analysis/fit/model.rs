@@ -243,11 +243,9 @@ impl<'a> Model<'a> {
         let values = variation.values();
         let problem = variation.problem(&values).ok()?;
         let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
-        let numbers = |problem: &Problem, solution: &Solution| -> Vec<f64> {
-            read(problem, solution, asked)
-                .into_iter()
-                .map(|found| found.map_or(f64::NAN, |found| found.value))
-                .collect()
+        let numbers = |problem: &Problem, solution: &Solution| -> Vec<Estimate> {
+            let unknown = Estimate { value: f64::NAN, error: f64::NAN };
+            read(problem, solution, asked).into_iter().map(|found| found.unwrap_or(unknown)).collect()
         };
         let count = |_| {
             self.solves.fetch_add(1, Ordering::Relaxed);
@@ -259,7 +257,7 @@ impl<'a> Model<'a> {
                 let own = self.solve(condition, asked, x, &self.settings, cancel);
                 own.iter()
                     .zip(&found.numbers.fine)
-                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours))
+                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours.value))
                     .collect()
             }
         };
