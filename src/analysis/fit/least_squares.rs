@@ -5,15 +5,14 @@ use super::model::{Computed, Curve, Model};
 use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
-use super::{Stopped, Tell, search_failed};
-use crate::analysis::attempt::caught;
+use super::{Stopped, Tell, searched};
 use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
 use crate::digits::{short, significant, with_error};
 use crate::scene::Scene;
 use basin::{
-    BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
-    Jacobian, Residual, TerminationCode, TrustRegionReflective,
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian, Residual,
+    TerminationCode, TrustRegionReflective,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -320,16 +319,12 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
         .with_max_inner_attempts(MOST_ATTEMPTS)
         .with_initial_radius(0.5)
         .with_relative_cost_change_tolerance(LEAST_GAIN);
-    // The library refuses what it was not made for with a panic.
-    match caught(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run()).map_err(search_failed)? {
-        Ok(ended) => {
-            // Where differences of solves are all noise no step gains anything: that is a minimum as well.
-            let converged = ended.report.termination.code() != TerminationCode::MaxIter;
-            Ok(Some((2.0 * ended.cost(), ended.param().clone(), converged)))
-        }
-        Err(ConstraintSolveError::Evaluation(Stopped)) => Ok(None),
-        Err(error) => Err(search_failed(format!("{error:?}"))),
-    }
+    let ended = searched(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run())?;
+    Ok(ended.map(|ended| {
+        // Where differences of solves are all noise no step gains anything: that is a minimum as well.
+        let converged = ended.report.termination.code() != TerminationCode::MaxIter;
+        (2.0 * ended.cost(), ended.param().clone(), converged)
+    }))
 }
 
 /// The minima that differ, best first.

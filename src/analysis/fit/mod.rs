@@ -23,7 +23,9 @@ mod starts;
 mod statistics;
 mod unknown;
 
+use super::attempt::caught;
 use super::error::AnalysisError;
+use basin::ConstraintSolveError;
 
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
 pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
@@ -40,7 +42,13 @@ pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);
 #[derive(Debug)]
 struct Stopped;
 
-/// The fault of the library that searches.
-fn search_failed(reason: String) -> AnalysisError {
-    AnalysisError::Search(format!("the search failed: {reason}"))
+/// Runs the library that searches, which refuses what it was not made for with an error or a panic; `None` if cancelled.
+fn searched<T>(run: impl FnOnce() -> Result<T, ConstraintSolveError<Stopped>>) -> Result<Option<T>, AnalysisError> {
+    let failed = |reason: String| Err(AnalysisError::Search(format!("the search failed: {reason}")));
+    match caught(run) {
+        Ok(Ok(ended)) => Ok(Some(ended)),
+        Ok(Err(ConstraintSolveError::Evaluation(Stopped))) => Ok(None),
+        Ok(Err(error)) => failed(format!("{error:?}")),
+        Err(panic) => failed(panic),
+    }
 }

@@ -4,8 +4,8 @@ use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
 use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
-use super::{Stopped, Tell, search_failed};
-use crate::analysis::attempt::{attempt, caught};
+use super::{Stopped, Tell, searched};
+use crate::analysis::attempt::attempt;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
@@ -319,12 +319,7 @@ pub fn optimise(
         };
         let solver = Cobyla::new().with_initial_radius(RADIUS.0).with_final_radius(RADIUS.1);
         let run = || Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run();
-        // The library refuses what it was not made for with a panic.
-        let ended = match caught(run).map_err(search_failed)? {
-            Ok(ended) => ended,
-            Err(ConstraintSolveError::Evaluation(Stopped)) => return Ok(None),
-            Err(error) => return Err(search_failed(format!("{error:?}"))),
-        };
+        let Some(ended) = searched(run)? else { return Ok(None) };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
         // Of limits that are kept to a thousandth of their value.
         let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
