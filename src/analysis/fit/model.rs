@@ -37,8 +37,6 @@ pub struct Model<'a> {
     /// The keys that are chosen.
     pub(super) unknowns: Vec<Unknown>,
     conditions: Vec<Condition>,
-    /// Of each condition, what is asked of it.
-    asked: Vec<Vec<Observable>>,
     solves: AtomicUsize,
 }
 
@@ -48,6 +46,8 @@ struct Condition {
     scene: Scene,
     /// Of each unknown, whether it is chosen there: where the table sets the key, its value is known.
     chosen: Vec<bool>,
+    /// What is asked of it.
+    asked: Vec<Observable>,
 }
 
 impl<'a> Model<'a> {
@@ -66,14 +66,7 @@ impl<'a> Model<'a> {
             }
         }
         check(&Problem::try_from(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
-        Ok(Self {
-            scene,
-            settings: *settings,
-            conditions: vec![Condition { scene: scene.clone(), chosen: vec![true; unknowns.len()] }],
-            unknowns,
-            asked: vec![Vec::new()],
-            solves: AtomicUsize::new(0),
-        })
+        Ok(Self { scene, settings: *settings, unknowns, conditions: Vec::new(), solves: AtomicUsize::new(0) })
     }
 
     /// Under the conditions of a table, to compute what it holds.
@@ -91,24 +84,20 @@ impl<'a> Model<'a> {
             }
         }
         let condition = |(i, changes): (usize, &Vec<(String, String)>)| -> Result<Condition, AnalysisError> {
-            let first = measured.measurements.iter().find(|one| one.condition == i);
-            let place = first.map_or_else(String::new, |one| format!(", {}", one.label));
+            let mut measurements = measured.measurements.iter().filter(|one| one.condition == i).peekable();
+            let place = measurements.peek().map_or_else(String::new, |one| format!(", {}", one.label));
             let scene = self.scene.with(changes);
             let scene = scene.map_err(|error| AnalysisError::Input(format!("{}{place}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
-            Ok(Condition { scene, chosen })
+            Ok(Condition { scene, chosen, asked: measurements.map(|one| one.what).collect() })
         };
         self.conditions = measured.conditions.iter().enumerate().map(condition).collect::<Result<_, _>>()?;
-        self.asked = vec![Vec::new(); self.conditions.len()];
-        for one in &measured.measurements {
-            self.asked[one.condition].push(one.what);
-        }
         Ok(self)
     }
 
     /// Asked for these numbers of the scene itself.
-    pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
-        self.asked = vec![numbers];
+    pub(super) fn asking(mut self, asked: Vec<Observable>) -> Self {
+        self.conditions = vec![Condition { scene: self.scene.clone(), chosen: vec![true; self.unknowns.len()], asked }];
         self
     }
 
@@ -149,14 +138,11 @@ impl<'a> Model<'a> {
         settings: &Settings,
         cancel: &Cancel,
     ) -> Option<Vec<Vec<Vec<Computed>>>> {
-        let tasks: Vec<(usize, usize)> = (0..points.len())
-            .flat_map(|point| (0..self.conditions.len()).map(move |condition| (point, condition)))
-            .collect();
-        let solved = tasks
-            .into_par_iter()
-            .map(|(point, condition)| self.solve(condition, &self.asked[condition], &points[point], settings, cancel));
-        let mut solved = solved.collect::<Vec<_>>().into_iter();
-        let rows = points.iter().map(|_| solved.by_ref().take(self.conditions.len()).collect::<Vec<_>>()).collect();
+        let at = |x: &Vec<f64>| {
+            let solve = |condition: &Condition| self.solve(condition, &condition.asked, x, settings, cancel);
+            self.conditions.par_iter().map(solve).collect::<Vec<_>>()
+        };
+        let rows = points.par_iter().map(at).collect();
         (!cancel.is_cancelled()).then_some(rows)
     }
 
@@ -168,8 +154,8 @@ impl<'a> Model<'a> {
     /// As `at_one`, with the torque over the rotor's speed, `[rpm, N m]`, of each condition under which torques are asked for, at speeds from the
     /// least to the greatest of them.
     pub(super) fn with_curves(&self, x: &[f64], cancel: &Cancel) -> Option<(Vec<Vec<Computed>>, Vec<Curve>)> {
-        let of = |condition: usize| {
-            let asked = &self.asked[condition];
+        let of = |condition: &Condition| {
+            let asked = &condition.asked;
             let speed =
                 |what: &Observable| if let Observable::Torque { speed_rpm } = what { Some(*speed_rpm) } else { None };
             let ends = asked.iter().filter_map(speed).map(|speed| (speed, speed));
@@ -182,7 +168,7 @@ impl<'a> Model<'a> {
                 found.split_off(asked.len()).into_iter().map(|found| found.map_or(f64::NAN, |found| found.value));
             (found, speeds.into_iter().zip(curve).map(|(speed, torque)| [speed, torque]).collect())
         };
-        let found = (0..self.conditions.len()).into_par_iter().map(of).unzip();
+        let found = self.conditions.par_iter().map(of).unzip();
         (!cancel.is_cancelled()).then_some(found)
     }
 
@@ -194,7 +180,7 @@ impl<'a> Model<'a> {
     /// Observables of a condition at `x`.
     fn solve(
         &self,
-        condition: usize,
+        condition: &Condition,
         asked: &[Observable],
         x: &[f64],
         settings: &Settings,
@@ -204,7 +190,7 @@ impl<'a> Model<'a> {
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
         self.solves.fetch_add(1, Ordering::Relaxed);
-        let problem = self.scene_at(&self.conditions[condition], x).and_then(|scene| Problem::try_from(&scene));
+        let problem = self.scene_at(condition, x).and_then(|scene| Problem::try_from(&scene));
         let solved = problem.map_err(|error| error.to_string()).and_then(|problem| {
             let solution = attempt(&problem, &settings, &mut (), cancel)?;
             match RunStatus::from(solution.status) {
@@ -222,22 +208,21 @@ impl<'a> Model<'a> {
     /// and nothing at all of a condition that has no derivatives. They are those of `Method::Auto`; for the paper's, whose contact moves
     /// from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
     pub(super) fn slopes(&self, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<Vec<f64>>>> {
-        let of = |condition: usize| {
-            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); self.asked[condition].len()])
+        let of = |condition: &Condition| {
+            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); condition.asked.len()])
         };
-        let found: Vec<_> = (0..self.conditions.len()).into_par_iter().map(of).collect();
+        let found: Vec<_> = self.conditions.par_iter().map(of).collect();
         (!cancel.is_cancelled()).then_some(found)
     }
 
-    fn slopes_of(&self, condition: usize, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
-        let Condition { chosen, .. } = &self.conditions[condition];
-        let asked = &self.asked[condition];
+    fn slopes_of(&self, condition: &Condition, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
+        let Condition { chosen, asked, .. } = condition;
         let varied: Vec<usize> = (0..x.len()).filter(|k| free[*k] && chosen[*k]).collect();
         let mut slopes = vec![vec![0.0; x.len()]; asked.len()];
         if varied.is_empty() {
             return Some(slopes);
         }
-        let scene = self.scene_at(&self.conditions[condition], x).ok()?;
+        let scene = self.scene_at(condition, x).ok()?;
         let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
         let variation = Variation::new(&scene, &keys).ok()?;
         let values = variation.values();
