@@ -54,6 +54,11 @@ impl Observable {
             Self::Torque { .. } => "torque, N·m".to_owned(),
         }
     }
+
+    /// The speed of the rotor \[rpm\] that a torque belongs to.
+    pub fn speed_rpm(self) -> Option<f64> {
+        if let Self::Torque { speed_rpm } = self { Some(speed_rpm) } else { None }
+    }
 }
 
 /// One measured number.

@@ -156,10 +156,8 @@ impl<'a> Model<'a> {
     pub(super) fn with_curves(&self, x: &[f64], cancel: &Cancel) -> Option<(Vec<Vec<Computed>>, Vec<Curve>)> {
         let of = |condition: &Condition| {
             let asked = &condition.asked;
-            let speed =
-                |what: &Observable| if let Observable::Torque { speed_rpm } = what { Some(*speed_rpm) } else { None };
-            let ends = asked.iter().filter_map(speed).map(|speed| (speed, speed));
-            let ends = ends.reduce(|ends, (speed, _)| (ends.0.min(speed), ends.1.max(speed)));
+            let measured = || asked.iter().filter_map(|what| what.speed_rpm());
+            let ends = measured().reduce(f64::min).zip(measured().reduce(f64::max));
             let speeds = ends.map_or_else(Vec::new, |(from, to)| spaced(from, to, CURVE, Scale::Linear));
             let more = speeds.iter().map(|speed_rpm| Observable::Torque { speed_rpm: *speed_rpm });
             let all: Vec<Observable> = asked.iter().copied().chain(more).collect();
@@ -186,7 +184,7 @@ impl<'a> Model<'a> {
         settings: &Settings,
         cancel: &Cancel,
     ) -> Vec<Computed> {
-        let fields = asked.iter().any(|what| matches!(what, Observable::Torque { .. }));
+        let fields = asked.iter().any(|what| what.speed_rpm().is_some());
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
         self.solves.fetch_add(1, Ordering::Relaxed);
@@ -262,11 +260,8 @@ fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Com
     let numbers = Numbers::of(problem, solution);
     let mut curve = Vec::new();
     if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) {
-        let speed = |what: &Observable| match what {
-            Observable::Torque { speed_rpm } => Some(speed_rpm / rpm(1.0, motor.contact_radius)),
-            Observable::Number(_) => None,
-        };
-        let speeds: Vec<f64> = asked.iter().filter_map(speed).collect();
+        let per_rpm = rpm(1.0, motor.contact_radius);
+        let speeds: Vec<f64> = asked.iter().filter_map(|what| Some(what.speed_rpm()? / per_rpm)).collect();
         if !speeds.is_empty() {
             curve = Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve;
         }
