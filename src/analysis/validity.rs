@@ -37,12 +37,9 @@ pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Dec
 
 /// Their names, each once.
 pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
-    let mut names: Vec<&'static str> = Vec::new();
-    for excess in exceeded {
-        if !names.contains(&excess.name) {
-            names.push(excess.name);
-        }
-    }
+    let mut names: Vec<&'static str> = exceeded.iter().map(|excess| excess.name).collect();
+    // Those of one name are next to each other.
+    names.dedup();
     names
 }
 
