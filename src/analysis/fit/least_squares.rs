@@ -262,7 +262,7 @@ pub fn fit(
     let (_, mut x, mut converged) = found.swap_remove(0);
     // What χ² falls towards a bound with is put there, and the rest is looked for again.
     let mut at = free.clone();
-    loop {
+    let columns = loop {
         let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
         let Ok(now) = search(&at).residuals(&x) else { return Ok(None) };
         let mut more = false;
@@ -280,7 +280,7 @@ pub fn fit(
             more = true;
         }
         if !more {
-            break;
+            break columns;
         }
         if at.iter().any(Option::is_none) {
             match descend(search(&at), x)? {
@@ -288,8 +288,7 @@ pub fn fit(
                 Some(end) => (_, x, converged) = end,
             }
         }
-    }
-    let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
+    };
     let Some((last, curves)) = model.with_curves(&x, cancel) else { return Ok(None) };
     let computed = in_order(measured, &last);
     Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, curves, minima, converged })?))
