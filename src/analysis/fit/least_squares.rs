@@ -241,8 +241,8 @@ pub fn fit(
         model,
         measured,
         used: &used,
-        lower: fixed.iter().map(|at| if *at == Some(Bound::Upper) { 1.0 } else { 0.0 }).collect(),
-        upper: fixed.iter().map(|at| if *at == Some(Bound::Lower) { 0.0 } else { 1.0 }).collect(),
+        lower: fixed.iter().map(|at| at.map_or(0.0, Bound::place)).collect(),
+        upper: fixed.iter().map(|at| at.map_or(1.0, Bound::place)).collect(),
         cancel,
         told,
         tried: &tried,
@@ -252,10 +252,8 @@ pub fn fit(
     places.insert(0, own);
     let mut found: Vec<(f64, Vec<f64>, bool)> = Vec::new();
     for place in places {
-        match descend(search(&free), place)? {
-            None => return Ok(None),
-            Some(end) => found.push(end),
-        }
+        let Some(end) = descend(search(&free), place)? else { return Ok(None) };
+        found.push(end);
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let minima = distinct(model, &found);
@@ -268,25 +266,17 @@ pub fn fit(
         let mut more = false;
         for k in (0..unknowns).filter(|k| at[*k].is_none()).collect::<Vec<_>>() {
             let slope: f64 = columns[k].iter().zip(&now).map(|(derivative, residual)| derivative * residual).sum();
-            let bound = if x[k] < AT_BOUND && slope > 0.0 {
-                Bound::Lower
-            } else if x[k] > 1.0 - AT_BOUND && slope < 0.0 {
-                Bound::Upper
-            } else {
-                continue;
-            };
-            x[k] = if bound == Bound::Lower { 0.0 } else { 1.0 };
-            at[k] = Some(bound);
-            more = true;
+            at[k] =
+                Bound::near(x[k], AT_BOUND).filter(|at| if *at == Bound::Lower { slope > 0.0 } else { slope < 0.0 });
+            x[k] = at[k].map_or(x[k], Bound::place);
+            more |= at[k].is_some();
         }
         if !more {
             break columns;
         }
         if at.iter().any(Option::is_none) {
-            match descend(search(&at), x)? {
-                None => return Ok(None),
-                Some(end) => (_, x, converged) = end,
-            }
+            let Some(end) = descend(search(&at), x)? else { return Ok(None) };
+            (_, x, converged) = end;
         }
     };
     let Some((last, curves)) = model.with_curves(&x, cancel) else { return Ok(None) };

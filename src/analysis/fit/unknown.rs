@@ -1,6 +1,7 @@
 //! The keys that are chosen, each within its bounds.
 
 use crate::analysis::error::AnalysisError;
+use crate::digits::short;
 use crate::scene::quantity_text::end_of_range;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use serde::{Deserialize, Serialize};
@@ -78,6 +79,23 @@ impl Bound {
             Self::Upper => "upper",
         }
     }
+
+    /// That which x from 0 to 1 is closer to than `within`.
+    pub(super) fn near(x: f64, within: f64) -> Option<Self> {
+        match x {
+            x if x < within => Some(Self::Lower),
+            x if x > 1.0 - within => Some(Self::Upper),
+            _ => None,
+        }
+    }
+
+    /// Where it is from 0 to 1.
+    pub(super) fn place(self) -> f64 {
+        match self {
+            Self::Lower => 0.0,
+            Self::Upper => 1.0,
+        }
+    }
 }
 
 /// A key that is chosen, checked against the scene.
@@ -151,6 +169,11 @@ impl Unknown {
             Scale::Linear => self.to - self.from,
             Scale::Log => self.value(x) * (self.to / self.from).ln(),
         }
+    }
+
+    /// Its key and its value at x, for people: `film.min_spacing_nm = 200 nm`.
+    pub(super) fn told(&self, x: f64) -> String {
+        format!("{} = {}", self.parameter.key, self.parameter.with_unit(short(self.value(x), 4)))
     }
 
     /// Gives the key its value at x.
