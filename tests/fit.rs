@@ -5,9 +5,7 @@ mod program;
 
 use program::{done, err, json, out, refused, run};
 use serde_json::Value as Json;
-use squeezefilm::analysis::fit::{
-    Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Model, Optimum, fit, optimise,
-};
+use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Optimum, fit, optimise};
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
@@ -37,8 +35,12 @@ fn table(scene: &Scene, text: &str) -> Measured {
 }
 
 fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings, starts: usize) -> Fitted {
-    let model = Model::new(scene, &bounds(vary), settings).unwrap().under(measured).unwrap();
-    fit(&model, measured, starts, &Cancel::new(), &|_, _| ()).unwrap().unwrap()
+    fit(scene, &bounds(vary), measured, settings, (starts, &Cancel::new(), &|_, _| ())).unwrap().unwrap()
+}
+
+/// Why there is no fit.
+fn no_fit(scene: &Scene, vary: &[Bounds], measured: &Measured) -> String {
+    fit(scene, vary, measured, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap_err().to_string()
 }
 
 /// The greatest (or least) value of a number within limits, by drafts.
@@ -319,16 +321,14 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         assert_eq!(table(&motor, dots).measurements, table(&motor, &tabs).measurements, "{tabs:?}");
     }
     let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,100\n0.2,3\n");
-    let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
-    let error = model().under(&measured).unwrap_err().to_string();
+    let vary = bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]);
+    let error = no_fit(&motor, &vary[..1], &measured);
     assert!(error.contains(", line 3: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"), "{error}");
     let measured = table(&motor, "alpha,rotor.decay_length_mm\n0.2,3\n");
-    let error = model().under(&measured).unwrap_err().to_string();
+    let error = no_fit(&motor, &vary[..1], &measured);
     assert!(error.contains("every line of the table of measurements sets it"), "{error}");
     let one = table(&motor, "alpha\n0.2\n");
-    let two =
-        Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
-    let error = fit(&two.under(&one).unwrap(), &one, 1, &Cancel::new(), &|_, _| ()).unwrap_err().to_string();
+    let error = no_fit(&motor, &vary, &one);
     assert!(error.starts_with("measurements: 1, keys varied: 2; give"), "{error}");
     for (size, words) in [
         ("alpha=x", "expected a number above 0"),
@@ -348,6 +348,7 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
 #[test]
 fn bounds_are_read_and_checked() {
     let motor = scene("fundamental", &[]);
+    let measured = table(&motor, "alpha\n0.2\n");
     for (vary, words) in [
         ("film.min_spacing_nm", "expected key=from:to"),
         ("film.min_spacing_nm=100:200:3", "expected key=from:to"),
@@ -361,14 +362,16 @@ fn bounds_are_read_and_checked() {
         ("film.gas=air:helium", "film.gas: it accepts one of"),
         ("plate.length_mm=1:2", "belongs to scene = \"plate\""),
     ] {
-        let read = vary.parse::<Bounds>().and_then(|bounds| Model::new(&motor, &[bounds], &DRAFT).map(|_| ()));
-        let error = read.unwrap_err().to_string();
+        let error = match vary.parse::<Bounds>() {
+            Ok(bounds) => no_fit(&motor, &[bounds], &measured),
+            Err(error) => error.to_string(),
+        };
         assert!(error.contains(words), "{vary}: {error}");
     }
     assert_eq!(bounds(&["film.min_spacing_nm=0.1um:0,2 µm:log"]), bounds(&["film.min_spacing_nm=100:200:log"]));
     let twice = bounds(&["rotor.decay_length_mm=2:6", "rotor.decay_length_mm=2:7"]);
-    assert!(Model::new(&motor, &twice, &DRAFT).unwrap_err().to_string().contains("given twice"));
-    assert!(Model::new(&motor, &[], &DRAFT).unwrap_err().to_string().contains("0 keys given: allowed 1 to 12"));
+    assert!(no_fit(&motor, &twice, &measured).contains("given twice"));
+    assert!(no_fit(&motor, &[], &measured).contains("0 keys given: allowed 1 to 12"));
 }
 
 #[test]

@@ -4,12 +4,13 @@ use super::measured::Measured;
 use super::model::{Computed, Curve, Model};
 use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
-use super::unknown::{Bound, Unknown};
+use super::unknown::{Bound, Bounds, Unknown};
 use super::{Stopped, Tell, searched};
 use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
 use crate::digits::{short, significant, with_error};
 use crate::scene::Scene;
+use crate::solve::Settings;
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian, Residual,
     TerminationCode, TrustRegionReflective,
@@ -208,19 +209,21 @@ fn residuals(measured: &Measured, computed: &[Computed], used: &[usize]) -> Vec<
     used.iter().map(residual).collect()
 }
 
-/// Chooses the unknowns of `model` so that it agrees with `measured`. The search begins at the scene's own values; with `starts` above 1
+/// Chooses the unknowns of `bounds` so that `scene` agrees with `measured`. The search begins at the scene's own values; with `starts` above 1
 /// also at the best of as many points, spread over the bounds and solved as drafts. A measurement that cannot be computed at the start is
 /// left out, and reported. `None` if cancelled.
 ///
 /// # Errors
-/// Fewer measurements that can be computed than unknowns, or what the library that searches refuses.
+/// Keys that cannot be chosen, or all of whose values the table sets; a condition that the scene does not take; fewer measurements that can be
+/// computed than unknowns, or what the library that searches refuses.
 pub fn fit(
-    model: &Model<'_>,
+    scene: &Scene,
+    bounds: &[Bounds],
     measured: &Measured,
-    starts: usize,
-    cancel: &Cancel,
-    told: Tell<'_>,
+    settings: &Settings,
+    (starts, cancel, told): (usize, &Cancel, Tell<'_>),
 ) -> Result<Option<Fitted>, AnalysisError> {
+    let model = &Model::new(scene, bounds, settings)?.under(measured)?;
     let own = model.start();
     let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
     let first = in_order(measured, &first);
@@ -526,7 +529,6 @@ fn warnings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::fit::Bounds;
 
     #[test]
     fn what_is_less_sure_than_its_bounds_is_not_determined() {

@@ -4,7 +4,7 @@
 //! [`Measured`] holds the measurements: each belongs to a [condition](Measured::conditions), the values of some keys, and each
 //! condition is solved once, however many measurements share it. [`Unknown`]s are the keys that are chosen, each within its bounds; the
 //! search runs in x from 0 to 1 between them, linear or logarithmic. Where a condition sets such a key, its value is known and is not
-//! chosen. A [`Model`] is both together with the scene.
+//! chosen.
 //!
 //! [`fit()`] minimises χ² = Σ ((computed − measured)/error)² by trust-region reflective least squares (the step of Levenberg and
 //! Marquardt within bounds; Branch, Coleman and Li, SIAM J. Sci. Comput. 21, 1999) of the crate `basin`. Derivatives are differences
@@ -29,7 +29,7 @@ use basin::ConstraintSolveError;
 
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
 pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
-pub use model::{Computed, Model};
+pub use model::Computed;
 pub use optimum::{Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;
 pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};

@@ -30,7 +30,7 @@ pub type Computed = Result<Estimate, String>;
 
 /// A scene, the keys that are chosen, and the conditions under which it is solved.
 #[derive(Debug)]
-pub struct Model<'a> {
+pub(super) struct Model<'a> {
     scene: &'a Scene,
     /// How it is solved.
     pub(super) settings: Settings,
@@ -53,7 +53,7 @@ struct Condition {
 impl<'a> Model<'a> {
     /// Checks the keys that are chosen, and every condition of a table: its keys, and that it can be solved at the values from which the
     /// search starts.
-    pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
+    pub(super) fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
             let found = bounds.len();
             return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_UNKNOWNS}")));
@@ -73,7 +73,7 @@ impl<'a> Model<'a> {
     ///
     /// # Errors
     /// Every line sets a key that is to be chosen, or one sets a key that the scene does not take.
-    pub fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
+    pub(super) fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
         let sets = |changes: &[(String, String)], key: &str| changes.iter().any(|(other, _)| other == key);
         for unknown in &self.unknowns {
             let key = unknown.parameter.key;
@@ -102,7 +102,7 @@ impl<'a> Model<'a> {
     }
 
     /// How many solves there have been.
-    pub fn solves(&self) -> usize {
+    pub(super) fn solves(&self) -> usize {
         self.solves.load(Ordering::Relaxed)
     }
 
