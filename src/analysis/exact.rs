@@ -181,7 +181,7 @@ pub fn linear(effective_squeeze_number: f64, outline: Outline) -> Harmonic<f64> 
 }
 
 /// σ over the slip's factor at the mean gap and ambient pressure.
-fn effective_squeeze_number(plate: &Plate) -> f64 {
+pub fn effective_squeeze_number(plate: &Plate) -> f64 {
     let (mobility, _) = SlipLaw::of(&plate.gas).at(plate.mean_gap);
     Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
 }
