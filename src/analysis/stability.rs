@@ -10,7 +10,7 @@ use crate::control::{Cancel, Progress};
 use crate::estimate::Estimate;
 use crate::problem::{Motor, Problem, Scenario};
 use crate::recording::Recording;
-use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError, Value};
+use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError};
 use crate::solution::{MotorResult, Solution, Status};
 use crate::solve::{Method, Settings};
 use rayon::prelude::*;
@@ -326,11 +326,7 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
 }
 
 fn changed(scene: &Scene, changes: &[(&str, f64)]) -> Result<Problem, SceneError> {
-    let mut scene = scene.clone();
-    for (key, value) in changes {
-        scene.set_value(key, Value::Number(*value))?;
-    }
-    Problem::try_from(&scene)
+    Problem::try_from(&scene.with_numbers(changes.iter().copied())?)
 }
 
 fn most_cycles(problem: &Problem) -> usize {

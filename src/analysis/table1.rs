@@ -7,7 +7,7 @@ use super::compare::{ComparedRun, each};
 use crate::control::Cancel;
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::{PublishedRow, published};
-use crate::scene::{Scene, SceneError, Value, presets};
+use crate::scene::{Scene, SceneError, presets};
 use crate::solution::MotorResult;
 use crate::solve::{Method, Settings};
 
@@ -65,9 +65,8 @@ pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
         let Ok(theirs) = presets::find(&row.preset) else { continue };
         let values: Option<Vec<f64>> = keys.iter().map(|key| theirs.get(key)?.as_number()).collect();
         let Some(values) = values else { continue };
-        let mut ours = scene.clone();
-        let set = keys.iter().zip(&values).all(|(key, value)| ours.set_value(key, Value::Number(*value)).is_ok());
-        if set && ours.same_model(&theirs) {
+        let ours = scene.with_numbers(keys.iter().copied().zip(values.iter().copied()));
+        if ours.is_ok_and(|ours| ours.same_model(&theirs)) {
             points.push(Published {
                 row: row.row,
                 values,

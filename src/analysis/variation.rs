@@ -175,11 +175,8 @@ impl Variation {
 
     /// Problem at other values of the keys, in their units.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
-        let mut scene = self.scene.clone();
-        for (parameter, value) in self.parameters.iter().zip(values) {
-            scene.set_value(parameter.key, Value::Number(*value))?;
-        }
-        Problem::try_from(&scene)
+        let keys = self.parameters.iter().map(|parameter| parameter.key);
+        Problem::try_from(&self.scene.with_numbers(keys.zip(values.iter().copied()))?)
     }
 
     /// The derivatives, at `values`, of the numbers that `numbers` reads. `centre` is the problem solved at these values. The solves run on

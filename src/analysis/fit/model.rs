@@ -113,19 +113,15 @@ impl<'a> Model<'a> {
 
     /// The scene with the values at `x`, under one condition.
     fn scene_at(&self, condition: &Condition, x: &[f64]) -> Result<Scene, SceneError> {
-        let mut scene = condition.scene.clone();
-        for ((unknown, x), _) in self.unknowns.iter().zip(x).zip(&condition.chosen).filter(|(_, chosen)| **chosen) {
-            unknown.set(&mut scene, *x)?;
-        }
-        Ok(scene)
+        let all = self.unknowns.iter().zip(x).zip(&condition.chosen);
+        let chosen = all.filter(|(_, chosen)| **chosen);
+        condition.scene.with_numbers(chosen.map(|((unknown, x), _)| (unknown.parameter.key, unknown.value(*x))))
     }
 
     /// The scene itself with the values at `x`, named as one that was fitted.
     pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, AnalysisError> {
-        let mut scene = self.scene.clone();
-        for (unknown, x) in self.unknowns.iter().zip(x) {
-            unknown.set(&mut scene, *x)?;
-        }
+        let values = self.unknowns.iter().zip(x).map(|(unknown, x)| (unknown.parameter.key, unknown.value(*x)));
+        let mut scene = self.scene.with_numbers(values)?;
         scene.name = format!("{}, {word}", self.scene.name);
         scene.retitle(self.scene);
         Ok(scene)

@@ -3,7 +3,7 @@
 use crate::analysis::error::AnalysisError;
 use crate::digits::short;
 use crate::scene::quantity_text::end_of_range;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, Value};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -174,10 +174,5 @@ impl Unknown {
     /// Its key and its value at x, for people: `film.min_spacing_nm = 200 nm`.
     pub(super) fn told(&self, x: f64) -> String {
         format!("{} = {}", self.parameter.key, self.parameter.with_unit(short(self.value(x), 4)))
-    }
-
-    /// Gives the key its value at x.
-    pub fn set(&self, scene: &mut Scene, x: f64) -> Result<(), SceneError> {
-        scene.set_value(self.parameter.key, Value::Number(self.value(x)))
     }
 }
