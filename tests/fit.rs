@@ -6,7 +6,7 @@ mod program;
 use program::{done, err, json, out, refused, run};
 use serde_json::Value as Json;
 use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Optimum, fit, optimise};
-use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::Scaled;
@@ -53,10 +53,9 @@ fn optimum(scene: &Scene, vary: &[&str], (name, greatest): (&str, bool), limits:
 /// The film load of a scene with changes.
 fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
     let scene = scene.with(changes).unwrap();
-    match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
-        Outcome::Motor(result) => result.film_load.value,
-        Outcome::Plate(result) => result.film_load.value,
-    }
+    let problem = Problem::try_from(&scene).unwrap();
+    let solution = solve(&problem, &STANDARD, &mut (), &Cancel::new()).unwrap();
+    Numbers::of(&problem, &solution).get(Quantity::FilmLoad).unwrap()
 }
 
 /// Normally distributed numbers, the same ones for the same seed.

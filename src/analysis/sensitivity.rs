@@ -70,9 +70,7 @@ impl Sensitivity {
         let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
         let centre = Centre::new(&problem, settings, None, cancel)?;
-        let Some(Jacobian { numbers, columns }) =
-            variation.jacobian(&variation.values(), &centre, &read, cancel, solved)
-        else {
+        let Some(Jacobian { numbers, columns }) = variation.jacobian(&centre, &read, cancel, solved) else {
             return Ok(None);
         };
         let (outputs, values) = (Output::of(&problem), numbers.fine);

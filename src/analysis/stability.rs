@@ -8,7 +8,7 @@ use super::quantity::Numbers;
 use super::sweep::spaced;
 use crate::control::{Cancel, Progress};
 use crate::estimate::Estimate;
-use crate::problem::{Motor, Problem, Scenario};
+use crate::problem::{Motor, Problem};
 use crate::recording::Recording;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError};
 use crate::solution::{MotorResult, Solution, Status};
@@ -300,10 +300,8 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
             return Some(cell);
         }
     };
-    let Scenario::Motor(motor) = &problem.scenario else {
-        cell.verdict = Verdict::Refused("the maps are of a motor".to_owned());
-        return Some(cell);
-    };
+    // Its keys are those of a motor.
+    let motor = problem.scenario.motor()?;
     let cycles = most_cycles(&problem);
     let stop = Cancel::new();
     let mut watch = |progress: &Progress| {
@@ -340,6 +338,7 @@ fn most_cycles(problem: &Problem) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::Scenario;
     use crate::recording::LineLoads;
     use crate::scene::presets;
     use crate::solution::{Model, Outcome, Stats};

@@ -179,20 +179,19 @@ impl Variation {
         Problem::try_from(&self.scene.with_numbers(keys.zip(values.iter().copied()))?)
     }
 
-    /// The derivatives, at `values`, of the numbers that `numbers` reads. `centre` is the problem solved at these values. The solves run on
+    /// The derivatives, at the values of the scene, of the numbers that `numbers` reads. `centre` is the scene, solved. The solves run on
     /// rayon's pool, and the result does not depend on the number of threads; `solved` is told after each of how many. `None` if cancelled.
     pub fn jacobian(
         &self,
-        values: &[f64],
         centre: &Centre,
         numbers: Read<'_>,
         cancel: &Cancel,
         solved: &(dyn Fn(usize) + Sync),
     ) -> Option<Jacobian> {
-        let middle = read(&centre.problem, &centre.solved, numbers);
+        let (values, middle) = (self.values(), read(&centre.problem, &centre.solved, numbers));
         let plan = |column| {
             if centre.is_settled() {
-                return self.steps(values, column);
+                return self.steps(&values, column);
             }
             let points = Err("the scene itself is not converged".to_owned());
             Steps { step: f64::NAN, sides: Sides::Both, points }

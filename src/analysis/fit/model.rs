@@ -219,8 +219,7 @@ impl<'a> Model<'a> {
         let scene = self.scene_at(condition, x).ok()?;
         let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
         let variation = Variation::new(&scene, &keys).ok()?;
-        let values = variation.values();
-        let problem = variation.problem(&values).ok()?;
+        let problem = Problem::try_from(&scene).ok()?;
         let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
         let numbers = |problem: &Problem, solution: &Solution| -> Vec<Estimate> {
             let unknown = Estimate { value: f64::NAN, error: f64::NAN };
@@ -229,7 +228,7 @@ impl<'a> Model<'a> {
         let count = |_| {
             self.solves.fetch_add(1, Ordering::Relaxed);
         };
-        let found = variation.jacobian(&values, &centre, &numbers, cancel, &count)?;
+        let found = variation.jacobian(&centre, &numbers, cancel, &count)?;
         let ratios: Vec<f64> = match self.settings.method {
             Method::Auto => vec![1.0; asked.len()],
             Method::Paper => {
