@@ -316,7 +316,7 @@ impl Sweep {
                     row.status = solution.status.into();
                     row.stopped_by = Some(solution.accuracy.stopped_by);
                     row.numbers = Numbers::of(&problem, &solution);
-                    row.outside = validity::names(&validity::outside(&problem, Some(&solution)));
+                    row.outside = validity::names(&validity::outside(&problem, &solution));
                 }
                 // A point that was cut short is no failure.
                 Err(_) if cancel.is_cancelled() => break,
