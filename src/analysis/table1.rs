@@ -43,18 +43,23 @@ pub fn rows(
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
 ) -> Result<Vec<Table1Row>, SceneError> {
-    let scene = |row: &PublishedRow| {
-        let mut scene = presets::find(&row.preset)?;
-        if settings.method == Method::Auto {
-            scene.set_numerics(&Numerics::default())?;
-        }
-        scene.set_all(changes)?;
+    let posed = |row: &PublishedRow| {
+        let scene = scene_of(row, settings.method)?.with(changes)?;
         Ok((Problem::try_from(&scene)?, scene))
     };
     let (problems, scenes): (Vec<_>, Vec<_>) =
-        published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
+        published().iter().map(posed).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
     let runs = each(&scenes, problems, settings, cancel, finished);
     Ok(published().into_iter().zip(runs).map(|(published, run)| Table1Row { published, run }).collect())
+}
+
+/// The scene of a row; with [`Method::Auto`] without its `[numerics]` table.
+pub(super) fn scene_of(row: &PublishedRow, method: Method) -> Result<Scene, SceneError> {
+    let mut scene = presets::find(&row.preset)?;
+    if method == Method::Auto {
+        scene.set_numerics(&Numerics::default())?;
+    }
+    Ok(scene)
 }
 
 /// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their

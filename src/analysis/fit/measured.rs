@@ -2,8 +2,9 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
+use crate::analysis::table1::scene_of;
 use crate::input::{csv_fault, read_text};
-use crate::problem::{Numerics, Problem};
+use crate::problem::Problem;
 use crate::scene::table1::published;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
 use crate::solve::Method;
@@ -178,10 +179,7 @@ impl Measured {
         let mut measured =
             Self { name: "Table I".to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: false };
         for row in published() {
-            let mut scene = presets::find(&row.preset)?;
-            if method == Method::Auto {
-                scene.set_numerics(&Numerics::default())?;
-            }
+            let scene = scene_of(&row, method)?;
             let changed = scene
                 .changed(&fundamental)
                 .filter_map(|parameter| Some((parameter.key.to_owned(), scene.get(parameter.key)?.to_string())));

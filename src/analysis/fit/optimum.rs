@@ -426,7 +426,7 @@ fn describe(
         let Some(bound) = line.at else { continue };
         let name = goal.quantity.name();
         let (parameter, lower) = (line.unknown.parameter, bound == Bound::Lower);
-        let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
+        let range = line.unknown.to - line.unknown.from;
         let flat_to = line.flat.map(|(from, to)| if lower { to } else { from });
         let plateau = flat_to.filter(|to| (line.value - to).abs() > PLATEAU * range);
         let beyond = match plateau.map(|to| parameter.with_unit(short(to, 3))) {
