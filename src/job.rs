@@ -145,7 +145,7 @@ impl SolvedScene {
             scene,
             problem: settled(problem, &solution.outcome).into_owned(),
             fidelity,
-            validity: outside(problem, Some(&solution)),
+            validity: outside(problem, &solution),
             solution,
             wall_s,
             history,

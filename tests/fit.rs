@@ -5,8 +5,8 @@ mod program;
 
 use program::{done, err, json, out, refused, run};
 use serde_json::Value as Json;
-use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Model, fit, optimise};
-use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Optimum, fit, optimise};
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::Scaled;
@@ -35,17 +35,27 @@ fn table(scene: &Scene, text: &str) -> Measured {
 }
 
 fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings, starts: usize) -> Fitted {
-    let model = Model::new(scene, &bounds(vary), settings).unwrap().under(measured).unwrap();
-    fit(&model, measured, starts, &Cancel::new(), &|_, _| ()).unwrap().unwrap()
+    fit(scene, &bounds(vary), measured, settings, (starts, &Cancel::new(), &|_, _| ())).unwrap().unwrap()
+}
+
+/// Why there is no fit.
+fn no_fit(scene: &Scene, vary: &[Bounds], measured: &Measured) -> String {
+    fit(scene, vary, measured, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap_err().to_string()
+}
+
+/// The greatest (or least) value of a number within limits, by drafts.
+fn optimum(scene: &Scene, vary: &[&str], (name, greatest): (&str, bool), limits: &[&str], starts: usize) -> Optimum {
+    let limits: Vec<Limit> = limits.iter().map(|limit| limit.parse().unwrap()).collect();
+    let goal = Goal::new(scene, name, greatest, &limits).unwrap();
+    optimise(scene, &bounds(vary), &goal, &DRAFT, (starts, &Cancel::new(), &|_, _| ())).unwrap().unwrap()
 }
 
 /// The film load of a scene with changes.
 fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
     let scene = scene.with(changes).unwrap();
-    match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
-        Outcome::Motor(result) => result.film_load.value,
-        Outcome::Plate(result) => result.film_load.value,
-    }
+    let problem = Problem::try_from(&scene).unwrap();
+    let solution = solve(&problem, &STANDARD, &mut (), &Cancel::new()).unwrap();
+    Numbers::of(&problem, &solution).get(Quantity::FilmLoad).unwrap()
 }
 
 /// Normally distributed numbers, the same ones for the same seed.
@@ -313,16 +323,14 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         assert_eq!(table(&motor, dots).measurements, table(&motor, &tabs).measurements, "{tabs:?}");
     }
     let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,100\n0.2,3\n");
-    let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
-    let error = model().under(&measured).unwrap_err().to_string();
+    let vary = bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]);
+    let error = no_fit(&motor, &vary[..1], &measured);
     assert!(error.contains(", line 3: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"), "{error}");
     let measured = table(&motor, "alpha,rotor.decay_length_mm\n0.2,3\n");
-    let error = model().under(&measured).unwrap_err().to_string();
+    let error = no_fit(&motor, &vary[..1], &measured);
     assert!(error.contains("every line of the table of measurements sets it"), "{error}");
     let one = table(&motor, "alpha\n0.2\n");
-    let two =
-        Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
-    let error = fit(&two.under(&one).unwrap(), &one, 1, &Cancel::new(), &|_, _| ()).unwrap_err().to_string();
+    let error = no_fit(&motor, &vary, &one);
     assert!(error.starts_with("measurements: 1, keys varied: 2; give"), "{error}");
     for (size, words) in [
         ("alpha=x", "expected a number above 0"),
@@ -342,6 +350,7 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
 #[test]
 fn bounds_are_read_and_checked() {
     let motor = scene("fundamental", &[]);
+    let measured = table(&motor, "alpha\n0.2\n");
     for (vary, words) in [
         ("film.min_spacing_nm", "expected key=from:to"),
         ("film.min_spacing_nm=100:200:3", "expected key=from:to"),
@@ -355,14 +364,16 @@ fn bounds_are_read_and_checked() {
         ("film.gas=air:helium", "film.gas: it accepts one of"),
         ("plate.length_mm=1:2", "belongs to scene = \"plate\""),
     ] {
-        let read = vary.parse::<Bounds>().and_then(|bounds| Model::new(&motor, &[bounds], &DRAFT).map(|_| ()));
-        let error = read.unwrap_err().to_string();
+        let error = match vary.parse::<Bounds>() {
+            Ok(bounds) => no_fit(&motor, &[bounds], &measured),
+            Err(error) => error.to_string(),
+        };
         assert!(error.contains(words), "{vary}: {error}");
     }
     assert_eq!(bounds(&["film.min_spacing_nm=0.1um:0,2 µm:log"]), bounds(&["film.min_spacing_nm=100:200:log"]));
     let twice = bounds(&["rotor.decay_length_mm=2:6", "rotor.decay_length_mm=2:7"]);
-    assert!(Model::new(&motor, &twice, &DRAFT).unwrap_err().to_string().contains("given twice"));
-    assert!(Model::new(&motor, &[], &DRAFT).unwrap_err().to_string().contains("0 keys given: allowed 1 to 12"));
+    assert!(no_fit(&motor, &twice, &measured).contains("given twice"));
+    assert!(no_fit(&motor, &[], &measured).contains("0 keys given: allowed 1 to 12"));
 }
 
 #[test]
@@ -402,10 +413,9 @@ fn the_optimum_is_that_of_a_fine_sweep() {
 #[test]
 fn a_lesser_optimum_is_told_unless_it_breaks_a_limit() {
     let motor = scene("fundamental", &[]);
-    let vary = bounds(&["motor.load_per_wave_n=0.1:20", "film.min_spacing_nm=20:1000"]);
-    let told = |limits: &[Limit]| {
-        let goal = Goal::new(&motor, "max_efficiency", true, limits).unwrap();
-        let found = optimise(&motor, &vary, &goal, &DRAFT, (5, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let vary = ["motor.load_per_wave_n=0.1:20", "film.min_spacing_nm=20:1000"];
+    let told = |limits: &[&str]| {
+        let found = optimum(&motor, &vary, ("max_efficiency", true), limits, 5);
         let other = found.warnings.iter().find_map(|text| Some(text.split_once("with max_efficiency = ")?.1));
         let other = other.map(|text| text.split_once(':').unwrap().0.parse::<f64>().unwrap());
         (found.value.value, other)
@@ -413,16 +423,14 @@ fn a_lesser_optimum_is_told_unless_it_breaks_a_limit() {
     // One is at the greatest spacing, another at a sixth of it.
     let (best, other) = told(&[]);
     assert!(other.is_some_and(|other| (0.85..best).contains(&other)), "{best} {other:?}");
-    assert_eq!(told(&["max_power_w>100".parse().unwrap()]).1, None);
+    assert_eq!(told(&["max_power_w>100"]).1, None);
 }
 
 #[test]
 fn an_optimum_keeps_its_limits() {
     let motor = scene("fundamental", &[]);
-    let limit: Limit = "alpha<0.2".parse().unwrap();
-    let goal = Goal::new(&motor, "film_load_n", true, &[limit]).unwrap();
-    let vary = bounds(&["film.min_spacing_nm=100:400"]);
-    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let vary = "film.min_spacing_nm=100:400";
+    let found = optimum(&motor, &[vary], ("film_load_n", true), &["alpha<0.2"], 1);
     assert!((found.limited[0].value - 0.2).abs() < 5e-4, "{found:?}");
     assert!((found.value.value - 0.2 * 2.45).abs() < 2e-3, "{found:?}");
     assert!(found.warnings.iter().any(|text| text == "the limit alpha < 0.2 is what stops it"), "{:?}", found.warnings);
@@ -436,32 +444,21 @@ fn an_optimum_keeps_its_limits() {
     // The range in which it hardly changes ends there, too.
     assert_eq!(line.flat.unwrap().0, line.value);
     // Where it is kept nowhere, that is no optimum, and no range round it is stated.
-    let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
+    let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", vary];
     let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft", "--json"]].concat());
     let said = [out(&output), err(&output)].concat();
     assert!(output.status.code() == Some(3) && said.contains("the limit alpha < 0.05 cannot be kept"), "{said}");
     let unknown = &json(&output)["unknowns"][0];
     assert!(unknown["flat_from"].is_null() && unknown["flat_to"].is_null(), "{unknown}");
     // Without it the bound is reached, and said to be.
-    let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
-    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let found = optimum(&motor, &[vary], ("film_load_n", true), &[], 1);
     assert_eq!((found.lines[0].at, found.lines[0].value), (Some(Bound::Lower), 100.0));
     assert!(found.warnings[0].ends_with("is at its lower bound, 100 nm: a better value lies beyond it, if anywhere"));
     // A key without a unit.
-    let goal_torque = Goal::new(&motor, "stall_torque_nm", true, &[]).unwrap();
-    let vary = bounds(&["motor.dry_friction=0.1:0.3"]);
-    let found = optimise(&motor, &vary, &goal_torque, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let found = optimum(&motor, &["motor.dry_friction=0.1:0.3"], ("stall_torque_nm", true), &[], 1);
     assert!(found.warnings[0].contains("is at its upper bound, 0.3: a better"), "{:?}", found.warnings);
     // In next to a vacuum the torque does not depend on the pressure.
-    let goal = Goal::new(&motor, "max_torque_nm", false, &[]).unwrap();
-    let found = optimise(
-        &motor,
-        &bounds(&["film.ambient_pressure_kpa=0.01:1"]),
-        &goal,
-        &DRAFT,
-        (1, &Cancel::new(), &|_, _| ()),
-    );
-    let found = found.unwrap().unwrap();
+    let found = optimum(&motor, &["film.ambient_pressure_kpa=0.01:1"], ("max_torque_nm", false), &[], 1);
     assert!(found.warnings[0].contains("bound, ") && found.warnings[0].contains("max_torque_nm changes by less than "));
     let error = Goal::new(&motor, "torque", true, &[]).unwrap_err().to_string();
     assert!(error.contains("maximise torque: no such number; did you mean max_torque_nm? Allowed: alpha,"), "{error}");

@@ -591,7 +591,7 @@ fn run_by(method: Method, preset: &str, set: &[(&str, &str)]) -> SolvedScene {
     let mut history = Vec::new();
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
-    let validity = outside(&problem, Some(&solution));
+    let validity = outside(&problem, &solution);
     SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
 

@@ -255,7 +255,7 @@ fn a_start_up_names_the_limits_that_its_solve_does() {
         let problem = problem(preset, set);
         let (_, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 3, ..Settings::default() });
         let solution = solve(&problem, &solve::Settings::default(), &mut (), &Cancel::new()).unwrap();
-        let (found, known) = (validity(&problem, &ended), outside(&problem, Some(&solution)));
+        let (found, known) = (validity(&problem, &ended), outside(&problem, &solution));
         assert!(names(&found) == names(&known) && !known.is_empty(), "{found:?} {known:?}");
     }
 }

@@ -68,7 +68,7 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
             let problem = Problem::try_from(&sweep.scene_at(point).unwrap()).unwrap();
             let alone = solve(&problem, &DRAFT, &mut (), &Cancel::new()).unwrap();
             assert_eq!((row.point, &row.status), (point, &RunStatus::Converged));
-            assert_eq!(row.outside, names(&outside(&problem, Some(&alone))), "point {point}");
+            assert_eq!(row.outside, names(&outside(&problem, &alone)), "point {point}");
             let alone = Numbers::of(&problem, &alone);
             // The first of a chunk starts cold, a plate always; the others from their neighbour.
             let line = sweep.axes().last().unwrap().values.len();

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::validity::{Excess, NAMES, mach, names, outside};
+use squeezefilm::analysis::validity::{Excess, NAMES, mach, names, of_outcome, outside};
 use squeezefilm::control::Cancel;
 use squeezefilm::estimate::Estimate;
 use squeezefilm::fidelity::Fidelity;
@@ -15,7 +15,7 @@ use squeezefilm::solution::{MotorResult, Outcome, Solution};
 use squeezefilm::solve::{Settings, solve};
 
 fn of(scene: &Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
-    outside(&Problem::try_from(&scene.with(changes).unwrap()).unwrap(), None)
+    of_outcome(&Problem::try_from(&scene.with(changes).unwrap()).unwrap(), None, &[])
 }
 
 /// 1 mm long, 1 µm ± 0.5 µm, 30 kHz, unless changed.
@@ -212,13 +212,13 @@ fn a_gas_that_is_no_longer_ideal() {
         let mut solution = solution(2e-7);
         let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
         result.max_pressure.value = pressure;
-        outside(&problem, Some(&solution))
+        outside(&problem, &solution)
     };
     assert!(!names(&with(4.9e6)).contains(&"dense-gas"));
     check(&with(20e6), "dense-gas", 20.0, 5.0);
     let scene = presets::find("plate-trapped").unwrap().with([("plate.amplitude_um", "0.999")]).unwrap();
     let problem = Problem::try_from(&scene).unwrap();
-    assert!(names(&outside(&problem, Some(&solve_draft(&problem)))).contains(&"dense-gas"));
+    assert!(names(&outside(&problem, &solve_draft(&problem))).contains(&"dense-gas"));
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn contact_against_yield() {
         let mut solution = solution(2e-7);
         let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
         result.max_contact = contact;
-        outside(&problem, Some(&solution))
+        outside(&problem, &solution)
     };
     assert!(!names(&with(82.7e3)).contains(&"contact-stress"));
     let found = with(120e3);
@@ -242,7 +242,7 @@ fn contact_against_yield() {
         let mut solution = solution(2e-7);
         let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
         result.max_contact = 1.0;
-        outside(&problem, Some(&solution))
+        outside(&problem, &solution)
     };
     check(&rough("100", "50"), "contact-stress", 3.125, 1.0);
     assert!(!names(&rough("10", "500")).contains(&"contact-stress"));
@@ -251,7 +251,7 @@ fn contact_against_yield() {
     let mut solution = solution(2e-7);
     let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
     result.max_contact = 120e3;
-    let found = outside(&Problem::try_from(&scene).unwrap(), Some(&solution));
+    let found = outside(&Problem::try_from(&scene).unwrap(), &solution);
     let stress = found.iter().find(|excess| excess.name == "contact-stress").unwrap();
     assert!(stress.text.contains("PEEK yields at 98 MPa"), "{}", stress.text);
 }
@@ -283,12 +283,12 @@ fn an_amplitude_near_the_gap() {
 #[test]
 fn a_floating_rotor_is_judged_where_it_floats() {
     let problem = Problem::try_from(&Scene::motor()).unwrap();
-    assert_eq!(names(&outside(&problem, Some(&solution(2e-7)))), ["slip-law"]);
-    assert_eq!(names(&outside(&problem, Some(&solution(2e-6)))), Vec::<&str>::new());
+    assert_eq!(names(&outside(&problem, &solution(2e-7))), ["slip-law"]);
+    assert_eq!(names(&outside(&problem, &solution(2e-6))), Vec::<&str>::new());
     // Re = 1.2041 · 188 496 · (21.3 µm)²/2.172e-4.
-    let high = outside(&problem, Some(&solution(20e-6)));
+    let high = outside(&problem, &solution(20e-6));
     check(&high, "gas-inertia", 0.4741, 0.1);
-    assert_eq!(names(&outside(&problem, Some(&solution(f64::NAN)))), ["slip-law"]);
+    assert_eq!(names(&outside(&problem, &solution(f64::NAN))), ["slip-law"]);
 }
 
 /// First-order slip, the paper's, is outside its range in every motor of the paper, and under the plates that come within 500 nm; ground faces are
@@ -304,14 +304,14 @@ fn built_in_presets_show_what_they_should() {
             Scenario::Plate(plate) => plate.load.is_none(),
         };
         let closed: &[&str] = if slips { &["slip-law"] } else { &[] };
-        assert_eq!(names(&outside(&problem, None)), closed, "{name}, unsolved");
+        assert_eq!(names(&of_outcome(&problem, None, &[])), closed, "{name}, unsolved");
         // A rotor that floats 0.74 µm high never closes the film.
         let expected = match name {
             "levitating" => &[],
             "asperities" | "rough-flow" => &["slip-law", "contact-stress"][..],
             _ => closed,
         };
-        let found = outside(&problem, Some(&solve_draft(&problem)));
+        let found = outside(&problem, &solve_draft(&problem));
         assert_eq!(names(&found), expected, "{name}: {found:?}");
     }
 }
@@ -324,7 +324,7 @@ fn rotor_resonance() {
         let mut solved = solution(200e-9);
         let chosen = Choice::Rotor { error: 1e-3, ring: true, resonances: Some(natural) };
         solved.model.decisions = vec![Decision { chosen, overruled: false, effect: 1e-3, weighed: None }];
-        outside(&problem, Some(&solved)).into_iter().find(|excess| excess.name == "rotor-resonance")
+        outside(&problem, &solved).into_iter().find(|excess| excess.name == "rotor-resonance")
     };
     assert_eq!(judged([101e3, 250e3, 500e3]), None);
     let found = [judged([101e3, 150e3, 500e3]).unwrap()];
@@ -336,5 +336,5 @@ fn rotor_resonance() {
     );
     assert!(judged([30.01e3, 1e6, 1e6]).unwrap().text.contains("its mass, which is left out, decides"));
     // A beam has no mass.
-    assert!(!names(&outside(&problem, Some(&solution(200e-9)))).contains(&"rotor-resonance"));
+    assert!(!names(&outside(&problem, &solution(200e-9))).contains(&"rotor-resonance"));
 }

@@ -4,7 +4,7 @@ use crate::scene::{Scene, cancelled, checked};
 use crate::{Counted, How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
 use squeezefilm::analysis::error::AnalysisError;
-use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured, Model};
+use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, Goal, Limit, MOST_STARTS, Measured};
 use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::sensitivity::SensitivityStudy;
@@ -92,9 +92,8 @@ pub(crate) fn fit(
     let measured =
         measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(analysis_error)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
-        let model = Model::new(&scene, &bounds, &settings).and_then(|model| model.under(&measured));
-        let model = model.map_err(analysis_error)?;
-        let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
+        let told = |points: usize, _: f64| tell(points as f64);
+        let found = fitting::fit(&scene, &bounds, &measured, &settings, (starts, cancel, &told));
         let found = found.map_err(analysis_error)?.ok_or_else(cancelled)?;
         let object = json::document(&fitted::object(&scene.name, &found, &measured), &[]);
         Ok((object, Scene(found.scene)))

@@ -65,7 +65,7 @@ impl ComparedRun {
 
     /// Names of the limits of the model that it exceeds; none if it failed.
     pub fn outside(&self) -> Vec<&'static str> {
-        let limits = |solution: &Arc<Solution>| names(&outside(&self.problem, Some(solution)));
+        let limits = |solution: &Arc<Solution>| names(&outside(&self.problem, solution));
         self.solved.as_ref().map_or_else(|_| Vec::new(), limits)
     }
 

@@ -72,10 +72,12 @@ mod tests {
 
     #[test]
     fn a_motor_has_the_torque_and_the_speed_of_its_data_sheet() {
-        let sheet = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "160")];
+        let with = |others: &[(&str, &str)]| -> Answers {
+            let sheet = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "160")];
+            sheet.iter().chain(others).map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect()
+        };
         let asked = [("stall-torque-nm", "1"), ("no-load-speed-rpm", "150")];
-        let answers: Answers =
-            sheet.iter().chain(&asked).map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        let answers = with(&asked);
         let of = |motor: &NewMotor| {
             let numbers = solved(&motor.scene, &Cancel::new()).unwrap();
             [Quantity::StallTorque, Quantity::NoLoadSpeed].map(|quantity| numbers.get(quantity).unwrap())
@@ -86,33 +88,27 @@ mod tests {
         let [torque, speed] = of(&motor);
         assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
         // Pressed on so lightly that it floats, a motor has no torque.
-        let light = Answers::from_iter(answers.clone().into_iter().chain([("load-n".to_owned(), "20".to_owned())]));
         let same_but_told = |answers: &Answers, told: &str| {
             let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
             assert!(found.scene.same_model(&least.scene));
             let unmet = found.unmet.last().unwrap().as_str();
             assert!(found.scene.about.ends_with(unmet) && unmet.ends_with(told), "{unmet}");
         };
-        same_but_told(&light, "this one is not driven.");
+        same_but_told(&with(&[asked[0], asked[1], ("load-n", "20")]), "this one is not driven.");
         // One that would need more friction than there is keeps the least.
-        let strong: Answers =
-            [("stall-torque-nm", "8.5")].map(|(name, value)| (name.to_owned(), value.to_owned())).into();
-        let strong: Answers = strong.into_iter().chain(answers.into_iter().take(3)).collect();
-        same_but_told(&strong, "rpm.");
+        same_but_told(&with(&[("stall-torque-nm", "8.5")]), "rpm.");
         // A speed that the film leaves unknown is not that of the data sheet.
-        let unknown = [("load-n", "20"), ("frequency-khz", "10000"), ("no-load-speed-rpm", "10000")];
-        let unknown: Answers = [("diameter-mm", "60")]
-            .iter()
-            .chain(&unknown)
-            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
-            .collect();
+        let unknown = with(&[("load-n", "20"), ("frequency-khz", "10000"), ("no-load-speed-rpm", "10000")]);
         let unmet = agreeing(&unknown, &Cancel::new()).unwrap().unmet.pop().unwrap();
         assert!(unmet.ends_with("not known."), "{unmet}");
         // Pressed on so heavily that all teeth touch, torque and speed depend on both.
-        let heavy = [("diameter-mm", "68.57"), ("frequency-khz", "75.08"), ("load-n", "184.2")];
-        let asked = [("stall-torque-nm", "0.9401"), ("no-load-speed-rpm", "49.29")];
-        let heavy: Answers =
-            heavy.iter().chain(&asked).map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        let heavy = with(&[
+            ("diameter-mm", "68.57"),
+            ("frequency-khz", "75.08"),
+            ("load-n", "184.2"),
+            ("stall-torque-nm", "0.9401"),
+            ("no-load-speed-rpm", "49.29"),
+        ]);
         let [torque, speed] = of(&agreeing(&heavy, &Cancel::new()).unwrap());
         assert!((torque / 0.9401 - 1.0).abs() < CLOSE && (speed / 49.29 - 1.0).abs() < CLOSE, "{torque} {speed}");
     }

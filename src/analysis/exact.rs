@@ -19,6 +19,7 @@ use crate::problem::{Outline, Plate};
 use crate::recording::Recording;
 use crate::solution::PlateResult;
 use std::f64::consts::TAU;
+use std::ops::Mul;
 
 /// Samples of a cycle for exact means: spectrally accurate.
 const SAMPLES: usize = 1024;
@@ -36,6 +37,13 @@ pub struct Harmonic<T> {
     pub spring: T,
     /// In phase with the speed of the approach.
     pub damping: T,
+}
+
+impl<T: Mul<f64, Output = T>> Harmonic<T> {
+    /// Each in its [unit](Harmonic::unit).
+    pub fn times(self, unit: Harmonic<f64>) -> Self {
+        Self { spring: self.spring * unit.spring, damping: self.damping * unit.damping }
+    }
 }
 
 impl Harmonic<f64> {
@@ -79,10 +87,7 @@ pub struct ExactComparison {
 impl ExactComparison {
     /// Stiffness \[N/m\] and damping \[N s/m\] of the solved load, of a strip per metre of width; `None` if nothing vibrates.
     pub fn stiffness_and_damping(&self) -> Option<Harmonic<Estimate>> {
-        self.solved.map(|solved| Harmonic {
-            spring: solved.spring * self.unit.spring,
-            damping: solved.damping * self.unit.damping,
-        })
+        self.solved.map(|solved| solved.times(self.unit))
     }
 
     /// Of a solve of `plate`, its numbers and its fields.
@@ -90,9 +95,10 @@ impl ExactComparison {
         let film_load = result.film_load;
         let force = plate.gas.ambient_pressure * plate.area();
         let effective = effective_squeeze_number(plate);
-        let trapped = trapped_height_of(plate);
-        let mean_inverse =
-            (0..SAMPLES).map(|i| 1.0 / plate.gap(i as f64 / SAMPLES as f64)).sum::<f64>() / SAMPLES as f64;
+        let gaps = || (0..SAMPLES).map(|i| plate.gap(i as f64 / SAMPLES as f64));
+        let mean_inverse = gaps().map(|gap| 1.0 / gap).sum::<f64>() / SAMPLES as f64;
+        // Z of gas that cannot leave within a cycle [m], for any law of slip.
+        let trapped = edge_height(SlipLaw::of(&plate.gas), gaps);
         let frames = recording.frames;
         let limits = |frame: usize| {
             let phase = frame as f64 / frames as f64;
@@ -180,15 +186,9 @@ pub fn effective_squeeze_number(plate: &Plate) -> f64 {
     Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
 }
 
-/// Z of gas that cannot leave within a cycle \[m\], for any law of slip.
-fn trapped_height_of(plate: &Plate) -> f64 {
-    let law = SlipLaw::of(&plate.gas);
-    edge_height(law, || (0..SAMPLES).map(|i| plate.gap(i as f64 / SAMPLES as f64)))
-}
-
 /// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is
 /// ⟨h³/2 + 6λ_a h²⟩, the invariant itself.
-pub fn invariant_deviation(plate: &Plate, recording: &Recording) -> Option<f64> {
+fn invariant_deviation(plate: &Plate, recording: &Recording) -> Option<f64> {
     let (frames, size) = (recording.frames, recording.map_x.len() * recording.map_y.len());
     if frames == 0 || size == 0 || recording.pressure.len() < frames * size {
         return None;

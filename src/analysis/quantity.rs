@@ -5,7 +5,7 @@ use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::problem::{Plate, Problem, Scenario, rpm};
 use crate::scene::Belongs;
-use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status, settled};
+use crate::solution::{Outcome, PlateResult, Solution, Status, settled};
 
 /// An enum of numbers, and those of them that are known. Of each its variant, name, what it is, its unit, the scenes that have it, and
 /// whatever else is to be known of it.
@@ -260,7 +260,13 @@ impl Numbers {
             numbers.set(quantity, count as f64);
         }
         if let (Scenario::Motor(motor), Some(found)) = (&problem.scenario, &solution.performance) {
-            numbers.performance(found, rpm(1.0, motor.contact_radius));
+            let rpm = rpm(1.0, motor.contact_radius);
+            numbers.set_all([
+                (StallTorque, Some(found.stall_torque)),
+                (NoLoadSpeed, found.no_load_speed.map(|speed| speed * rpm)),
+                (MaxPower, Some(found.max_power)),
+                (MaxEfficiency, found.max_efficiency),
+            ]);
         }
         numbers
     }
@@ -269,10 +275,20 @@ impl Numbers {
     pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
         let mut numbers = Self::default();
         match (&problem.scenario, outcome) {
-            (Scenario::Motor(_), Outcome::Motor(result)) => numbers.motor(result),
+            (_, Outcome::Motor(result)) => numbers.set_all([
+                (Alpha, result.alpha),
+                (FilmLoad, result.film_load),
+                (FilmLoadMin, result.film_load_min),
+                (FilmLoadMax, result.film_load_max),
+                (ContactLoad, result.contact_load),
+                (MaxTorque, result.max_torque),
+                (TeethInContact, result.teeth_in_contact),
+                (MinGap, result.min_film_thickness * 1e9),
+                (MaxPressure, result.max_pressure * 1e-3),
+            ]),
             (Scenario::Plate(plate), Outcome::Plate(result)) => numbers.plate(result, plate),
             // A solver answers in kind.
-            _ => {}
+            (Scenario::Motor(_), Outcome::Plate(_)) => {}
         }
         numbers
     }
@@ -296,30 +312,6 @@ impl Numbers {
                 self.set(number, error);
             }
         }
-    }
-
-    fn motor(&mut self, result: &MotorResult) {
-        self.set_all([
-            (Alpha, result.alpha),
-            (FilmLoad, result.film_load),
-            (FilmLoadMin, result.film_load_min),
-            (FilmLoadMax, result.film_load_max),
-            (ContactLoad, result.contact_load),
-            (MaxTorque, result.max_torque),
-            (TeethInContact, result.teeth_in_contact),
-            (MinGap, result.min_film_thickness * 1e9),
-            (MaxPressure, result.max_pressure * 1e-3),
-        ]);
-    }
-
-    /// Speeds in `rpm` for 1 m/s.
-    fn performance(&mut self, found: &Performance, rpm: f64) {
-        self.set_all([
-            (StallTorque, Some(found.stall_torque)),
-            (NoLoadSpeed, found.no_load_speed.map(|speed| speed * rpm)),
-            (MaxPower, Some(found.max_power)),
-            (MaxEfficiency, found.max_efficiency),
-        ]);
     }
 
     fn plate(&mut self, result: &PlateResult, plate: &Plate) {

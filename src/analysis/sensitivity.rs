@@ -26,16 +26,11 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene};
 use crate::solution::{Solution, Status};
 use crate::solve::near::{Centre, is_settled};
-use crate::solve::{Record, Settings, SolveError, solve};
+use crate::solve::{Record, Settings, solve};
 use output::read;
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::sync::OnceLock;
-
-fn values(problem: &Problem, solution: &Solution) -> Vec<f64> {
-    read(problem, solution).into_iter().map(|found| found.value).collect()
-}
 
 /// Results of a scene, and their derivatives by its keys.
 #[derive(Debug)]
@@ -45,8 +40,6 @@ pub struct Sensitivity {
     pub settings: Settings,
     /// The problem.
     pub problem: Problem,
-    /// Solve from which random scenes start: not serialized, but solved again.
-    centre: OnceLock<Centre>,
     /// How the solve in the middle ended.
     pub status: Status,
     /// Warnings about that solve for the user.
@@ -58,7 +51,7 @@ pub struct Sensitivity {
     /// Derivatives of all of them by each key.
     pub columns: Vec<Column>,
     /// The values without the finest grid.
-    coarse: Vec<f64>,
+    coarse: Vec<Estimate>,
 }
 
 impl Sensitivity {
@@ -77,30 +70,13 @@ impl Sensitivity {
         let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
         let centre = Centre::new(&problem, settings, None, cancel)?;
-        let Some(Jacobian { numbers, mut columns }) =
-            variation.jacobian(&variation.values(), &centre, &values, cancel, solved)
-        else {
+        let Some(Jacobian { numbers, columns }) = variation.jacobian(&centre, &read, cancel, solved) else {
             return Ok(None);
         };
-        let (outputs, values) = (Output::of(&problem), read(&problem, &centre.solved.fine));
-        for column in &mut columns {
-            column.expect(&values);
-        }
-        let coarse = numbers.coarse.unwrap_or(numbers.fine);
-        let (status, warnings) = (centre.solved.fine.status, centre.solved.fine.warnings.clone());
-        let (settings, centre) = (*settings, OnceLock::from(centre));
-        Ok(Some(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse }))
-    }
-
-    /// Solve from which random scenes start, made on first use.
-    fn centre(&self, cancel: &Cancel) -> Result<&Centre, SolveError> {
-        match self.centre.get() {
-            Some(centre) => Ok(centre),
-            None => {
-                let centre = Centre::new(&self.problem, &self.settings, None, cancel)?;
-                Ok(self.centre.get_or_init(|| centre))
-            }
-        }
+        let (outputs, values) = (Output::of(&problem), numbers.fine);
+        let coarse = numbers.coarse.unwrap_or_else(|| values.clone());
+        let Solution { status, warnings, .. } = centre.solved.fine;
+        Ok(Some(Self { variation, settings: *settings, problem, status, warnings, outputs, values, columns, coarse }))
     }
 
     /// The scene.
@@ -132,7 +108,7 @@ impl Sensitivity {
         let hidden = value == 0.0 || error >= value.abs();
         let of = |slope: f64, value: f64| slope * scale / value.abs();
         let found = of(slope.value, value);
-        let grids = (found - of(slope.coarse, self.coarse[output])).abs();
+        let grids = (found - of(slope.coarse, self.coarse[output].value)).abs();
         // Where both ladders have the same whole or half number to rounding, the output is that power of the key. Any other they may have in common
         // because both have the same nodes across.
         let power = grids < SAME && (2.0 * found - (2.0 * found).round()).abs() < SAME;
@@ -200,14 +176,13 @@ impl Sensitivity {
     ) -> Option<MonteCarlo> {
         // The gap at which a plate floats may be far from that in the middle: it is sought anew, and needs no centre.
         let floats = self.problem.scenario.plate().is_some_and(|plate| plate.load.is_some());
-        // Known, unless this was carried here: then it is solved as it was before.
-        let centre = if floats { None } else { Some(self.centre(cancel).ok()?) };
+        let centre = if floats { None } else { Some(Centre::new(&self.problem, &self.settings, None, cancel).ok()?) };
         let one = |number: usize| {
             if cancel.is_cancelled() {
                 return None;
             }
             let found = uncertainties.draw(number as u64, seed).and_then(|(values, problem, redrawn)| {
-                Ok((Draw { values, results: self.solve_draw(centre, &problem, cancel)? }, redrawn))
+                Ok((Draw { values, results: self.solve_draw(centre.as_ref(), &problem, cancel)? }, redrawn))
             });
             solved();
             // What was being solved when it was cancelled is not.
@@ -246,7 +221,7 @@ impl Sensitivity {
     }
 }
 
-/// In bytes: all but what random scenes are solved from, and what follows from the scene.
+/// In bytes: all but what follows from the scene.
 impl Serialize for Sensitivity {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { variation, settings, status, warnings, values, columns, coarse, .. } = self;
@@ -259,8 +234,8 @@ impl<'de> Deserialize<'de> for Sensitivity {
         let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
         let (variation, settings, status, warnings, values, columns, coarse) = carried;
         let problem = Problem::try_from(&variation.scene).map_err(D::Error::custom)?;
-        let (outputs, centre) = (Output::of(&problem), OnceLock::new());
-        Ok(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse })
+        let outputs = Output::of(&problem);
+        Ok(Self { variation, settings, problem, status, warnings, outputs, values, columns, coarse })
     }
 }
 

@@ -1,16 +1,17 @@
 //! Where a method solves, and where it does not: maps of a motor's parameters to the edges of their ranges.
 //!
 //! Each cell of a map is one scene, solved by itself and judged: what a solver says of itself (converged or not), and
-//! what physics says of its numbers ([`Violation`]). Cells are solved on rayon's pool and do not depend on its threads.
+//! what physics says of its numbers. Cells are solved on rayon's pool and do not depend on its threads.
 
 use super::attempt::attempt;
 use super::quantity::Numbers;
 use super::sweep::spaced;
 use crate::control::{Cancel, Progress};
 use crate::estimate::Estimate;
-use crate::problem::{Motor, Problem, Scenario};
-use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError, Value};
-use crate::solution::{Outcome, Solution, Status};
+use crate::problem::{Motor, Problem};
+use crate::recording::Recording;
+use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError};
+use crate::solution::{MotorResult, Solution, Status};
 use crate::solve::{Method, Settings};
 use rayon::prelude::*;
 
@@ -137,39 +138,6 @@ impl Verdict {
 /// The names of all verdicts.
 pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "failed", "refused"];
 
-/// A result that is physically impossible.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Violation {
-    /// A result that is no number.
-    #[error("{0} is not a finite number")]
-    NotFinite(&'static str),
-    /// The film carries less than nothing, or more than the load.
-    #[error("α = {alpha:.4} ± {error:.1e} is outside 0 … 1")]
-    Share {
-        /// α.
-        alpha: f64,
-        /// Its stated error.
-        error: f64,
-    },
-    /// Least absolute pressure \[Pa\], zero or below.
-    #[error("the pressure falls to {0:.2e} Pa")]
-    Pressure(f64),
-    /// Rotor and stator closer than roughness lets them.
-    #[error("the film is {thickness:.3e} m thin, with a minimum spacing of {spacing:.3e} m")]
-    Overlap {
-        /// Least film thickness \[m\].
-        thickness: f64,
-        /// Least film thickness that the faces allow \[m\].
-        spacing: f64,
-    },
-    /// Least contact line load \[N/m\], negative.
-    #[error("the contact pulls with {0:.2e} N/m")]
-    Pull(f64),
-    /// Largest |film + contact − load| at an instant, as a share of the load.
-    #[error("film and contact together are off the load by {0:.2e} of it")]
-    Balance(f64),
-}
-
 /// Lengths and forces need not agree any better than this.
 const ROUND_OFF: f64 = 1e-9;
 /// Tolerance of a share of the load beside its stated error: no film has an effect as small as this.
@@ -177,9 +145,8 @@ const SHARE: f64 = 1e-6;
 /// Share of the load that film and contact may miss at an instant, beside the stated error.
 const BALANCE: f64 = 2e-3;
 
-/// Physically impossible numbers in a motor's solution.
-pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
-    let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
+/// What cannot be of the numbers in a motor's solution, in words.
+fn violations(motor: &Motor, result: &MotorResult, recording: &Recording) -> Vec<String> {
     let numbers = [
         ("α", result.alpha.value),
         ("the error of α", result.alpha.error),
@@ -190,27 +157,26 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
         ("the highest pressure", result.max_pressure.value),
     ];
     let wrong = numbers.into_iter().filter(|(_, value)| !value.is_finite());
-    let mut violations: Vec<_> = wrong.map(|(name, _)| Violation::NotFinite(name)).collect();
+    let mut violations: Vec<_> = wrong.map(|(name, _)| format!("{name} is not a finite number")).collect();
     let Estimate { value: alpha, error } = result.alpha;
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
-        violations.push(Violation::Share { alpha, error });
+        violations.push(format!("α = {alpha:.4} ± {error:.1e} is outside 0 … 1"));
     }
-    let recording = &solution.recording;
     // One NaN makes the least value NaN, which is at fault everywhere.
     let least =
         |values: &[f64]| values.iter().copied().fold(f64::INFINITY, |a, b| if a.is_nan() || b >= a { a } else { b });
     let pressure = least(&recording.pressure);
     if pressure <= 0.0 || pressure.is_nan() {
-        violations.push(Violation::Pressure(pressure));
+        violations.push(format!("the pressure falls to {pressure:.2e} Pa"));
     }
     let thickness = least(&[least(&recording.film_thickness), result.min_film_thickness.value]);
     let spacing = motor.least_thickness();
     if thickness < spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
-        violations.push(Violation::Overlap { thickness, spacing });
+        violations.push(format!("the film is {thickness:.3e} m thin, with a minimum spacing of {spacing:.3e} m"));
     }
     let contact = least(&recording.contact);
     if contact < -ROUND_OFF * motor.load / motor.wavelength() || contact.is_nan() {
-        violations.push(Violation::Pull(contact));
+        violations.push(format!("the contact pulls with {contact:.2e} N/m"));
     }
     let missed = recording
         .film_load
@@ -219,26 +185,27 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
         .map(|(film, contact)| ((film + contact) / motor.load - 1.0).abs())
         .fold(0.0, |a: f64, b| if a.is_nan() || b <= a { a } else { b });
     if missed > error + BALANCE || missed.is_nan() {
-        violations.push(Violation::Balance(missed));
+        violations.push(format!("film and contact together are off the load by {missed:.2e} of it"));
     }
     violations
 }
 
-/// Verdict on a solve, and its physically impossible numbers.
-pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<Violation>) {
-    match solved {
-        Err(reason) => (Verdict::Failed(reason.clone()), Vec::new()),
-        Ok(solution) => {
-            let violations = violations(motor, solution);
-            let verdict = match solution.status {
-                // `NotResolved`: the error is as large as the result, but the numbers are physical.
-                Status::Converged | Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
-                Status::Converged | Status::NotResolved { .. } => Verdict::NonPhysical,
-                Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
-            };
-            (verdict, violations)
-        }
-    }
+/// Verdict on a solve, and what cannot be of its numbers.
+fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<String>) {
+    let solution = match solved {
+        Err(reason) => return (Verdict::Failed(reason.clone()), Vec::new()),
+        Ok(solution) => solution,
+    };
+    // A solver answers in kind.
+    let found = solution.outcome.motor().map(|result| violations(motor, result, &solution.recording));
+    let violations = found.unwrap_or_default();
+    let verdict = match solution.status {
+        Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
+        // `NotResolved`: the error is as large as the result, but the numbers are physical.
+        Status::Converged | Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
+        Status::Converged | Status::NotResolved { .. } => Verdict::NonPhysical,
+    };
+    (verdict, violations)
 }
 
 /// One cell of a map.
@@ -254,8 +221,8 @@ pub struct Cell {
     pub changes: Vec<(&'static str, f64)>,
     /// Verdict on its solve.
     pub verdict: Verdict,
-    /// Its physically impossible numbers.
-    pub violations: Vec<Violation>,
+    /// What cannot be of its numbers, in words.
+    pub violations: Vec<String>,
     /// Its numbers; none if it failed or was refused.
     pub numbers: Numbers,
 }
@@ -333,10 +300,8 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
             return Some(cell);
         }
     };
-    let Scenario::Motor(motor) = &problem.scenario else {
-        cell.verdict = Verdict::Refused("the maps are of a motor".to_owned());
-        return Some(cell);
-    };
+    // Its keys are those of a motor.
+    let motor = problem.scenario.motor()?;
     let cycles = most_cycles(&problem);
     let stop = Cancel::new();
     let mut watch = |progress: &Progress| {
@@ -359,11 +324,7 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
 }
 
 fn changed(scene: &Scene, changes: &[(&str, f64)]) -> Result<Problem, SceneError> {
-    let mut scene = scene.clone();
-    for (key, value) in changes {
-        scene.set_value(key, Value::Number(*value))?;
-    }
-    Problem::try_from(&scene)
+    Problem::try_from(&scene.with_numbers(changes.iter().copied())?)
 }
 
 fn most_cycles(problem: &Problem) -> usize {
@@ -377,9 +338,10 @@ fn most_cycles(problem: &Problem) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::{LineLoads, Recording};
+    use crate::problem::Scenario;
+    use crate::recording::LineLoads;
     use crate::scene::presets;
-    use crate::solution::{Model, MotorResult, Stats};
+    use crate::solution::{Model, Outcome, Stats};
 
     fn motor() -> Motor {
         let Scenario::Motor(motor) = Problem::try_from(&Scene::motor()).unwrap().scenario else { unreachable!() };
@@ -430,27 +392,24 @@ mod tests {
         assert_eq!(verdict(Err("no".to_owned())), (Verdict::Failed("no".to_owned()), vec![]));
         // Within its error, a share may be a little out of range.
         assert_eq!(verdict(solution(|_, r| r.alpha.value = 1.0005)).0, Verdict::Solved);
-        let share = |alpha: f64| Violation::Share { alpha, error: 1e-3 };
         type Change = fn(&mut Solution, &mut MotorResult);
-        let wrong: [(Change, Violation); 9] = [
-            (|_, r| r.alpha.value = 1.2, share(1.2)),
-            (|_, r| r.alpha.value = -0.2, share(-0.2)),
-            (|_, r| r.max_torque.value = f64::NAN, Violation::NotFinite("the torque")),
-            (|_, r| r.alpha.error = f64::INFINITY, Violation::NotFinite("the error of α")),
-            (|s, _| s.recording.pressure[1] = -3.0, Violation::Pressure(-3.0)),
-            (|s, _| s.recording.film_thickness[1] = 1e-7, Violation::Overlap { thickness: 1e-7, spacing: 2e-7 }),
-            (|_, r| r.min_film_thickness.value = 0.0, Violation::Overlap { thickness: 0.0, spacing: 2e-7 }),
-            (|s, _| s.recording.contact[0] = -1.0, Violation::Pull(-1.0)),
-            (|s, _| s.recording.contact_load[1] = 4.275, Violation::Balance(1.0)),
+        let [thin, thinner] = ["1.000e-7", "0.000e0"]
+            .map(|film| format!("the film is {film} m thin, with a minimum spacing of 2.000e-7 m"));
+        let wrong: [(Change, &str); 10] = [
+            (|_, r| r.alpha.value = 1.2, "α = 1.2000 ± 1.0e-3 is outside 0 … 1"),
+            (|_, r| r.alpha.value = -0.2, "α = -0.2000 ± 1.0e-3 is outside 0 … 1"),
+            (|_, r| r.max_torque.value = f64::NAN, "the torque is not a finite number"),
+            (|_, r| r.alpha.error = f64::INFINITY, "the error of α is not a finite number"),
+            (|s, _| s.recording.pressure[1] = -3.0, "the pressure falls to -3.00e0 Pa"),
+            (|s, _| s.recording.pressure[0] = f64::NAN, "the pressure falls to NaN Pa"),
+            (|s, _| s.recording.film_thickness[1] = 1e-7, &thin),
+            (|_, r| r.min_film_thickness.value = 0.0, &thinner),
+            (|s, _| s.recording.contact[0] = -1.0, "the contact pulls with -1.00e0 N/m"),
+            (|s, _| s.recording.contact_load[1] = 4.275, "film and contact together are off the load by 1.00e0 of it"),
         ];
         for (change, expected) in wrong {
-            assert_eq!(verdict(solution(change)), (Verdict::NonPhysical, vec![expected]));
+            assert_eq!(verdict(solution(change)), (Verdict::NonPhysical, vec![expected.to_owned()]));
         }
-        let (verdict, violations) = verdict(solution(|s, _| s.recording.pressure[0] = f64::NAN));
-        assert!(
-            verdict == Verdict::NonPhysical && matches!(violations[..], [Violation::Pressure(p)] if p.is_nan()),
-            "{violations:?}"
-        );
     }
 
     #[test]

@@ -132,19 +132,10 @@ impl Sweep {
             let told = format!("vary: {in_place}, or as many in each part of sweep --part");
             return Err(AnalysisError::Field { told, in_place });
         }
-        let mut fault = None;
+        let at = |point: usize| solvable(scene, &axes, &values_at(&axes, point), settings);
         // Of a larger sweep some points, which are those of every part.
-        let looked_at = (0..count(&axes)).step_by(count(&axes).div_ceil(MOST_POINTS));
-        let first = looked_at.map(|point| values_at(&axes, point)).find_map(|values| {
-            match solvable(scene, &axes, &values, settings) {
-                Ok(problem) => Some(problem),
-                Err(error) => {
-                    fault.get_or_insert(error);
-                    None
-                }
-            }
-        });
-        let first = first.ok_or_else(|| fault.unwrap_or(AnalysisError::Input("vary: no points".to_owned())))?;
+        let mut others = (0..count(&axes)).step_by(count(&axes).div_ceil(MOST_POINTS)).skip(1);
+        let first = at(0).or_else(|fault| others.find_map(|point| at(point).ok()).ok_or(fault))?;
         Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes, budget: None })
     }
 
@@ -325,7 +316,7 @@ impl Sweep {
                     row.status = solution.status.into();
                     row.stopped_by = Some(solution.accuracy.stopped_by);
                     row.numbers = Numbers::of(&problem, &solution);
-                    row.outside = validity::names(&validity::outside(&problem, Some(&solution)));
+                    row.outside = validity::names(&validity::outside(&problem, &solution));
                 }
                 // A point that was cut short is no failure.
                 Err(_) if cancel.is_cancelled() => break,

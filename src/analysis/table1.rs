@@ -7,7 +7,7 @@ use super::compare::{ComparedRun, each};
 use crate::control::Cancel;
 use crate::problem::{Numerics, Problem};
 use crate::scene::table1::{PublishedRow, published};
-use crate::scene::{Scene, SceneError, Value, presets};
+use crate::scene::{Scene, SceneError, presets};
 use crate::solution::MotorResult;
 use crate::solve::{Method, Settings};
 
@@ -43,18 +43,23 @@ pub fn rows(
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
 ) -> Result<Vec<Table1Row>, SceneError> {
-    let scene = |row: &PublishedRow| {
-        let mut scene = presets::find(&row.preset)?;
-        if settings.method == Method::Auto {
-            scene.set_numerics(&Numerics::default())?;
-        }
-        scene.set_all(changes)?;
+    let posed = |row: &PublishedRow| {
+        let scene = scene_of(row, settings.method)?.with(changes)?;
         Ok((Problem::try_from(&scene)?, scene))
     };
     let (problems, scenes): (Vec<_>, Vec<_>) =
-        published().iter().map(scene).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
+        published().iter().map(posed).collect::<Result<Vec<_>, SceneError>>()?.into_iter().unzip();
     let runs = each(&scenes, problems, settings, cancel, finished);
     Ok(published().into_iter().zip(runs).map(|(published, run)| Table1Row { published, run }).collect())
+}
+
+/// The scene of a row; with [`Method::Auto`] without its `[numerics]` table.
+pub(super) fn scene_of(row: &PublishedRow, method: Method) -> Result<Scene, SceneError> {
+    let mut scene = presets::find(&row.preset)?;
+    if method == Method::Auto {
+        scene.set_numerics(&Numerics::default())?;
+    }
+    Ok(scene)
 }
 
 /// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their
@@ -65,9 +70,8 @@ pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
         let Ok(theirs) = presets::find(&row.preset) else { continue };
         let values: Option<Vec<f64>> = keys.iter().map(|key| theirs.get(key)?.as_number()).collect();
         let Some(values) = values else { continue };
-        let mut ours = scene.clone();
-        let set = keys.iter().zip(&values).all(|(key, value)| ours.set_value(key, Value::Number(*value)).is_ok());
-        if set && ours.same_model(&theirs) {
+        let ours = scene.with_numbers(keys.iter().copied().zip(values.iter().copied()));
+        if ours.is_ok_and(|ours| ours.same_model(&theirs)) {
             points.push(Published {
                 row: row.row,
                 values,

@@ -19,14 +19,13 @@ use limits::{Film, curvature, dense, nearness, resonance, roughness, sliding, st
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
-/// with a closed film of a motor at its minimum spacing, and no contact.
-pub fn outside(problem: &Problem, solution: Option<&Solution>) -> Vec<Excess> {
-    let decisions = solution.map_or(&[][..], |solution| &solution.model.decisions);
-    of_outcome(problem, solution.map(|solution| &solution.outcome), decisions)
+/// The limits that a scene exceeds, from its solution; none if the model is within its depth.
+pub fn outside(problem: &Problem, solution: &Solution) -> Vec<Excess> {
+    of_outcome(problem, Some(&solution.outcome), &solution.model.decisions)
 }
 
-/// The limits that a scene exceeds, from an outcome and the decisions made for it.
+/// The limits that a scene exceeds, from an outcome and the decisions made for it. Without an outcome: what the scene alone tells, with a closed
+/// film of a motor at its minimum spacing, and no contact.
 pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
     let problem = &*outcome.map_or(Cow::Borrowed(problem), |outcome| settled(problem, outcome));
     match &problem.scenario {
@@ -37,12 +36,9 @@ pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Dec
 
 /// Their names, each once.
 pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
-    let mut names: Vec<&'static str> = Vec::new();
-    for excess in exceeded {
-        if !names.contains(&excess.name) {
-            names.push(excess.name);
-        }
-    }
+    let mut names: Vec<&'static str> = exceeded.iter().map(|excess| excess.name).collect();
+    // Those of one name are next to each other.
+    names.dedup();
     names
 }
 

@@ -108,11 +108,14 @@ pub struct Column {
 /// Numbers of a solution, and their derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobian {
-    /// The numbers in the middle.
-    pub numbers: Nested<Vec<f64>>,
+    /// The numbers in the middle, with their stated errors.
+    pub numbers: Nested<Vec<Estimate>>,
     /// By each key, in the order of the variation.
     pub columns: Vec<Column>,
 }
+
+/// Reads numbers, with their stated errors, from a problem and its solution, which has no pressure maps.
+type Read<'a> = &'a (dyn Fn(&Problem, &Solution) -> Vec<Estimate> + Sync);
 
 impl Variation {
     /// Of keys of `scene` by name: each has to have a value and a derivative, and is named once.
@@ -172,28 +175,23 @@ impl Variation {
 
     /// Problem at other values of the keys, in their units.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
-        let mut scene = self.scene.clone();
-        for (parameter, value) in self.parameters.iter().zip(values) {
-            scene.set_value(parameter.key, Value::Number(*value))?;
-        }
-        Problem::try_from(&scene)
+        let keys = self.parameters.iter().map(|parameter| parameter.key);
+        Problem::try_from(&self.scene.with_numbers(keys.zip(values.iter().copied()))?)
     }
 
-    /// The derivatives, at `values`, of the numbers that `numbers` reads from a problem and its solution, which has no pressure maps.
-    /// `centre` is the problem solved at these values. The solves run on rayon's pool, and the result does not depend on the number of threads;
-    /// `solved` is told after each of how many. `None` if cancelled.
+    /// The derivatives, at the values of the scene, of the numbers that `numbers` reads. `centre` is the scene, solved. The solves run on
+    /// rayon's pool, and the result does not depend on the number of threads; `solved` is told after each of how many. `None` if cancelled.
     pub fn jacobian(
         &self,
-        values: &[f64],
         centre: &Centre,
-        numbers: &(dyn Fn(&Problem, &Solution) -> Vec<f64> + Sync),
+        numbers: Read<'_>,
         cancel: &Cancel,
         solved: &(dyn Fn(usize) + Sync),
     ) -> Option<Jacobian> {
-        let middle = read(&centre.problem, &centre.solved, numbers);
+        let (values, middle) = (self.values(), read(&centre.problem, &centre.solved, numbers));
         let plan = |column| {
             if centre.is_settled() {
-                return self.steps(values, column);
+                return self.steps(&values, column);
             }
             let points = Err("the scene itself is not converged".to_owned());
             Steps { step: f64::NAN, sides: Sides::Both, points }
@@ -207,7 +205,7 @@ impl Variation {
                 .ok_or("a solve beside it has no periodic state on the same grids, or floats at quite another gap")?;
             Ok(read(problem, &found, numbers))
         };
-        let mut found: Vec<Result<Nested<Vec<f64>>, String>> = jobs.par_iter().map(of).collect();
+        let mut found: Vec<Result<Nested<Vec<Estimate>>, String>> = jobs.par_iter().map(of).collect();
         if cancel.is_cancelled() {
             return None;
         }
@@ -264,11 +262,7 @@ fn scale(parameter: &Parameter, value: f64) -> f64 {
     }
 }
 
-fn read(
-    problem: &Problem,
-    solved: &Nested<Solution>,
-    numbers: &(dyn Fn(&Problem, &Solution) -> Vec<f64> + Sync),
-) -> Nested<Vec<f64>> {
+fn read(problem: &Problem, solved: &Nested<Solution>, numbers: Read<'_>) -> Nested<Vec<Estimate>> {
     Nested {
         fine: numbers(problem, &solved.fine),
         coarse: solved.coarse.as_ref().map(|coarse| numbers(problem, coarse)),
@@ -289,8 +283,8 @@ fn slopes(
     sides: Sides,
     step: f64,
     relative: f64,
-    middle: &Nested<Vec<f64>>,
-    points: &[Nested<Vec<f64>>],
+    middle: &Nested<Vec<Estimate>>,
+    points: &[Nested<Vec<Estimate>>],
 ) -> Vec<Slope> {
     // D(h), and what the length of the step is judged by.
     let derivative = |middle: f64, at: &[f64]| match (sides, at) {
@@ -302,37 +296,31 @@ fn slopes(
         _ => (f64::NAN, f64::NAN),
     };
     let number = |i: usize| {
-        let at: Vec<f64> = points.iter().map(|point| point.fine[i]).collect();
-        let (value, longer) = derivative(middle.fine[i], &at);
+        let at: Vec<f64> = points.iter().map(|point| point.fine[i].value).collect();
+        let Estimate { value: number, error } = middle.fine[i];
+        let (value, longer) = derivative(number, &at);
         let coarse = middle.coarse.as_ref().and_then(|middle| {
-            let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i])).collect();
-            Some(derivative(middle[i], &at?).0)
+            let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i].value)).collect();
+            Some(derivative(middle[i].value, &at?).0)
         });
         // What a key has nothing to do with is not even rounded.
         let rounding = if value == 0.0 { 0.0 } else { ROUNDING / step };
-        let left_out = (relative + rounding) * middle.fine[i].abs();
+        let left_out = (relative + rounding) * number.abs();
+        // A share of the stated error, as if this changed as the key does, and of the derivative as large a share as that of its number. An error
+        // that is not known is no measure, and what is exact or has nothing to do with a key has none.
+        let least = if error.is_finite() && error > 0.0 && value != 0.0 {
+            EXPECTED * error * STEP / step + error / number.abs().max(error) * value.abs()
+        } else {
+            0.0
+        };
         // A single grid tells nothing of its error.
         let coarse = coarse.unwrap_or(f64::INFINITY);
-        Slope { value, coarse, least: 0.0, step_error: (value - longer).abs(), left_out }
+        Slope { value, coarse, least, step_error: (value - longer).abs(), left_out }
     };
     (0..middle.fine.len()).map(number).collect()
 }
 
 impl Column {
-    /// Takes a share of the stated errors of the `numbers` in the middle, as if these changed as the key does, and of each derivative as large a
-    /// share as that of its number, for the least errors by the grids.
-    pub fn expect(&mut self, numbers: &[Estimate]) {
-        for (slope, number) in self.slopes.iter_mut().flatten().zip(numbers) {
-            // An error that is not known is no measure, and what is exact or has nothing to do with a key has none.
-            slope.least = if number.error.is_finite() && number.error > 0.0 && slope.value != 0.0 {
-                let relative = number.error / number.value.abs().max(number.error);
-                EXPECTED * number.error * STEP / self.step + relative * slope.value.abs()
-            } else {
-                0.0
-            };
-        }
-    }
-
     /// The scale of the key that an elasticity is relative to, in its unit: the size of its value, of a temperature the value above
     /// absolute zero. `None` if the value is 0 and the key is no temperature.
     pub fn scale(&self) -> Option<f64> {

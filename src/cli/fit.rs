@@ -6,7 +6,7 @@ use super::options::{CommonOptions, PRESET, STANDARD_INPUT, spare_inputs, standa
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::fit::{
-    Bound, Bounds, ErrorSize, Fitted, Goal, LARGEST_TABLE, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
+    Bound, Bounds, ErrorSize, Fitted, Goal, LARGEST_TABLE, Limit, MOST_STARTS, Measured, Optimum, fit, optimise,
 };
 use crate::digits::{counted, duration, percent, short, signed, significant};
 use crate::export::files;
@@ -147,11 +147,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         };
         folder.iter().try_for_each(|folder| spare_inputs(folder, &["fit.csv", "fitted.toml"]))?;
         let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
-        let model = Model::new(&scene, &arguments.vary, &settings)?.under(&measured)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {
-            fit(&model, &measured, starts, &cancel, &|points, chi_squared| {
+            let told = |points: usize, chi_squared: f64| {
                 bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
-            })
+            };
+            fit(&scene, &arguments.vary, &measured, &settings, (starts, &cancel, &told as _))
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&fitted.scene)?;

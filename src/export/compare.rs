@@ -87,7 +87,7 @@ fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
     object["difference_error_percent"] = of(|found| found.error);
     let solution = run.solved.as_ref().ok();
     object["why"] = solution.map(|solution| sentences(&solution.model)).into();
-    object["validity"] = json!(solution.map(|solution| outside(&run.problem, Some(solution))));
+    object["validity"] = json!(solution.map(|solution| outside(&run.problem, solution)));
     object["warnings"] = json!(solution.map(|solution| &solution.warnings));
     object["scene_toml"] = run.scene.to_toml().into();
     object
@@ -367,7 +367,7 @@ pub fn report(
             Ok(solution) => {
                 page.list(sentences(&solution.model));
                 page.text(&format!("The film: {}.", regime::weight(&run.problem, &solution.outcome)));
-                limits(&mut page, &outside(&run.problem, Some(solution)));
+                limits(&mut page, &outside(&run.problem, solution));
                 solution.warnings.iter().for_each(|warning| page.warning(warning));
             }
             Err(reason) => page.warning(reason),

@@ -60,10 +60,7 @@ fn rows(fitted: &Fitted, measured: &Measured) -> Vec<Value> {
             "condition": changes.collect::<Vec<_>>().join(" "),
             "quantity": one.what.name(),
             // Of a torque.
-            "rotor_speed_rpm": match one.what {
-                Observable::Torque { speed_rpm } => Some(speed_rpm),
-                Observable::Number(_) => None,
-            },
+            "rotor_speed_rpm": one.what.speed_rpm(),
             "measured": one.value,
             // Its standard error, scaled if it was not given.
             "error": row.error,
@@ -120,8 +117,8 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
     let [solid, hollow] = [Marker::solid(Shape::Circle), Marker::hollow(Shape::Circle)];
     let words = first.what.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
-    if let Observable::Torque { .. } = first.what {
-        let speed = |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
+    if first.what.speed_rpm().is_some() {
+        let speed = |what: Observable| what.speed_rpm().unwrap_or(f64::NAN);
         let [slowest, fastest] = extent(all().map(|(one, ..)| speed(one.what)));
         let room = 0.04 * (fastest - slowest);
         let x = Axis::new("speed of the rotor", "rpm").including([slowest - room, fastest + room]);

@@ -239,7 +239,7 @@ impl Summary {
             wall_s,
             stats: solution.stats,
             model: solution.model.clone(),
-            validity: validity::outside(problem, Some(solution)),
+            validity: validity::outside(problem, solution),
             warnings: solution.warnings.clone(),
             command: command.to_vec(),
             problem: problem.clone(),

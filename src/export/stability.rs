@@ -42,7 +42,7 @@ pub fn cell_object(cell: &Cell) -> Value {
 
 /// Why a cell is not solved, and what about its numbers cannot be.
 pub fn detail(cell: &Cell) -> String {
-    let mut reasons: Vec<String> = cell.violations.iter().map(ToString::to_string).collect();
+    let mut reasons = cell.violations.clone();
     match &cell.verdict {
         Verdict::Failed(reason) | Verdict::Refused(reason) => reasons.insert(0, reason.clone()),
         Verdict::NotConverged => reasons.insert(

@@ -2,7 +2,7 @@
 
 use super::work::{Work, pooled};
 use crate::analysis::error::AnalysisError;
-use crate::analysis::fit::{Bounds, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
+use crate::analysis::fit::{Bounds, Fitted, Goal, Measured, Optimum, fit, optimise};
 use crate::control::Cancel;
 use crate::scene::Scene;
 use crate::solve::Settings;
@@ -72,8 +72,7 @@ impl Work for FitWork {
                 return Ok(found.map(FitResult::Optimum));
             }
             let Some(measured) = measured else { return Ok(None) };
-            let model = Model::new(&scene, &bounds, &settings)?.under(&measured)?;
-            let found = fit(&model, &measured, STARTS, cancel, &told)?;
+            let found = fit(&scene, &bounds, &measured, &settings, (STARTS, cancel, &told))?;
             Ok(found.map(|fitted| FitResult::Fit(measured, fitted)))
         };
         pooled(solve).map_err(|error: AnalysisError| error.to_string())

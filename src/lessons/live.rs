@@ -97,9 +97,9 @@ impl Readings {
         if let Some(found) = exact::solved(plate, &PlateResult::default(), recording) {
             self.set(Live::Spring, found.spring.value);
             self.set(Live::Damping, found.damping.value);
-            let unit = Harmonic::unit(plate);
-            self.set(Live::Stiffness, found.spring.value * unit.spring);
-            self.set(Live::DampingForce, found.damping.value * unit.damping);
+            let absolute = found.times(Harmonic::unit(plate));
+            self.set(Live::Stiffness, absolute.spring.value);
+            self.set(Live::DampingForce, absolute.damping.value);
         }
     }
 }

@@ -70,6 +70,15 @@ impl Scene {
         Ok(self.change(parameter, value).map_err(|fault| self.narrowed(fault))?)
     }
 
+    /// The scene with numbers of keys, each in its unit, set one after the other as [`Scene::set_value`] does.
+    pub fn with_numbers<'a>(&self, numbers: impl IntoIterator<Item = (&'a str, f64)>) -> Result<Self, SceneError> {
+        let mut changed = self.clone();
+        for (key, number) in numbers {
+            changed.set_value(key, Value::Number(number))?;
+        }
+        Ok(changed)
+    }
+
     /// Removes an optional key, or gives another key its default.
     pub fn unset(&mut self, key: &str) -> Result<(), SceneError> {
         let parameter = self.settable(key)?;

@@ -4,16 +4,16 @@ use super::measured::Measured;
 use super::model::{Computed, Curve, Model};
 use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
-use super::unknown::{Bound, Unknown};
-use super::{Stopped, Tell, search_failed};
-use crate::analysis::attempt::caught;
+use super::unknown::{Bound, Bounds, Unknown};
+use super::{Stopped, Tell, searched};
 use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
 use crate::digits::{short, significant, with_error};
 use crate::scene::Scene;
+use crate::solve::Settings;
 use basin::{
-    BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
-    Jacobian, Residual, TerminationCode, TrustRegionReflective,
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian, Residual,
+    TerminationCode, TrustRegionReflective,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -209,19 +209,21 @@ fn residuals(measured: &Measured, computed: &[Computed], used: &[usize]) -> Vec<
     used.iter().map(residual).collect()
 }
 
-/// Chooses the unknowns of `model` so that it agrees with `measured`. The search begins at the scene's own values; with `starts` above 1
+/// Chooses the unknowns of `bounds` so that `scene` agrees with `measured`. The search begins at the scene's own values; with `starts` above 1
 /// also at the best of as many points, spread over the bounds and solved as drafts. A measurement that cannot be computed at the start is
 /// left out, and reported. `None` if cancelled.
 ///
 /// # Errors
-/// Fewer measurements that can be computed than unknowns, or what the library that searches refuses.
+/// Keys that cannot be chosen, or all of whose values the table sets; a condition that the scene does not take; fewer measurements that can be
+/// computed than unknowns, or what the library that searches refuses.
 pub fn fit(
-    model: &Model<'_>,
+    scene: &Scene,
+    bounds: &[Bounds],
     measured: &Measured,
-    starts: usize,
-    cancel: &Cancel,
-    told: Tell<'_>,
+    settings: &Settings,
+    (starts, cancel, told): (usize, &Cancel, Tell<'_>),
 ) -> Result<Option<Fitted>, AnalysisError> {
+    let model = &Model::new(scene, bounds, settings)?.under(measured)?;
     let own = model.start();
     let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
     let first = in_order(measured, &first);
@@ -242,8 +244,8 @@ pub fn fit(
         model,
         measured,
         used: &used,
-        lower: fixed.iter().map(|at| if *at == Some(Bound::Upper) { 1.0 } else { 0.0 }).collect(),
-        upper: fixed.iter().map(|at| if *at == Some(Bound::Lower) { 0.0 } else { 1.0 }).collect(),
+        lower: fixed.iter().map(|at| at.map_or(0.0, Bound::place)).collect(),
+        upper: fixed.iter().map(|at| at.map_or(1.0, Bound::place)).collect(),
         cancel,
         told,
         tried: &tried,
@@ -253,44 +255,33 @@ pub fn fit(
     places.insert(0, own);
     let mut found: Vec<(f64, Vec<f64>, bool)> = Vec::new();
     for place in places {
-        match descend(search(&free), place)? {
-            None => return Ok(None),
-            Some(end) => found.push(end),
-        }
+        let Some(end) = descend(search(&free), place)? else { return Ok(None) };
+        found.push(end);
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let minima = distinct(model, &found);
     let (_, mut x, mut converged) = found.swap_remove(0);
     // What χ² falls towards a bound with is put there, and the rest is looked for again.
     let mut at = free.clone();
-    loop {
+    let columns = loop {
         let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
         let Ok(now) = search(&at).residuals(&x) else { return Ok(None) };
         let mut more = false;
         for k in (0..unknowns).filter(|k| at[*k].is_none()).collect::<Vec<_>>() {
             let slope: f64 = columns[k].iter().zip(&now).map(|(derivative, residual)| derivative * residual).sum();
-            let bound = if x[k] < AT_BOUND && slope > 0.0 {
-                Bound::Lower
-            } else if x[k] > 1.0 - AT_BOUND && slope < 0.0 {
-                Bound::Upper
-            } else {
-                continue;
-            };
-            x[k] = if bound == Bound::Lower { 0.0 } else { 1.0 };
-            at[k] = Some(bound);
-            more = true;
+            at[k] =
+                Bound::near(x[k], AT_BOUND).filter(|at| if *at == Bound::Lower { slope > 0.0 } else { slope < 0.0 });
+            x[k] = at[k].map_or(x[k], Bound::place);
+            more |= at[k].is_some();
         }
         if !more {
-            break;
+            break columns;
         }
         if at.iter().any(Option::is_none) {
-            match descend(search(&at), x)? {
-                None => return Ok(None),
-                Some(end) => (_, x, converged) = end,
-            }
+            let Some(end) = descend(search(&at), x)? else { return Ok(None) };
+            (_, x, converged) = end;
         }
-    }
-    let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
+    };
     let Some((last, curves)) = model.with_curves(&x, cancel) else { return Ok(None) };
     let computed = in_order(measured, &last);
     Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, curves, minima, converged })?))
@@ -320,16 +311,12 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
         .with_max_inner_attempts(MOST_ATTEMPTS)
         .with_initial_radius(0.5)
         .with_relative_cost_change_tolerance(LEAST_GAIN);
-    // The library refuses what it was not made for with a panic.
-    match caught(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run()).map_err(search_failed)? {
-        Ok(ended) => {
-            // Where differences of solves are all noise no step gains anything: that is a minimum as well.
-            let converged = ended.report.termination.code() != TerminationCode::MaxIter;
-            Ok(Some((2.0 * ended.cost(), ended.param().clone(), converged)))
-        }
-        Err(ConstraintSolveError::Evaluation(Stopped)) => Ok(None),
-        Err(error) => Err(search_failed(format!("{error:?}"))),
-    }
+    let ended = searched(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run())?;
+    Ok(ended.map(|ended| {
+        // Where differences of solves are all noise no step gains anything: that is a minimum as well.
+        let converged = ended.report.termination.code() != TerminationCode::MaxIter;
+        (2.0 * ended.cost(), ended.param().clone(), converged)
+    }))
 }
 
 /// The minima that differ, best first.
@@ -542,7 +529,6 @@ fn warnings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::fit::Bounds;
 
     #[test]
     fn what_is_less_sure_than_its_bounds_is_not_determined() {

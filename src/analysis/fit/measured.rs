@@ -2,8 +2,9 @@
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
+use crate::analysis::table1::scene_of;
 use crate::input::{csv_fault, csv_line, read_text};
-use crate::problem::{Numerics, Problem};
+use crate::problem::Problem;
 use crate::scene::table1::published;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, nearest, presets, show_text};
 use crate::solve::Method;
@@ -53,6 +54,11 @@ impl Observable {
             Self::Number(quantity) => quantity.label(problem),
             Self::Torque { .. } => "torque, N·m".to_owned(),
         }
+    }
+
+    /// The speed of the rotor \[rpm\] that a torque belongs to.
+    pub fn speed_rpm(self) -> Option<f64> {
+        if let Self::Torque { speed_rpm } = self { Some(speed_rpm) } else { None }
     }
 }
 
@@ -116,7 +122,7 @@ impl FromStr for ErrorSize {
 }
 
 /// Kind of a column.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Column {
     Key,
     Value(Option<Quantity>),
@@ -173,10 +179,7 @@ impl Measured {
         let mut measured =
             Self { name: "Table I".to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: false };
         for row in published() {
-            let mut scene = presets::find(&row.preset)?;
-            if method == Method::Auto {
-                scene.set_numerics(&Numerics::default())?;
-            }
+            let scene = scene_of(&row, method)?;
             let changed = scene
                 .changed(&fundamental)
                 .filter_map(|parameter| Some((parameter.key.to_owned(), scene.get(parameter.key)?.to_string())));
@@ -216,48 +219,45 @@ impl Measured {
         let mut reader = reader.from_reader(text.as_bytes());
         let head = reader.headers().map_err(|error| fault(Some(1), csv_fault(&error)))?.clone();
         let first = csv_line(text, head.position());
+        let in_head = |what: String| fault(first, what);
         if head.iter().all(str::is_empty) {
             let expected = "expected a line that names the columns, as in rotor_speed_rpm,torque_nm, and a line for each measurement";
             return Err(fault(None, format!("no table: {expected}")));
         }
-        let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(first, what)));
-        let columns = columns.collect::<Result<Vec<Column>, _>>()?;
+        let columns: Vec<Column> =
+            head.iter().map(|name| column(problem, name)).collect::<Result<_, _>>().map_err(in_head)?;
         for (i, name) in head.iter().enumerate() {
             if head.iter().take(i).any(|other| other == name) {
-                return Err(fault(first, format!("column {name}: given twice")));
+                return Err(in_head(format!("column {name}: given twice")));
             }
         }
-        let place = |wanted: &dyn Fn(&Column) -> bool| columns.iter().position(wanted);
-        let speed = place(&|column| matches!(column, Column::Speed));
-        let weight = place(&|column| matches!(column, Column::Weight));
+        let place = |wanted: Column| columns.iter().position(|column| *column == wanted);
+        let (speed, weight) = (place(Column::Speed), place(Column::Weight));
         let values: Vec<usize> = (0..columns.len()).filter(|i| matches!(columns[*i], Column::Value(_))).collect();
         if values.is_empty() {
             let allowed = names(problem);
-            return Err(fault(
-                first,
-                format!("no column holds what was measured; allowed: {allowed}, {TORQUE} with {SPEED}"),
-            ));
+            return Err(in_head(format!(
+                "no column holds what was measured; allowed: {allowed}, {TORQUE} with {SPEED}"
+            )));
         }
-        let torque = values.iter().any(|i| matches!(columns[*i], Column::Value(None)));
+        let torque = place(Column::Value(None)).is_some();
         if torque != speed.is_some() {
             let what = if torque {
                 format!("{TORQUE} needs a column {SPEED}, the speed of each torque")
             } else {
                 format!("{SPEED} needs a column {TORQUE}")
             };
-            return Err(fault(first, what));
+            return Err(in_head(what));
         }
         let error_of = |value: usize| {
             let Column::Value(of) = columns[value] else { return None };
-            place(&|column| matches!(column, Column::Error(other) if *other == of))
+            place(Column::Error(of))
         };
         let known: Vec<bool> = values.iter().map(|value| error_of(*value).is_some()).collect();
-        let errors = place(&|column| matches!(column, Column::Error(_))).is_some();
+        let errors = columns.iter().any(|column| matches!(column, Column::Error(_)));
         if errors && (known.contains(&false) || weight.is_some()) {
-            return Err(fault(
-                first,
-                "give the errors of all that was measured, or of none; a weight only where there are none".to_owned(),
-            ));
+            let expected = "give the errors of all that was measured, or of none; a weight only where there are none";
+            return Err(in_head(expected.to_owned()));
         }
         let mut measured =
             Self { name: origin.to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: errors };
@@ -284,14 +284,13 @@ impl Measured {
                 )),
             };
             let changes: Vec<(String, String)> = (0..columns.len())
-                .filter(|i| matches!(columns[*i], Column::Key) && !cell(*i).is_empty())
+                .filter(|i| columns[*i] == Column::Key && !cell(*i).is_empty())
                 .map(|i| (head[i].to_owned(), decimal(cell(i))))
                 .collect();
-            let named = (0..columns.len()).find(|i| matches!(columns[*i], Column::Label) && !cell(*i).is_empty());
-            let label = match (named, line) {
-                (Some(named), _) => show_text(cell(named)),
-                (None, Some(line)) => format!("line {line}"),
-                (None, None) => String::new(),
+            let named = (0..columns.len()).find(|i| columns[*i] == Column::Label && !cell(*i).is_empty());
+            let label = match named {
+                Some(named) => show_text(cell(named)),
+                None => line.map_or_else(String::new, |line| format!("line {line}")),
             };
             let counts = weight.map_or(Ok(1.0), &above_zero)?;
             for i in &values {

@@ -4,7 +4,7 @@
 //! [`Measured`] holds the measurements: each belongs to a [condition](Measured::conditions), the values of some keys, and each
 //! condition is solved once, however many measurements share it. [`Unknown`]s are the keys that are chosen, each within its bounds; the
 //! search runs in x from 0 to 1 between them, linear or logarithmic. Where a condition sets such a key, its value is known and is not
-//! chosen. A [`Model`] is both together with the scene.
+//! chosen.
 //!
 //! [`fit()`] minimises χ² = Σ ((computed − measured)/error)² by trust-region reflective least squares (the step of Levenberg and
 //! Marquardt within bounds; Branch, Coleman and Li, SIAM J. Sci. Comput. 21, 1999) of the crate `basin`. Derivatives are differences
@@ -23,11 +23,13 @@ mod starts;
 mod statistics;
 mod unknown;
 
+use super::attempt::caught;
 use super::error::AnalysisError;
+use basin::ConstraintSolveError;
 
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
 pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
-pub use model::{Computed, Model};
+pub use model::Computed;
 pub use optimum::{Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;
 pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
@@ -40,7 +42,13 @@ pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);
 #[derive(Debug)]
 struct Stopped;
 
-/// The fault of the library that searches.
-fn search_failed(reason: String) -> AnalysisError {
-    AnalysisError::Search(format!("the search failed: {reason}"))
+/// Runs the library that searches, which refuses what it was not made for with an error or a panic; `None` if cancelled.
+fn searched<T>(run: impl FnOnce() -> Result<T, ConstraintSolveError<Stopped>>) -> Result<Option<T>, AnalysisError> {
+    let failed = |reason: String| Err(AnalysisError::Search(format!("the search failed: {reason}")));
+    match caught(run) {
+        Ok(Ok(ended)) => Ok(Some(ended)),
+        Ok(Err(ConstraintSolveError::Evaluation(Stopped))) => Ok(None),
+        Ok(Err(error)) => failed(format!("{error:?}")),
+        Err(panic) => failed(panic),
+    }
 }

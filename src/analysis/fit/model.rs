@@ -30,15 +30,13 @@ pub type Computed = Result<Estimate, String>;
 
 /// A scene, the keys that are chosen, and the conditions under which it is solved.
 #[derive(Debug)]
-pub struct Model<'a> {
+pub(super) struct Model<'a> {
     scene: &'a Scene,
     /// How it is solved.
     pub(super) settings: Settings,
     /// The keys that are chosen.
     pub(super) unknowns: Vec<Unknown>,
     conditions: Vec<Condition>,
-    /// Of each condition, what is asked of it.
-    asked: Vec<Vec<Observable>>,
     solves: AtomicUsize,
 }
 
@@ -48,12 +46,14 @@ struct Condition {
     scene: Scene,
     /// Of each unknown, whether it is chosen there: where the table sets the key, its value is known.
     chosen: Vec<bool>,
+    /// What is asked of it.
+    asked: Vec<Observable>,
 }
 
 impl<'a> Model<'a> {
     /// Checks the keys that are chosen, and every condition of a table: its keys, and that it can be solved at the values from which the
     /// search starts.
-    pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
+    pub(super) fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
             let found = bounds.len();
             return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_UNKNOWNS}")));
@@ -66,21 +66,14 @@ impl<'a> Model<'a> {
             }
         }
         check(&Problem::try_from(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
-        Ok(Self {
-            scene,
-            settings: *settings,
-            conditions: vec![Condition { scene: scene.clone(), chosen: vec![true; unknowns.len()] }],
-            unknowns,
-            asked: vec![Vec::new()],
-            solves: AtomicUsize::new(0),
-        })
+        Ok(Self { scene, settings: *settings, unknowns, conditions: Vec::new(), solves: AtomicUsize::new(0) })
     }
 
     /// Under the conditions of a table, to compute what it holds.
     ///
     /// # Errors
     /// Every line sets a key that is to be chosen, or one sets a key that the scene does not take.
-    pub fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
+    pub(super) fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
         let sets = |changes: &[(String, String)], key: &str| changes.iter().any(|(other, _)| other == key);
         for unknown in &self.unknowns {
             let key = unknown.parameter.key;
@@ -91,29 +84,25 @@ impl<'a> Model<'a> {
             }
         }
         let condition = |(i, changes): (usize, &Vec<(String, String)>)| -> Result<Condition, AnalysisError> {
-            let first = measured.measurements.iter().find(|one| one.condition == i);
-            let place = first.map_or_else(String::new, |one| format!(", {}", one.label));
+            let mut measurements = measured.measurements.iter().filter(|one| one.condition == i).peekable();
+            let place = measurements.peek().map_or_else(String::new, |one| format!(", {}", one.label));
             let scene = self.scene.with(changes);
             let scene = scene.map_err(|error| AnalysisError::Input(format!("{}{place}: {error}", measured.name)))?;
             let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
-            Ok(Condition { scene, chosen })
+            Ok(Condition { scene, chosen, asked: measurements.map(|one| one.what).collect() })
         };
         self.conditions = measured.conditions.iter().enumerate().map(condition).collect::<Result<_, _>>()?;
-        self.asked = vec![Vec::new(); self.conditions.len()];
-        for one in &measured.measurements {
-            self.asked[one.condition].push(one.what);
-        }
         Ok(self)
     }
 
     /// Asked for these numbers of the scene itself.
-    pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
-        self.asked = vec![numbers];
+    pub(super) fn asking(mut self, asked: Vec<Observable>) -> Self {
+        self.conditions = vec![Condition { scene: self.scene.clone(), chosen: vec![true; self.unknowns.len()], asked }];
         self
     }
 
     /// How many solves there have been.
-    pub fn solves(&self) -> usize {
+    pub(super) fn solves(&self) -> usize {
         self.solves.load(Ordering::Relaxed)
     }
 
@@ -124,19 +113,15 @@ impl<'a> Model<'a> {
 
     /// The scene with the values at `x`, under one condition.
     fn scene_at(&self, condition: &Condition, x: &[f64]) -> Result<Scene, SceneError> {
-        let mut scene = condition.scene.clone();
-        for ((unknown, x), _) in self.unknowns.iter().zip(x).zip(&condition.chosen).filter(|(_, chosen)| **chosen) {
-            unknown.set(&mut scene, *x)?;
-        }
-        Ok(scene)
+        let all = self.unknowns.iter().zip(x).zip(&condition.chosen);
+        let chosen = all.filter(|(_, chosen)| **chosen);
+        condition.scene.with_numbers(chosen.map(|((unknown, x), _)| (unknown.parameter.key, unknown.value(*x))))
     }
 
     /// The scene itself with the values at `x`, named as one that was fitted.
     pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, AnalysisError> {
-        let mut scene = self.scene.clone();
-        for (unknown, x) in self.unknowns.iter().zip(x) {
-            unknown.set(&mut scene, *x)?;
-        }
+        let values = self.unknowns.iter().zip(x).map(|(unknown, x)| (unknown.parameter.key, unknown.value(*x)));
+        let mut scene = self.scene.with_numbers(values)?;
         scene.name = format!("{}, {word}", self.scene.name);
         scene.retitle(self.scene);
         Ok(scene)
@@ -149,14 +134,11 @@ impl<'a> Model<'a> {
         settings: &Settings,
         cancel: &Cancel,
     ) -> Option<Vec<Vec<Vec<Computed>>>> {
-        let tasks: Vec<(usize, usize)> = (0..points.len())
-            .flat_map(|point| (0..self.conditions.len()).map(move |condition| (point, condition)))
-            .collect();
-        let solved = tasks
-            .into_par_iter()
-            .map(|(point, condition)| self.solve(condition, &self.asked[condition], &points[point], settings, cancel));
-        let mut solved = solved.collect::<Vec<_>>().into_iter();
-        let rows = points.iter().map(|_| solved.by_ref().take(self.conditions.len()).collect::<Vec<_>>()).collect();
+        let at = |x: &Vec<f64>| {
+            let solve = |condition: &Condition| self.solve(condition, &condition.asked, x, settings, cancel);
+            self.conditions.par_iter().map(solve).collect::<Vec<_>>()
+        };
+        let rows = points.par_iter().map(at).collect();
         (!cancel.is_cancelled()).then_some(rows)
     }
 
@@ -168,12 +150,10 @@ impl<'a> Model<'a> {
     /// As `at_one`, with the torque over the rotor's speed, `[rpm, N m]`, of each condition under which torques are asked for, at speeds from the
     /// least to the greatest of them.
     pub(super) fn with_curves(&self, x: &[f64], cancel: &Cancel) -> Option<(Vec<Vec<Computed>>, Vec<Curve>)> {
-        let of = |condition: usize| {
-            let asked = &self.asked[condition];
-            let speed =
-                |what: &Observable| if let Observable::Torque { speed_rpm } = what { Some(*speed_rpm) } else { None };
-            let ends = asked.iter().filter_map(speed).map(|speed| (speed, speed));
-            let ends = ends.reduce(|ends, (speed, _)| (ends.0.min(speed), ends.1.max(speed)));
+        let of = |condition: &Condition| {
+            let asked = &condition.asked;
+            let measured = || asked.iter().filter_map(|what| what.speed_rpm());
+            let ends = measured().reduce(f64::min).zip(measured().reduce(f64::max));
             let speeds = ends.map_or_else(Vec::new, |(from, to)| spaced(from, to, CURVE, Scale::Linear));
             let more = speeds.iter().map(|speed_rpm| Observable::Torque { speed_rpm: *speed_rpm });
             let all: Vec<Observable> = asked.iter().copied().chain(more).collect();
@@ -182,7 +162,7 @@ impl<'a> Model<'a> {
                 found.split_off(asked.len()).into_iter().map(|found| found.map_or(f64::NAN, |found| found.value));
             (found, speeds.into_iter().zip(curve).map(|(speed, torque)| [speed, torque]).collect())
         };
-        let found = (0..self.conditions.len()).into_par_iter().map(of).unzip();
+        let found = self.conditions.par_iter().map(of).unzip();
         (!cancel.is_cancelled()).then_some(found)
     }
 
@@ -194,17 +174,17 @@ impl<'a> Model<'a> {
     /// Observables of a condition at `x`.
     fn solve(
         &self,
-        condition: usize,
+        condition: &Condition,
         asked: &[Observable],
         x: &[f64],
         settings: &Settings,
         cancel: &Cancel,
     ) -> Vec<Computed> {
-        let fields = asked.iter().any(|what| matches!(what, Observable::Torque { .. }));
+        let fields = asked.iter().any(|what| what.speed_rpm().is_some());
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
         self.solves.fetch_add(1, Ordering::Relaxed);
-        let problem = self.scene_at(&self.conditions[condition], x).and_then(|scene| Problem::try_from(&scene));
+        let problem = self.scene_at(condition, x).and_then(|scene| Problem::try_from(&scene));
         let solved = problem.map_err(|error| error.to_string()).and_then(|problem| {
             let solution = attempt(&problem, &settings, &mut (), cancel)?;
             match RunStatus::from(solution.status) {
@@ -222,44 +202,40 @@ impl<'a> Model<'a> {
     /// and nothing at all of a condition that has no derivatives. They are those of `Method::Auto`; for the paper's, whose contact moves
     /// from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
     pub(super) fn slopes(&self, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<Vec<f64>>>> {
-        let of = |condition: usize| {
-            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); self.asked[condition].len()])
+        let of = |condition: &Condition| {
+            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); condition.asked.len()])
         };
-        let found: Vec<_> = (0..self.conditions.len()).into_par_iter().map(of).collect();
+        let found: Vec<_> = self.conditions.par_iter().map(of).collect();
         (!cancel.is_cancelled()).then_some(found)
     }
 
-    fn slopes_of(&self, condition: usize, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
-        let Condition { chosen, .. } = &self.conditions[condition];
-        let asked = &self.asked[condition];
+    fn slopes_of(&self, condition: &Condition, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
+        let Condition { chosen, asked, .. } = condition;
         let varied: Vec<usize> = (0..x.len()).filter(|k| free[*k] && chosen[*k]).collect();
         let mut slopes = vec![vec![0.0; x.len()]; asked.len()];
         if varied.is_empty() {
             return Some(slopes);
         }
-        let scene = self.scene_at(&self.conditions[condition], x).ok()?;
+        let scene = self.scene_at(condition, x).ok()?;
         let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
         let variation = Variation::new(&scene, &keys).ok()?;
-        let values = variation.values();
-        let problem = variation.problem(&values).ok()?;
+        let problem = Problem::try_from(&scene).ok()?;
         let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
-        let numbers = |problem: &Problem, solution: &Solution| -> Vec<f64> {
-            read(problem, solution, asked)
-                .into_iter()
-                .map(|found| found.map_or(f64::NAN, |found| found.value))
-                .collect()
+        let numbers = |problem: &Problem, solution: &Solution| -> Vec<Estimate> {
+            let unknown = Estimate { value: f64::NAN, error: f64::NAN };
+            read(problem, solution, asked).into_iter().map(|found| found.unwrap_or(unknown)).collect()
         };
         let count = |_| {
             self.solves.fetch_add(1, Ordering::Relaxed);
         };
-        let found = variation.jacobian(&values, &centre, &numbers, cancel, &count)?;
+        let found = variation.jacobian(&centre, &numbers, cancel, &count)?;
         let ratios: Vec<f64> = match self.settings.method {
             Method::Auto => vec![1.0; asked.len()],
             Method::Paper => {
                 let own = self.solve(condition, asked, x, &self.settings, cancel);
                 own.iter()
                     .zip(&found.numbers.fine)
-                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours))
+                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours.value))
                     .collect()
             }
         };
@@ -279,11 +255,8 @@ fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Com
     let numbers = Numbers::of(problem, solution);
     let mut curve = Vec::new();
     if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) {
-        let speed = |what: &Observable| match what {
-            Observable::Torque { speed_rpm } => Some(speed_rpm / rpm(1.0, motor.contact_radius)),
-            Observable::Number(_) => None,
-        };
-        let speeds: Vec<f64> = asked.iter().filter_map(speed).collect();
+        let per_rpm = rpm(1.0, motor.contact_radius);
+        let speeds: Vec<f64> = asked.iter().filter_map(|what| Some(what.speed_rpm()? / per_rpm)).collect();
         if !speeds.is_empty() {
             curve = Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve;
         }

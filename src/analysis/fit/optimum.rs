@@ -4,8 +4,8 @@ use super::measured::{Observable, named, names, no_such_number};
 use super::model::{Computed, Model};
 use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
-use super::{Stopped, Tell, search_failed};
-use crate::analysis::attempt::{attempt, caught};
+use super::{Stopped, Tell, searched};
+use crate::analysis::attempt::attempt;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
@@ -319,12 +319,7 @@ pub fn optimise(
         };
         let solver = Cobyla::new().with_initial_radius(RADIUS.0).with_final_radius(RADIUS.1);
         let run = || Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run();
-        // The library refuses what it was not made for with a panic.
-        let ended = match caught(run).map_err(search_failed)? {
-            Ok(ended) => ended,
-            Err(ConstraintSolveError::Evaluation(Stopped)) => return Ok(None),
-            Err(error) => return Err(search_failed(format!("{error:?}"))),
-        };
+        let Some(ended) = searched(run)? else { return Ok(None) };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
         // Of limits that are kept to a thousandth of their value.
         let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
@@ -340,23 +335,13 @@ pub fn optimise(
     // What breaks a limit is no optimum.
     let lesser = reached.find(|([_, broken], other, _)| *broken == 0.0 && distance(other, &x) > ANOTHER);
     let lesser = lesser.map(|([cost, _], other, _)| (cost * size * if goal.greatest { -1.0 } else { 1.0 }, other));
-    let at: Vec<Option<Bound>> = x
-        .iter()
-        .map(|x| match *x {
-            x if x < AT_BOUND => Some(Bound::Lower),
-            x if x > 1.0 - AT_BOUND => Some(Bound::Upper),
-            _ => None,
-        })
-        .collect();
+    let at: Vec<Option<Bound>> = x.iter().map(|x| Bound::near(*x, AT_BOUND)).collect();
     for (x, at) in x.iter_mut().zip(&at) {
-        *x = at.map_or(*x, |at| if at == Bound::Lower { 0.0 } else { 1.0 });
+        *x = at.map_or(*x, Bound::place);
     }
     let mut found = describe(&model, goal, (own, x, at, converged), cancel)?;
     if let (Some(found), Some((value, x))) = (&mut found, lesser) {
-        let at = model.unknowns.iter().zip(x).map(|(unknown, x)| {
-            let (key, value) = (unknown.parameter.key, short(unknown.value(x), 4));
-            format!("{key} = {}", unknown.parameter.with_unit(value))
-        });
+        let at = model.unknowns.iter().zip(x).map(|(unknown, x)| unknown.told(x));
         found.warnings.push(format!(
             "another start ended at {}, with {} = {}: more starts may find a better optimum (--starts)",
             at.collect::<Vec<_>>().join(", "),
@@ -419,9 +404,7 @@ fn describe(
                 && sign * (there.value - best.value) > (there.error + best.error).max(0.0)
                 && better.as_ref().is_none_or(|(_, other)| sign * (there.value - other) > 0.0)
             {
-                let parameter = unknown.parameter;
-                let at = parameter.with_unit(short(unknown.value(*place), 4));
-                better = Some((format!("{} = {at}", parameter.key), there.value));
+                better = Some((unknown.told(*place), there.value));
             }
         }
         let points: Vec<(f64, Option<f64>)> = numbers
@@ -433,8 +416,7 @@ fn describe(
             let Some((place, Some(Err(reason)))) = numbers.get(beside).map(|(at, found)| (at, found.first())) else {
                 continue;
             };
-            let (parameter, at) = (unknown.parameter, short(unknown.value(*place), 4));
-            warnings.push(format!("{} = {} cannot be computed: {reason}", parameter.key, parameter.with_unit(at)));
+            warnings.push(format!("{} cannot be computed: {reason}", unknown.told(*place)));
         }
         let end = |upwards| edge((&points, &kept), (middle, best.value, little), upwards);
         let flat = within.then(|| (end(false), end(true)));
@@ -444,7 +426,7 @@ fn describe(
         let Some(bound) = line.at else { continue };
         let name = goal.quantity.name();
         let (parameter, lower) = (line.unknown.parameter, bound == Bound::Lower);
-        let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
+        let range = line.unknown.to - line.unknown.from;
         let flat_to = line.flat.map(|(from, to)| if lower { to } else { from });
         let plateau = flat_to.filter(|to| (line.value - to).abs() > PLATEAU * range);
         let beyond = match plateau.map(|to| parameter.with_unit(short(to, 3))) {

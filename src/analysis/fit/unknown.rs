@@ -1,8 +1,9 @@
 //! The keys that are chosen, each within its bounds.
 
 use crate::analysis::error::AnalysisError;
+use crate::digits::short;
 use crate::scene::quantity_text::end_of_range;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, Value};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -76,6 +77,23 @@ impl Bound {
         match self {
             Self::Lower => "lower",
             Self::Upper => "upper",
+        }
+    }
+
+    /// That which x from 0 to 1 is closer to than `within`.
+    pub(super) fn near(x: f64, within: f64) -> Option<Self> {
+        match x {
+            x if x < within => Some(Self::Lower),
+            x if x > 1.0 - within => Some(Self::Upper),
+            _ => None,
+        }
+    }
+
+    /// Where it is from 0 to 1.
+    pub(super) fn place(self) -> f64 {
+        match self {
+            Self::Lower => 0.0,
+            Self::Upper => 1.0,
         }
     }
 }
@@ -153,8 +171,8 @@ impl Unknown {
         }
     }
 
-    /// Gives the key its value at x.
-    pub fn set(&self, scene: &mut Scene, x: f64) -> Result<(), SceneError> {
-        scene.set_value(self.parameter.key, Value::Number(self.value(x)))
+    /// Its key and its value at x, for people: `film.min_spacing_nm = 200 nm`.
+    pub(super) fn told(&self, x: f64) -> String {
+        format!("{} = {}", self.parameter.key, self.parameter.with_unit(short(self.value(x), 4)))
     }
 }

@@ -59,13 +59,8 @@ impl Spread {
 impl MonteCarlo {
     /// Of the outputs at a place; `None` with fewer than two draws.
     pub fn spread(&self, output: usize) -> Option<Spread> {
-        let mut found: Vec<f64> = self
-            .draws
-            .iter()
-            .filter_map(|draw| draw.results.get(output))
-            .map(|found| found.value)
-            .filter(|v| v.is_finite())
-            .collect();
+        let values = self.draws.iter().filter_map(|draw| Some(draw.results.get(output)?.value));
+        let mut found: Vec<f64> = values.filter(|value| value.is_finite()).collect();
         found.sort_by(f64::total_cmp);
         let (count, last) = (found.len(), found.len().checked_sub(1)?);
         if last == 0 {

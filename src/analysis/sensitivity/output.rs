@@ -72,14 +72,14 @@ impl Output {
 
     /// Its value in a solution, whose lines are kept, with its stated numerical error; not finite where it has none.
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
-        let harmonic = |part: fn(&Harmonic<Estimate>) -> Estimate, unit: fn(&Harmonic<f64>) -> f64| {
+        let harmonic = || {
             let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate())?;
-            Some(part(&solved(plate, result, &solution.recording)?) * unit(&Harmonic::unit(plate)))
+            Some(solved(plate, result, &solution.recording)?.times(Harmonic::unit(plate)))
         };
         let found = match self {
             Self::Number(quantity) => numbers.estimate(quantity),
-            Self::Stiffness => harmonic(|found| found.spring, |unit| unit.spring),
-            Self::Damping => harmonic(|found| found.damping, |unit| unit.damping),
+            Self::Stiffness => harmonic().map(|found| found.spring),
+            Self::Damping => harmonic().map(|found| found.damping),
         };
         found.unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
     }

@@ -64,23 +64,21 @@ impl FromStr for Vary {
         let (key, values) = text.split_once('=').ok_or_else(syntax)?;
         let key = key.trim().to_owned();
         if !values.contains(':') {
-            return Ok(Self {
-                key,
-                values: Values::List(values.split(',').map(|word| word.trim().to_owned()).collect()),
-            });
+            let words = values.split(',').map(|word| word.trim().to_owned()).collect();
+            return Ok(Self { key, values: Values::List(words) });
         }
         if let Some(parameter) = Parameter::find(&key).filter(|parameter| parameter.range().is_none()) {
             return Err(no_range(parameter));
         }
         let parts: Vec<&str> = values.split(':').map(str::trim).collect();
-        let (ends, scale) = match parts[..] {
-            [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
-            [from, to, count, "log"] => ([from, to, count], Scale::Log),
+        let (from, to, count, scale) = match parts[..] {
+            [from, to, count] | [from, to, count, "lin"] => (from, to, count, Scale::Linear),
+            [from, to, count, "log"] => (from, to, count, Scale::Log),
             _ => return Err(syntax()),
         };
         let number = |text| end_of_range(&key, text).map_err(|fault| AnalysisError::Input(format!("vary {fault}")));
-        let (from, to) = (number(ends[0])?, number(ends[1])?);
-        let count = ends[2].parse().map_err(|_| count_fault(&key, ends[2]))?;
+        let (from, to) = (number(from)?, number(to)?);
+        let count = count.parse().map_err(|_| count_fault(&key, count))?;
         Ok(Self { key, values: Values::Range { from, to, count, scale } })
     }
 }
@@ -107,11 +105,7 @@ impl Axis {
             scene.clone().set(key, "0")?;
             return Err(no_vary(key));
         };
-        let count = match &vary.values {
-            Values::Range { count, .. } => *count,
-            Values::List(words) => words.len(),
-        };
-        let allowed = (2..=MOST_VALUES).contains(&count);
+        let allowed = 2..=MOST_VALUES;
         match &vary.values {
             Values::List(words) => {
                 let (mut there, mut numbers) = (HashSet::new(), Vec::new());
@@ -125,17 +119,17 @@ impl Axis {
                         return Err(AnalysisError::Input(format!("vary {key}: {word} is listed twice")));
                     }
                 }
-                if !allowed {
+                if !allowed.contains(&words.len()) {
                     return Err(no_vary(&format!("{key}={}", words.join(","))));
                 }
-                let (values, words) = if numbers.len() == count {
+                let (values, words) = if numbers.len() == words.len() {
                     (numbers, Vec::new())
                 } else {
-                    ((0..count).map(|place| place as f64).collect(), words.clone())
+                    ((0..words.len()).map(|place| place as f64).collect(), words.clone())
                 };
                 Ok(Self { parameter, values, words, scale: Scale::Linear })
             }
-            Values::Range { from, to, scale, .. } => {
+            Values::Range { from, to, count, scale } => {
                 let whole = match parameter.kind {
                     ParameterKind::Number { .. } => false,
                     ParameterKind::Whole { .. } => true,
@@ -144,7 +138,7 @@ impl Axis {
                 for end in [from, to] {
                     scene.clone().set_value(key, Value::Number(*end))?;
                 }
-                if !allowed {
+                if !allowed.contains(count) {
                     return Err(count_fault(key, &count.to_string()));
                 }
                 if from == to {
@@ -161,7 +155,7 @@ impl Axis {
                         in_place: "For equal ratios both ends have to be above 0".to_owned(),
                     });
                 }
-                let mut values = spaced(*from, *to, count, *scale);
+                let mut values = spaced(*from, *to, *count, *scale);
                 if whole {
                     values.iter_mut().for_each(|value| *value = value.round());
                     values.dedup();

@@ -65,19 +65,15 @@ impl Tradeoff {
             .filter_map(|(i, run)| Some((i, stated(run)?)))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let truth = reference.and_then(|(i, error)| Some((value(&runs[i])?, error)));
-        let scale = truth.map(|(truth, _)| truth.abs().max(f64::MIN_POSITIVE));
+        let share = |error: f64| truth.map(|(truth, _)| error / truth.abs().max(f64::MIN_POSITIVE));
         let mut points: Vec<TradeoffPoint> = runs
             .iter()
-            .enumerate()
-            .map(|(i, run)| {
+            .map(|run| {
                 let mut times = run.times.clone();
                 times.sort_by(f64::total_cmp);
-                let measured = truth.zip(value(run)).map(|((truth, error), value)| {
-                    let distance =
-                        if reference.is_some_and(|(best, _)| best == i) { 0.0 } else { (value - truth).abs() };
-                    (distance + error) / scale.unwrap_or(1.0)
-                });
-                let stated = stated(run).zip(scale).map(|(stated, scale)| stated / scale);
+                let distance = truth.zip(value(run)).map(|((truth, error), value)| (value - truth).abs() + error);
+                let measured = distance.and_then(share);
+                let stated = stated(run).and_then(share);
                 TradeoffPoint {
                     run: run.clone(),
                     median: quantile(&times, 0.5),
@@ -108,16 +104,11 @@ impl Tradeoff {
     /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.
     pub fn choose(&self, target: Target) -> Option<usize> {
         let known = self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.median, point.error?)));
-        let (time, error) = (|a: &(usize, f64, f64)| a.1, |a: &(usize, f64, f64)| a.2);
-        match target {
-            Target::Accuracy(allowed) => {
-                known.filter(|point| error(point) <= allowed).min_by(|a, b| time(a).total_cmp(&time(b)))
-            }
-            Target::Budget(allowed) => {
-                known.filter(|point| time(point) <= allowed).min_by(|a, b| error(a).total_cmp(&error(b)))
-            }
-        }
-        .map(|(i, _, _)| i)
+        let best = match target {
+            Target::Accuracy(most) => known.filter(|(.., error)| *error <= most).min_by(|a, b| a.1.total_cmp(&b.1)),
+            Target::Budget(most) => known.filter(|(_, time, _)| *time <= most).min_by(|a, b| a.2.total_cmp(&b.2)),
+        };
+        best.map(|(i, ..)| i)
     }
 }
 

@@ -108,7 +108,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
             }
         }
         if let Ok(solution) = &row.both.ours {
-            limits(&mut page, &outside(&row.both.problem, Some(solution)));
+            limits(&mut page, &outside(&row.both.problem, solution));
         }
         page.folded("the fundamental case as a preset", &row.both.scene.to_toml());
     }
