@@ -27,70 +27,36 @@ const KEPT: f64 = 8.0;
 /// Number of evaluations of the check during the hold.
 const LOOKS: usize = 80;
 
-/// A fault of a step, or advice about it.
+/// What is wrong with a step, in words.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// Number of the step, from 1.
-    pub step: usize,
-    /// Its title.
-    pub title: String,
-    /// The fault.
-    pub fault: StepFault,
+pub enum Finding {
+    /// The step cannot be done as it is.
+    Error(String),
+    /// Advice.
+    Advice(String),
 }
 
-/// A fault of a step.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StepFault {
-    /// The check holds for the scene that the step begins with.
-    #[error("the check holds from the start: there is nothing to do")]
-    TrueFromStart,
-    /// The actions in `try` do not fulfil the check; the reason.
-    #[error("try does not fulfil the check: {0}")]
-    TryFails(String),
-    /// The actions in `try` fulfil `too_far`.
-    #[error("try goes too far: too_far holds")]
-    TryTooFar,
-    /// The actions in `wrong` fulfil the check.
-    #[error("wrong fulfils the check")]
-    WrongPasses,
-    /// There is no `try`.
-    #[error("no try: nobody can be shown how, and the check is not tried")]
-    NoTry,
-    /// There is no `wrong`.
-    #[error("no wrong: it is not tried whether the check can fail")]
-    NoWrong,
-    /// A text quotes a number that the run does not have; the number as written.
-    #[error("{{{0}}} is not known in the run that does the task")]
-    Unknown(String),
-    /// A wrong choice has no reply; which choice it is.
-    #[error("{0} is wrong and has no reply")]
-    NoReply(String),
-    /// The scene could not be solved; the reason.
-    #[error("the scene was not solved: {0}")]
-    Unsolved(String),
-}
+impl Finding {
+    fn error(words: &str) -> Self {
+        Self::Error(words.to_owned())
+    }
 
-impl StepFault {
-    /// Whether the step cannot be done as it is. Every other fault is advice.
-    pub fn is_error(&self) -> bool {
-        !matches!(self, Self::NoTry | Self::NoWrong | Self::NoReply(_))
+    fn advice(words: &str) -> Self {
+        Self::Advice(words.to_owned())
     }
 }
 
-/// Tries every task of a lesson, until it is cancelled. `each` is called with the index of a step before the step is tried.
-pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> Vec<Finding> {
+/// Tries every task of a lesson, until it is cancelled, and returns what is wrong, with the step. `each` is called with a step before it is tried.
+pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(&Step), cancel: &Cancel) -> Vec<(usize, Finding)> {
     let mut findings = Vec::new();
     for (i, step) in lesson.steps.iter().enumerate() {
         if cancel.is_cancelled() {
             break;
         }
-        each(i);
-        let tried = step
-            .task
-            .iter()
-            .flat_map(|task| try_task(step, task, cancel).unwrap_or_else(|why| vec![StepFault::Unsolved(why)]));
-        let faults = replies(step).into_iter().chain(tried);
-        findings.extend(faults.map(|fault| Finding { step: i + 1, title: step.title.clone(), fault }));
+        each(step);
+        let unsolved = |why: String| vec![Finding::Error(format!("the scene was not solved: {why}"))];
+        let tried = step.task.iter().flat_map(|task| try_task(step, task, cancel).unwrap_or_else(unsolved));
+        findings.extend(replies(step).into_iter().chain(tried).map(|finding| (i, finding)));
     }
     findings
 }
@@ -133,15 +99,16 @@ fn wanted(step: &Step) -> Vec<Live> {
 }
 
 /// Wrong choices without a reply, of the question and of what is to be observed, if that has choices of its own.
-fn replies(step: &Step) -> Vec<StepFault> {
+fn replies(step: &Step) -> Vec<Finding> {
     let observe = step.observe.as_ref().filter(|observe| !observe.ask.is_empty());
-    let mut faults = Vec::new();
+    let mut findings = Vec::new();
     for (asked, of) in [(step.question.as_ref(), ""), (observe, " of observe")] {
         let Some(Answer::Choice { choices, right }) = asked.map(|question| &question.answer) else { continue };
         let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
-        faults.extend(silent.map(|(i, _)| StepFault::NoReply(format!("choice {}{of}", i + 1))));
+        let told = |i: usize| Finding::Advice(format!("choice {}{of} is wrong and has no reply", i + 1));
+        findings.extend(silent.map(|(i, _)| told(i)));
     }
-    faults
+    findings
 }
 
 /// A run, and the numbers of the tabs that belong to it.
@@ -193,34 +160,34 @@ struct Outcome {
     known: BTreeMap<String, f64>,
 }
 
-fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<StepFault>, String> {
+fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, String> {
     let wanted = wanted(step);
     let start = Tried::of(&step.scene, &wanted, cancel)?;
-    let mut faults = Vec::new();
+    let mut findings = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
-        faults.push(StepFault::TrueFromStart);
+        findings.push(Finding::error("the check holds from the start: there is nothing to do"));
     }
     if task.example.is_empty() {
-        faults.push(StepFault::NoTry);
+        findings.push(Finding::advice("no try: nobody can be shown how, and the check is not tried"));
     } else {
         let done = act(step, task, &task.example, &start, &wanted, cancel)?;
         match done.unmet {
-            Some(unmet) => faults.push(StepFault::TryFails(unmet)),
-            None if done.too_far => faults.push(StepFault::TryTooFar),
+            Some(unmet) => findings.push(Finding::Error(format!("try does not fulfil the check: {unmet}"))),
+            None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
             None => {
-                let lacks = |reading: &&Reading| !done.known.contains_key(&reading.source);
-                let unknown = readings(step.told()).filter(lacks).map(|reading| reading.source.clone());
-                faults.extend(unknown.map(StepFault::Unknown));
+                let unknown = readings(step.told()).filter(|reading| !done.known.contains_key(&reading.source));
+                let told = |of: &Reading| format!("{{{}}} is not known in the run that does the task", of.source);
+                findings.extend(unknown.map(told).map(Finding::Error));
             }
         }
     }
     if task.wrong.is_empty() {
-        faults.push(StepFault::NoWrong);
+        findings.push(Finding::advice("no wrong: it is not tried whether the check can fail"));
     } else if act(step, task, &task.wrong, &start, &wanted, cancel)?.unmet.is_none() {
-        faults.push(StepFault::WrongPasses);
+        findings.push(Finding::error("wrong fulfils the check"));
     }
-    Ok(faults)
+    Ok(findings)
 }
 
 /// Carries out actions, and evaluates the check whenever something has changed.
