@@ -1,6 +1,6 @@
 //! Tries the tasks of a lesson without a window: carries out the actions in `try` and `wrong`, and evaluates the check after each of them.
 
-use super::check::{Check, Ran, Reading};
+use super::check::{Ran, Reading};
 use super::lesson::{Act, Answer, Doing, Lesson, Step, Task};
 use super::live::{Live, Readings};
 use super::text::readings;
@@ -75,15 +75,13 @@ pub struct Quoted {
 /// # Errors
 /// Why a scene of it was not solved.
 pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
-    let asked = step.question.iter().flat_map(|question| &question.ask);
-    let above: Vec<&Reading> = readings(step.body.iter().chain(asked)).collect();
-    if above.is_empty() && readings(step.told()).next().is_none() {
+    if above(step).chain(readings(step.told())).next().is_none() {
         return Ok(Quoted::default());
     }
     let wanted = wanted(step);
     let start = Tried::of(&step.scene, &wanted, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
-    known.before = above.into_iter().filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
+    known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
         Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, &wanted, cancel)?.known,
         _ => readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
@@ -91,10 +89,14 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     Ok(known)
 }
 
+/// The numbers that the texts above the task quote.
+fn above(step: &Step) -> impl Iterator<Item = &Reading> {
+    readings(step.body.iter().chain(step.question.iter().flat_map(|question| &question.ask)))
+}
+
 /// The numbers of tabs that the check and the texts of a step use.
 fn wanted(step: &Step) -> Vec<Live> {
-    let asked = step.question.iter().flat_map(|question| &question.ask);
-    let quoted = readings(step.body.iter().chain(asked)).chain(readings(step.told()));
+    let quoted = above(step).chain(readings(step.told()));
     step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live)).collect()
 }
 
@@ -201,7 +203,8 @@ fn act(
 ) -> Result<Outcome, String> {
     let scene = step.scene.with(&doing.changes).map_err(|error| error.to_string())?;
     let run = Tried::of(&scene, wanted, cancel)?;
-    let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
+    let outcome = Outcome { unmet: Some(String::new()), too_far: false, known: BTreeMap::new() };
+    let mut look = Look { task, step, run: &run, start, began: start.live, outcome };
     look.at(&run.live);
     for act in &doing.acts {
         match act {
@@ -209,7 +212,7 @@ fn act(
             Act::StartUp => start_up(&run, &mut look, cancel)?,
         }
     }
-    Ok(look.outcome.unwrap_or(Outcome { unmet: None, too_far: false, known: BTreeMap::new() }))
+    Ok(look.outcome)
 }
 
 /// Evaluates the check while actions go on. Once it has held, the task is fulfilled.
@@ -220,21 +223,20 @@ struct Look<'a> {
     start: &'a Tried,
     /// The numbers of the tabs when the step began.
     began: Readings,
-    outcome: Option<Outcome>,
+    outcome: Outcome,
 }
 
 impl Look<'_> {
     fn at(&mut self, live: &Readings) {
-        if self.outcome.as_ref().is_some_and(|outcome| outcome.unmet.is_none()) {
+        if self.outcome.unmet.is_none() {
             return;
         }
         let (now, start) = (self.run.ran(live), self.start.ran(&self.began));
         let unmet = self.task.check.unmet(now, start);
-        let holds = |limit: &Check| limit.unmet(now, start).is_none();
-        let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| holds(limit));
+        let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
         let quoted = unmet.is_none().then(|| readings(self.step.told())).into_iter().flatten();
         let known = quoted.filter_map(|of| Some((of.source.clone(), of.value(now, start)?))).collect();
-        self.outcome = Some(Outcome { unmet, too_far, known });
+        self.outcome = Outcome { unmet, too_far, known };
     }
 }
 
