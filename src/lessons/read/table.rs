@@ -1,9 +1,8 @@
 //! The state of the reader of a lesson (its origin, the names it may use, the faults found so far), and how it reads the TOML of a block.
 
-use crate::lessons::check::Reading;
 use crate::lessons::error::LessonError;
 use crate::lessons::lesson::WindowNames;
-use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
+use crate::lessons::text::{self, Block, Inline, Outside, Pictures};
 use crate::scene::{Scene, SceneError};
 use std::fmt::Display;
 use std::path::Path;
@@ -106,18 +105,13 @@ impl Reader<'_> {
     }
 
     /// Text that may quote numbers of a run of the present scene; a fault comes with its line, from 0.
-    fn formatted(&self, text: &str) -> Result<Vec<Block>, (usize, TextError)> {
-        match &self.scene {
-            Some(scene) => {
-                let numbers = |number: &str| Reading::parse(number, scene);
-                text::blocks(text, Some(Outside { numbers: &numbers, pictures: self.beside.pictures }))
-            }
-            None => text::blocks(text, None),
-        }
+    fn formatted(&self, text: &str) -> Result<Vec<Block>, (usize, String)> {
+        let pictures = self.beside.pictures;
+        text::blocks(text, self.scene.as_ref().map(|scene| Outside { scene, pictures }))
     }
 
     /// The text of a key as it was read; `None`, with a fault added, if it could not be.
-    fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, TextError>) -> Option<T> {
+    fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, String>) -> Option<T> {
         read.map_err(|error| self.key_fault(line, table.block, key, format!(": {error}"))).ok()
     }
 
