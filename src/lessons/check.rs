@@ -12,7 +12,7 @@ mod comparison;
 mod name;
 mod parse;
 
-pub use name::{Name, Ran, name};
+pub use name::{Name, Ran, name, results};
 
 use super::live::Live;
 use crate::digits::{short, significant};

@@ -1,8 +1,7 @@
 //! The blocks of a step: its setup, its questions and its task.
 
 use super::table::{Piece, Reader, Table};
-use crate::analysis::quantity::Quantity;
-use crate::lessons::check::{Check, Name, name};
+use crate::lessons::check::{Check, Name, name, results};
 use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question, Step, Task};
 use crate::lessons::live::Live;
 use crate::scene::{Parameter, Scene, presets};
@@ -122,8 +121,7 @@ impl Reader<'_> {
             match found {
                 Some(name) => setup.show.push(name),
                 None => {
-                    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
-                    let allowed: Vec<&str> = results.chain(["or a key of this scene"]).collect();
+                    let allowed: Vec<&str> = results().map(Name::text).chain(["or a key of this scene"]).collect();
                     self.not_one_of(line, SETUP, "show", &shown, &allowed);
                 }
             }
