@@ -11,7 +11,7 @@ use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
 use squeezefilm::problem::{Outline, Problem, Scenario};
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::{Performance, PlateResult};
+use squeezefilm::solution::{Performance, PlateResult, Solution};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 use std::collections::BTreeMap;
@@ -78,10 +78,15 @@ fn problem(preset: &str, set: &[&str]) -> Problem {
     Problem::try_from(&presets::find(preset).unwrap().with(set).unwrap()).unwrap()
 }
 
-fn numbers(preset: &str, set: &[&str]) -> Numbers {
+fn solved(preset: &str, set: &[&str]) -> (Problem, Solution) {
     let problem = problem(preset, set);
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
+    (problem, solution)
+}
+
+fn numbers(preset: &str, set: &[&str]) -> Numbers {
+    let (problem, solution) = solved(preset, set);
     Numbers::of(&problem, &solution)
 }
 
@@ -99,23 +104,22 @@ fn says(lesson: usize, words: &str) {
     assert!(text(lesson).contains(words), "lesson {lesson} no longer says “{words}”");
 }
 
+/// A lesson says `words`, and `computed` is what is `stated` there, to within a share of it.
+fn states(lesson: usize, words: &str, computed: f64, stated: f64, within: f64) {
+    says(lesson, words);
+    assert!((computed / stated - 1.0).abs() < within, "lesson {lesson}, “{words}”: {computed}");
+}
+
 #[test]
 fn numbers_of_lessons_are_those_of_the_program() {
     for (lesson, words, preset, set, name, stated, tolerance) in CLAIMS {
-        says(*lesson, words);
-        let computed = number(preset, set, name);
-        let off = (computed / stated - 1.0).abs();
-        assert!(off <= *tolerance, "lesson {lesson}, “{words}”: {name} is {computed}, off by {off:.1e}");
+        states(*lesson, words, number(preset, set, name), *stated, *tolerance);
     }
 }
 
 #[test]
 fn ratios_of_lessons_are_those_of_the_program() {
     let ratio = |preset, from: &[&str], to: &[&str], name| number(preset, to, name) / number(preset, from, name);
-    let about = |lesson, words, ratio: f64, stated: f64, tolerance: f64| {
-        says(lesson, words);
-        assert!((ratio / stated - 1.0).abs() < tolerance, "lesson {lesson}, “{words}”: {ratio}");
-    };
     let closer = [SMALL, "plate.mean_gap_um=0.5"];
     says(1, "It becomes two to two and a half times as large");
     assert!((2.0..2.5).contains(&ratio("plate-trapped", &[SMALL], &closer, "load_ratio_max")));
@@ -123,24 +127,24 @@ fn ratios_of_lessons_are_those_of_the_program() {
     assert!((6.5..8.0).contains(&ratio("plate-viscous", &[SMALL], &closer, "load_ratio_max")));
     let sticks = [SMALL, "film.slip=none"];
     let closer = [SMALL, "film.slip=none", "plate.mean_gap_um=0.5"];
-    about(2, "without slip it would even be 9", ratio("plate-viscous", &sticks, &closer, "load_ratio_max"), 9.0, 0.03);
+    states(2, "without slip it would even be 9", ratio("plate-viscous", &sticks, &closer, "load_ratio_max"), 9.0, 0.03);
     says(4, "The smaller part of what is missing leaks at the edges");
     let [sticks, slips] = [&["film.slip=none"][..], &[]].map(|set| number("plate-trapped", set, "mean_load_ratio"));
     assert!((0.25..0.42).contains(&((0.354 - sticks) / (0.354 - slips))), "{sticks} {slips}");
-    about(7, "only a tenth more", ratio("fundamental", &[], &["stator.frequency_khz=100"], "alpha"), 1.11, 0.01);
+    states(7, "only a tenth more", ratio("fundamental", &[], &["stator.frequency_khz=100"], "alpha"), 1.11, 0.01);
     says(4, "four times the force. It is even a little more");
     assert!((4.0..5.0).contains(&ratio("plate-trapped", &["plate.amplitude_um=0.25"], &[], "mean_load_ratio")));
     let narrow = ratio("fundamental", &[], &["rotor.contact_width_mm=0.15"], "alpha");
-    about(8, "about a third of", narrow, 0.35, 0.02);
+    states(8, "about a third of", narrow, 0.35, 0.02);
     let viscous = numbers("plate-viscous", &[SMALL]);
     says(2, "less than a hundredth of either");
     let [mean, most] = [Quantity::LoadRatio, Quantity::LoadRatioMax].map(|quantity| viscous.get(quantity).unwrap());
     assert!(mean < 0.01 * most);
     let dry = number("fundamental", &[], "max_torque_nm") / (1.0 - number("fundamental", &[], "alpha"));
-    about(8, "Without air this would be 0.348 N·m", dry, 0.348, 0.002);
+    states(8, "Without air this would be 0.348 N·m", dry, 0.348, 0.002);
     says(8, "The air can carry about half a newton on each wave");
     assert!((0.45..0.65).contains(&number("fundamental", &["motor.load_per_wave_n=0.6"], "film_load_n")));
-    about(
+    states(
         5,
         "a fifth more",
         ratio("plate-crossover", &THIN, &["film.slip=none", THIN[0], THIN[1], THIN[2]], "mean_load_ratio"),
@@ -152,12 +156,6 @@ fn ratios_of_lessons_are_those_of_the_program() {
     assert!((ratio("plate-crossover", &THIN, &THICK, "squeeze_number") - 1.0).abs() < 1e-3);
     says(5, "By a per cent or two");
     assert!((1.01..1.02).contains(&ratio("plate-crossover", &THICK, &thick, "mean_load_ratio")));
-}
-
-/// A lesson says `words`, and `computed` is what is `stated` there, to within a share of it.
-fn states(lesson: usize, words: &str, computed: f64, stated: f64, within: f64) {
-    says(lesson, words);
-    assert!((computed / stated - 1.0).abs() < within, "lesson {lesson}, “{words}”: {computed}");
 }
 
 #[test]
@@ -213,9 +211,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     assert!((motor[4] / motor.last().unwrap() - 1.0).abs() < 0.005 && (5.0 / 30e3 - 1e-3 / 6.0f64).abs() < 1e-9);
     // Torque: the ends of the lines, and the greatest power.
     let merit = |preset: &str, set: &[&str]| {
-        let problem = problem(preset, set);
-        let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
-        let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
+        let (problem, solution) = solved(preset, set);
         TorqueCurves::of(&problem, Fidelity::Fine, &solution, &Cancel::new()).unwrap().unwrap()
     };
     let usual = merit("fundamental", &[]);
