@@ -78,12 +78,11 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     if above(step).chain(readings(step.told())).next().is_none() {
         return Ok(Quoted::default());
     }
-    let wanted = wanted(step);
-    let start = Tried::of(&step.scene, &wanted, cancel)?;
+    let start = Tried::of(step, &step.scene, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
     known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
-        Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, &wanted, cancel)?.known,
+        Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, cancel)?.known,
         _ => readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
     };
     Ok(known)
@@ -94,10 +93,11 @@ fn above(step: &Step) -> impl Iterator<Item = &Reading> {
     readings(step.body.iter().chain(step.question.iter().flat_map(|question| &question.ask)))
 }
 
-/// The numbers of tabs that the check and the texts of a step use.
-fn wanted(step: &Step) -> Vec<Live> {
+/// Whether the check and the texts of a step use numbers of the tab Torque.
+fn uses_torque(step: &Step) -> bool {
     let quoted = above(step).chain(readings(step.told()));
-    step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live)).collect()
+    let mut used = step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live));
+    used.any(|live| live.tab() == Live::Stall.tab())
 }
 
 /// Wrong choices without a reply, of the question and of what is to be observed, if that has choices of its own.
@@ -122,7 +122,8 @@ struct Tried {
 }
 
 impl Tried {
-    fn of(scene: &Scene, wanted: &[Live], cancel: &Cancel) -> Result<Self, String> {
+    /// The run of `scene`, with what is used in `step`.
+    fn of(step: &Step, scene: &Scene, cancel: &Cancel) -> Result<Self, String> {
         let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
         let settings = Settings { fidelity: FIDELITY, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), cancel).map_err(|error| error.to_string())?;
@@ -137,7 +138,7 @@ impl Tried {
                 live.read_exact(plate, &solution.recording);
                 live.read_held(plate.mean_gap, plate.gas.ambient_pressure);
             }
-            Scenario::Motor(_) if wanted.iter().any(|live| live.tab() == Live::Stall.tab()) => {
+            Scenario::Motor(_) if uses_torque(step) => {
                 let curves = TorqueCurves::of(&problem, FIDELITY, &solution, cancel);
                 if let Some(curves) = curves.map_err(|error| error.to_string())? {
                     live.read_torque(&curves);
@@ -163,8 +164,7 @@ struct Outcome {
 }
 
 fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, String> {
-    let wanted = wanted(step);
-    let start = Tried::of(&step.scene, &wanted, cancel)?;
+    let start = Tried::of(step, &step.scene, cancel)?;
     let mut findings = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
@@ -173,7 +173,7 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
     if task.example.is_empty() {
         findings.push(Finding::advice("no try: nobody can be shown how, and the check is not tried"));
     } else {
-        let done = act(step, task, &task.example, &start, &wanted, cancel)?;
+        let done = act(step, task, &task.example, &start, cancel)?;
         match done.unmet {
             Some(unmet) => findings.push(Finding::Error(format!("try does not fulfil the check: {unmet}"))),
             None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
@@ -186,23 +186,16 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
     }
     if task.wrong.is_empty() {
         findings.push(Finding::advice("no wrong: it is not tried whether the check can fail"));
-    } else if act(step, task, &task.wrong, &start, &wanted, cancel)?.unmet.is_none() {
+    } else if act(step, task, &task.wrong, &start, cancel)?.unmet.is_none() {
         findings.push(Finding::error("wrong fulfils the check"));
     }
     Ok(findings)
 }
 
 /// Carries out actions, and evaluates the check whenever something has changed.
-fn act(
-    step: &Step,
-    task: &Task,
-    doing: &Doing,
-    start: &Tried,
-    wanted: &[Live],
-    cancel: &Cancel,
-) -> Result<Outcome, String> {
+fn act(step: &Step, task: &Task, doing: &Doing, start: &Tried, cancel: &Cancel) -> Result<Outcome, String> {
     let scene = step.scene.with(&doing.changes).map_err(|error| error.to_string())?;
-    let run = Tried::of(&scene, wanted, cancel)?;
+    let run = Tried::of(step, &scene, cancel)?;
     let outcome = Outcome { unmet: Some(String::new()), too_far: false, known: BTreeMap::new() };
     let mut look = Look { task, step, run: &run, start, began: start.live, outcome };
     look.at(&run.live);
