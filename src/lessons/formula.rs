@@ -42,11 +42,9 @@ pub enum Mark {
     Bar,
 }
 
-/// A formula, and its source.
+/// A formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    /// As written, without the dollars.
-    pub source: String,
     /// Its parts, from left to right.
     pub nodes: Vec<Node>,
 }
@@ -89,9 +87,8 @@ const SPACES: &[(&str, f32)] = &[(",", 0.17), (":", 0.22), (";", 0.28), (" ", 0.
 impl Formula {
     /// Reads a formula; `source` is without its dollars.
     pub fn parse(source: &str) -> Result<Self, String> {
-        let mut reader = Reader { rest: source.chars().collect::<Vec<_>>(), at: 0 };
-        let nodes = reader.row(End::Text, 0)?;
-        Ok(Self { source: source.trim().to_owned(), nodes })
+        let mut reader = Reader { rest: source.chars().collect(), at: 0 };
+        Ok(Self { nodes: reader.row(End::Text, 0)? })
     }
 
     /// The formula as one line of plain text, for screen readers, search and messages.
