@@ -6,7 +6,6 @@ use super::check::Reading;
 use super::formula::Formula;
 use super::picture::Picture;
 use crate::scene::Scene;
-use std::borrow::Cow;
 
 /// A part of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,15 +177,12 @@ pub fn plain(parts: &[Inline]) -> String {
 }
 
 /// `parts`, with each number replaced by the text that `value` returns for it.
-pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Cow<'a, [Inline]> {
-    if !parts.iter().any(|part| matches!(part, Inline::Number(_))) {
-        return Cow::Borrowed(parts);
-    }
+pub fn filled(parts: &[Inline], value: &dyn Fn(&Reading) -> String) -> Vec<Inline> {
     let fill = |part: &Inline| match part {
         Inline::Number(reading) => Inline::Text { text: value(reading), style: Style::Plain },
         other => other.clone(),
     };
-    Cow::Owned(parts.iter().map(fill).collect())
+    parts.iter().map(fill).collect()
 }
 
 /// The numbers of the run that blocks quote.
