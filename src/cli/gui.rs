@@ -48,22 +48,22 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let linked = arguments.preset.as_deref().filter(|preset| Link::is_link(preset));
     let link = linked.map(Link::read).transpose().map_err(|fault| CliError::Input(fault.to_string()))?;
-    let opened = match &arguments.preset {
-        Some(_) if link.is_some() && !arguments.scene.changes.is_empty() => {
+    let changes = !arguments.scene.changes.is_empty();
+    let opened = match (&arguments.preset, &link) {
+        (_, Some(_)) if changes => {
             return Err(CliError::usage("a link says itself what is changed: leave --set away"));
         }
-        Some(_) if link.is_some() => None,
-        Some(preset) => {
+        (Some(preset), None) => {
             let built_in = BuiltIn::find(preset).is_some();
             // What --set changed is not in the file.
             let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;
             Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset))))
         }
-        None if !arguments.scene.changes.is_empty() => {
+        (None, _) if changes => {
             return Err(CliError::usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));
         }
-        None => None,
+        _ => None,
     };
     arguments.memory.apply();
     if no_display() {

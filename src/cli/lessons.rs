@@ -9,7 +9,8 @@ use crate::digits::counted;
 use crate::export::figure::{Piece, sheets_to_pdf};
 use crate::export::files::ExportError;
 use crate::gui::state::lessons::window_names;
-use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
+use crate::lessons::trial::{self, Finding};
+use crate::lessons::{self, Lesson, LessonError, handout, record};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
@@ -78,12 +79,12 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
     let mut failed = !faults.is_empty();
     for lesson in &lessons {
         let bar = Bar::points(lesson.steps.len(), 0);
-        let findings = trial::lesson(lesson, &mut |step| bar.point_done(&lesson.steps[step].title), &cancel);
+        let findings = trial::lesson(lesson, &mut |step| bar.point_done(&step.title), &cancel);
         drop(bar);
         if cancel.is_cancelled() {
             return Ok(Exit::Other);
         }
-        let errors = findings.iter().filter(|finding| finding.fault.is_error()).count();
+        let errors = findings.iter().filter(|(_, finding)| matches!(finding, Finding::Error(_))).count();
         failed |= errors > 0;
         let tasks = lesson.steps.iter().filter(|step| step.task.is_some()).count();
         let words = match errors {
@@ -97,9 +98,12 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
             counted(lesson.steps.len(), "step", "steps"),
             counted(tasks, "task", "tasks")
         ));
-        for finding in &findings {
-            let kind = if finding.fault.is_error() { "error" } else { "warning" };
-            terminal::text(&format!("  {kind}: step {}, {}: {}\n", finding.step, finding.title, finding.fault));
+        for (step, finding) in &findings {
+            let (kind, words) = match finding {
+                Finding::Error(words) => ("error", words),
+                Finding::Advice(words) => ("warning", words),
+            };
+            terminal::text(&format!("  {kind}: step {}, {}: {words}\n", step + 1, lesson.steps[*step].title));
         }
     }
     Ok(if failed { Exit::BadInput } else { Exit::Solved })

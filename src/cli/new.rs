@@ -123,19 +123,16 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                 return Ok(());
             };
             let answer = line.map_err(|error| from_input(ReadError::System(error.to_string())))?.trim().to_owned();
-            match question.check(&answer) {
-                _ if answer.is_empty() && question.otherwise.is_some() => {}
-                _ if answer.is_empty() => {
-                    terminal::note(&format!("an answer is needed: {}", question.allowed()));
-                    continue;
+            let wrong = match question.check(&answer) {
+                _ if answer.is_empty() && question.otherwise.is_some() => break,
+                _ if answer.is_empty() => format!("an answer is needed: {}", question.allowed()),
+                Err(wrong) => wrong,
+                Ok(()) => {
+                    answers.insert(question.name.to_owned(), answer);
+                    break;
                 }
-                Err(wrong) => {
-                    terminal::note(&wrong);
-                    continue;
-                }
-                Ok(()) => drop(answers.insert(question.name.to_owned(), answer)),
-            }
-            break;
+            };
+            terminal::note(&wrong);
         }
     }
     Ok(())

@@ -127,8 +127,7 @@ fn fraction(progress: &Progress) -> f64 {
     let cost = |level: usize| COST_RATIO.powi(i32::try_from(level).unwrap_or(i32::MAX));
     let before: f64 = (0..progress.level).map(cost).sum();
     let all: f64 = (0..progress.levels).map(cost).sum();
-    let done = (before + cost(progress.level) * if within.is_nan() { 0.0 } else { within }) / all;
-    if done.is_nan() { 0.0 } else { done.clamp(0.0, 1.0) }
+    ((before + cost(progress.level) * if within.is_nan() { 0.0 } else { within }) / all).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

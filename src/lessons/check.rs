@@ -12,7 +12,7 @@ mod comparison;
 mod name;
 mod parse;
 
-pub use name::{Name, Ran, name};
+pub use name::{Name, Ran, name, results};
 
 use super::live::Live;
 use crate::digits::{short, significant};
@@ -20,18 +20,16 @@ use crate::scene::Scene;
 use comparison::{Comparison, Expression};
 use parse::{comparisons, expression, unexpected};
 
-/// A check: its source, and its comparisons.
+/// A check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// As written.
-    pub source: String,
     comparisons: Vec<Comparison>,
 }
 
 impl Check {
     /// Reads a check for steps on `scene`.
     pub fn parse(source: &str, scene: &Scene) -> Result<Self, String> {
-        Ok(Self { source: source.trim().to_owned(), comparisons: comparisons(source, scene)? })
+        Ok(Self { comparisons: comparisons(source, scene)? })
     }
 
     /// The numbers of tabs that it uses.

@@ -42,45 +42,17 @@ pub enum Mark {
     Bar,
 }
 
-/// A formula, and its source.
+/// A formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    /// As written, without the dollars.
-    pub source: String,
     /// Its parts, from left to right.
     pub nodes: Vec<Node>,
 }
 
-/// Why a formula cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum FormulaError {
-    /// A command that is not known.
-    #[error(
-        "\\{name} is not known in formulas: allowed are letters, digits, \\frac, \\sqrt, \\left( \\right), \\text, \\dot, \\bar, ^, _, Greek letters, and signs such as \\approx, \\le, \\ll, \\cdot, \\partial, \\infty"
-    )]
-    Unknown {
-        /// Without its backslash.
-        name: String,
-    },
-    /// A character that is not known; the window's font may not have it.
-    #[error("the character {0:?} is not allowed in formulas")]
-    Character(char),
-    /// An opening brace or `\left` without its end.
-    #[error("{0} is never closed")]
-    Open(&'static str),
-    /// A closing brace or `\right` without its beginning.
-    #[error("{0} closes nothing")]
-    Stray(&'static str),
-    /// A command, index or exponent without its argument.
-    #[error("nothing follows {0}")]
-    Nothing(String),
-    /// Groups are nested deeper than in any formula of a lesson.
-    #[error("more than {0} levels of brackets and scripts")]
-    TooDeep(usize),
-}
-
 /// The sign of a sum. In a formula on its own line its index is set below it.
 pub const SUM: &str = "∑";
+
+const OPEN_BRACE: &str = "{ is never closed";
 
 /// Most levels of nested groups.
 const DEEPEST: usize = 24;
@@ -114,10 +86,9 @@ const SPACES: &[(&str, f32)] = &[(",", 0.17), (":", 0.22), (";", 0.28), (" ", 0.
 
 impl Formula {
     /// Reads a formula; `source` is without its dollars.
-    pub fn parse(source: &str) -> Result<Self, FormulaError> {
-        let mut reader = Reader { rest: source.chars().collect::<Vec<_>>(), at: 0 };
-        let nodes = reader.row(End::Text, 0)?;
-        Ok(Self { source: source.trim().to_owned(), nodes })
+    pub fn parse(source: &str) -> Result<Self, String> {
+        let mut reader = Reader { rest: source.chars().collect(), at: 0 };
+        Ok(Self { nodes: reader.row(End::Text, 0)? })
     }
 
     /// The formula as one line of plain text, for screen readers, search and messages.
@@ -202,82 +173,60 @@ impl Reader {
         name
     }
 
-    /// The nodes until `end`. It is consumed, except for `\right`.
-    fn row(&mut self, end: End, depth: usize) -> Result<Vec<Node>, FormulaError> {
+    /// The nodes until `end`, which is consumed.
+    fn row(&mut self, end: End, depth: usize) -> Result<Vec<Node>, String> {
         if depth > DEEPEST {
-            return Err(FormulaError::TooDeep(DEEPEST));
+            return Err(format!("more than {DEEPEST} levels of brackets and scripts"));
         }
         let mut nodes = Vec::new();
         loop {
             self.skip_spaces();
-            match self.peek() {
+            match self.next() {
                 None => {
                     return match end {
                         End::Text => Ok(nodes),
-                        End::Brace => Err(FormulaError::Open("{")),
-                        End::Right => Err(FormulaError::Open("\\left")),
+                        End::Brace => Err(OPEN_BRACE.to_owned()),
+                        End::Right => Err("\\left is never closed".to_owned()),
                     };
                 }
-                Some('}') => {
-                    self.at += 1;
-                    return if end == End::Brace { Ok(nodes) } else { Err(FormulaError::Stray("}")) };
-                }
+                Some('}') if end == End::Brace => return Ok(nodes),
+                Some('}') => return Err("} closes nothing".to_owned()),
                 Some(script @ ('^' | '_')) => {
-                    self.at += 1;
                     let content = self.argument(&script.to_string(), depth)?;
                     let base = nodes.pop();
                     nodes.push(scripted(base, script, content));
                 }
-                Some('\\') => {
-                    let before = self.at;
-                    self.at += 1;
-                    let name = self.name();
-                    if name == "right" {
-                        if end != End::Right {
-                            return Err(FormulaError::Stray("\\right"));
-                        }
-                        self.at = before;
-                        return Ok(nodes);
-                    }
-                    nodes.push(self.command(&name, depth)?);
-                }
-                Some(_) => nodes.push(self.single(depth)?),
+                Some('\\') => match self.name().as_str() {
+                    "right" if end == End::Right => return Ok(nodes),
+                    "right" => return Err("\\right closes nothing".to_owned()),
+                    name => nodes.push(self.command(name, depth)?),
+                },
+                Some(first) => nodes.push(self.single(first, depth)?),
             }
         }
     }
 
     /// The argument of the command or script `after`: a group in braces, or one item.
-    fn argument(&mut self, after: &str, depth: usize) -> Result<Vec<Node>, FormulaError> {
+    fn argument(&mut self, after: &str, depth: usize) -> Result<Vec<Node>, String> {
         if depth > DEEPEST {
-            return Err(FormulaError::TooDeep(DEEPEST));
+            return Err(format!("more than {DEEPEST} levels of brackets and scripts"));
         }
         self.skip_spaces();
-        match self.peek() {
-            None | Some('}' | '^' | '_') => Err(FormulaError::Nothing(after.to_owned())),
-            Some('{') => {
-                self.at += 1;
-                self.row(End::Brace, depth + 1)
-            }
-            Some('\\') => {
-                self.at += 1;
-                let name = self.name();
-                if name == "right" {
-                    return Err(FormulaError::Nothing(after.to_owned()));
-                }
-                Ok(vec![self.command(&name, depth + 1)?])
-            }
+        match self.next() {
+            None | Some('}' | '^' | '_') => Err(nothing(after)),
+            Some('{') => self.row(End::Brace, depth + 1),
+            Some('\\') => match self.name().as_str() {
+                "right" => Err(nothing(after)),
+                name => Ok(vec![self.command(name, depth + 1)?]),
+            },
             // One digit, as in LaTeX.
-            Some(digit) if digit.is_ascii_digit() => {
-                self.at += 1;
-                Ok(vec![Node::Upright(digit.to_string())])
-            }
-            Some(_) => Ok(vec![self.single(depth + 1)?]),
+            Some(digit) if digit.is_ascii_digit() => Ok(vec![Node::Upright(digit.to_string())]),
+            Some(first) => Ok(vec![self.single(first, depth + 1)?]),
         }
     }
 
-    /// A character that is no command: a letter, a number, a sign, a group.
-    fn single(&mut self, depth: usize) -> Result<Node, FormulaError> {
-        let Some(first) = self.next() else { return Err(FormulaError::Nothing("the formula".to_owned())) };
+    /// What begins with a character that is no command: a letter, a number, a sign, a group.
+    fn single(&mut self, first: char, depth: usize) -> Result<Node, String> {
         Ok(match first {
             '{' => {
                 let inside = self.row(End::Brace, depth + 1)?;
@@ -304,11 +253,11 @@ impl Reader {
                 Node::Upright(other.to_string())
             }
             '\'' => Node::Upright("′".to_owned()),
-            other => return Err(FormulaError::Character(other)),
+            other => return Err(strange(other)),
         })
     }
 
-    fn command(&mut self, name: &str, depth: usize) -> Result<Node, FormulaError> {
+    fn command(&mut self, name: &str, depth: usize) -> Result<Node, String> {
         if let Some(letter) = meaning(LETTERS, name) {
             return Ok(Node::Letter(letter));
         }
@@ -336,14 +285,14 @@ impl Reader {
             "text" | "mathrm" => {
                 self.skip_spaces();
                 if self.next() != Some('{') {
-                    return Err(FormulaError::Nothing(after));
+                    return Err(nothing(&after));
                 }
                 let mut text = String::new();
                 loop {
                     match self.next() {
-                        None => return Err(FormulaError::Open("{")),
+                        None => return Err(OPEN_BRACE.to_owned()),
                         Some('}') => break,
-                        Some(letter) if letter.is_control() => return Err(FormulaError::Character(letter)),
+                        Some(letter) if letter.is_control() => return Err(strange(letter)),
                         Some(letter) => text.push(letter),
                     }
                 }
@@ -352,28 +301,41 @@ impl Reader {
             "left" => {
                 let left = self.bracket(&after)?;
                 let inside = self.row(End::Right, depth + 1)?;
-                // The row leaves `\right` to be skipped here.
-                self.at += "\\right".len();
                 let right = self.bracket("\\right")?;
                 Node::Bracketed(left, inside, right)
             }
-            _ => return Err(FormulaError::Unknown { name: name.to_owned() }),
+            _ => return Err(unknown(name)),
         })
     }
 
-    fn bracket(&mut self, after: &str) -> Result<char, FormulaError> {
+    fn bracket(&mut self, after: &str) -> Result<char, String> {
         self.skip_spaces();
         match self.next() {
             Some('\\') => match self.name().as_str() {
                 "langle" => Ok('⟨'),
                 "rangle" => Ok('⟩'),
-                name => Err(FormulaError::Unknown { name: name.to_owned() }),
+                name => Err(unknown(name)),
             },
             Some(bracket @ ('(' | ')' | '[' | ']' | '|' | '⟨' | '⟩')) => Ok(bracket),
-            Some(other) => Err(FormulaError::Character(other)),
-            None => Err(FormulaError::Nothing(after.to_owned())),
+            Some(other) => Err(strange(other)),
+            None => Err(nothing(after)),
         }
     }
+}
+
+fn unknown(command: &str) -> String {
+    format!(
+        "\\{command} is not known in formulas: allowed are letters, digits, \\frac, \\sqrt, \\left( \\right), \\text, \\dot, \\bar, ^, _, Greek letters, and signs such as \\approx, \\le, \\ll, \\cdot, \\partial, \\infty"
+    )
+}
+
+/// The window's font may not have it.
+fn strange(character: char) -> String {
+    format!("the character {character:?} is not allowed in formulas")
+}
+
+fn nothing(after: &str) -> String {
+    format!("nothing follows {after}")
 }
 
 /// `base` with one more script.
@@ -401,7 +363,7 @@ mod tests {
     use super::*;
 
     fn read(source: &str) -> String {
-        Formula::parse(source).map_or_else(|error| error.to_string(), |formula| formula.plain())
+        Formula::parse(source).map_or_else(|error| error, |formula| formula.plain())
     }
 
     #[test]

@@ -76,10 +76,8 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
     }
     if answers {
         let why = step.question.iter().flat_map(|question| &question.why);
-        let told: Vec<&Block> = why.chain(step.task.iter().flat_map(|task| &task.then)).collect();
-        pieces.extend(
-            told.into_iter().flat_map(|block| lines(std::slice::from_ref(block), &known.told)).map(Piece::Answer),
-        );
+        let told = why.chain(step.task.iter().flat_map(|task| &task.then));
+        pieces.extend(lines(told, &known.told).map(Piece::Answer));
     }
 }
 
@@ -91,8 +89,11 @@ fn choices(pieces: &mut Vec<Piece>, question: &Question, answers: bool) {
 }
 
 /// Blocks as lines of text. `known` has the numbers that they quote.
-fn lines<'a>(blocks: &'a [Block], known: &'a BTreeMap<String, f64>) -> impl Iterator<Item = String> + 'a {
-    blocks.iter().map(|block| match block {
+fn lines<'a>(
+    blocks: impl IntoIterator<Item = &'a Block>,
+    known: &BTreeMap<String, f64>,
+) -> impl Iterator<Item = String> {
+    blocks.into_iter().map(move |block| match block {
         Block::Paragraph(parts) => with_numbers(parts, known),
         Block::Item(parts) => format!("•  {}", with_numbers(parts, known)),
         Block::Formula(formula) => lowered(&formula.plain()),

@@ -178,34 +178,34 @@ impl Answer {
         }
     }
 
+    /// All choices; none if a number is asked for.
+    pub fn choices(&self) -> &[Choice] {
+        match self {
+            Self::Choice { choices, .. } => choices,
+            Self::Number { .. } => &[],
+        }
+    }
+
+    fn choice(&self, given: Prediction) -> Option<&Choice> {
+        if let Prediction::Choice(choice) = given { self.choices().get(choice) } else { None }
+    }
+
     /// An answer in words.
     pub fn words(&self, given: Prediction) -> String {
         match (self, given) {
-            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => {
-                choices.get(choice).map(|choice| plain(&choice.text)).unwrap_or_default()
-            }
             (Self::Number { unit, .. }, Prediction::Number(number)) => format!("{number} {unit}").trim().to_owned(),
-            _ => String::new(),
+            _ => self.choice(given).map(|choice| plain(&choice.text)).unwrap_or_default(),
         }
     }
 
     /// Whether an answer is possible: a number where a number is asked for, or one of the choices.
     pub fn takes(&self, given: Prediction) -> bool {
-        match (self, given) {
-            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => choice < choices.len(),
-            (Self::Number { .. }, Prediction::Number(_)) => true,
-            _ => false,
-        }
+        matches!((self, given), (Self::Number { .. }, Prediction::Number(_))) || self.choice(given).is_some()
     }
 
     /// The reply to this answer; empty if there is none.
     pub fn reply(&self, given: Prediction) -> &[Block] {
-        match (self, given) {
-            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => {
-                choices.get(choice).map_or(&[], |choice| choice.reply.as_slice())
-            }
-            _ => &[],
-        }
+        self.choice(given).map_or(&[], |choice| &choice.reply)
     }
 }
 
@@ -214,11 +214,7 @@ impl Step {
     pub fn told(&self) -> impl Iterator<Item = &Block> {
         let questions = [&self.question, &self.observe].into_iter().flatten();
         let said = questions.flat_map(|question| {
-            let replies = match &question.answer {
-                Answer::Choice { choices, .. } => choices.as_slice(),
-                Answer::Number { .. } => &[],
-            };
-            question.why.iter().chain(replies.iter().flat_map(|choice| &choice.reply))
+            question.why.iter().chain(question.answer.choices().iter().flat_map(|choice| &choice.reply))
         });
         said.chain(self.task.iter().flat_map(|task| &task.then))
     }

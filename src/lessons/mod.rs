@@ -23,10 +23,11 @@ pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, 
 
 use crate::input::{self, ReadError};
 use crate::scene::Scene;
-use picture::{Picture, PictureError};
+use picture::Picture;
 use read::Beside;
 use std::path::{Path, PathBuf};
 
+const NO_PICTURE: &str = "there is no such file beside lesson.md";
 /// Largest `lesson.md` read \[MB\].
 const LARGEST_FILE: u64 = 1;
 
@@ -72,7 +73,7 @@ pub fn built_in(names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
             let found = lesson.presets.iter().find(|(file, _)| *file == name)?;
             Some(Scene::from_toml(found.1, name))
         };
-        let pictures = |_: &str, _: &str| Err(PictureError::Missing);
+        let pictures = |_: &str, _: &str| Err(NO_PICTURE.to_owned());
         let beside = Beside { preset: &preset, pictures: &pictures };
         read::lesson(lesson.id, lesson.text, &Path::new(lesson.id).join(FILE), names, beside)
     }))
@@ -122,7 +123,7 @@ fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonE
     let preset = |name: &str| inside(name).map(|path| Scene::load(&path));
     let pictures = |name: &str, alternative: &str| match inside(name) {
         Some(path) => Picture::load(&path, alternative),
-        None => Err(PictureError::Missing),
+        None => Err(NO_PICTURE.to_owned()),
     };
     read::lesson(&id, &text, &path, names, Beside { preset: &preset, pictures: &pictures })
 }

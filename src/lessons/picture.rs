@@ -1,6 +1,6 @@
 //! Pictures in a lesson: PNG files in its folder.
 
-use crate::input::{ReadError, read_bytes};
+use crate::input::read_bytes;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -27,36 +27,17 @@ impl fmt::Debug for Picture {
     }
 }
 
-/// Why a picture cannot be shown.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PictureError {
-    /// It is not in the lesson's folder.
-    #[error("there is no such file beside lesson.md")]
-    Missing,
-    /// The file cannot be read.
-    #[error("{0}")]
-    Unreadable(ReadError),
-    /// The file is not a PNG picture; the reason.
-    #[error("is not a PNG picture: {0}")]
-    NoPicture(String),
-    /// The picture has too many pixels: width and height.
-    #[error("has {0} × {1} pixels: allowed are {MOST} along a side")]
-    TooLarge(u32, u32),
-}
-
 impl Picture {
     /// Reads a PNG file.
-    pub fn load(path: &Path, alternative: &str) -> Result<Self, PictureError> {
-        let bytes = read_bytes(path, LARGEST).map_err(PictureError::Unreadable)?;
-        let fault = |error: png::DecodingError| PictureError::NoPicture(error.to_string());
+    pub fn load(path: &Path, alternative: &str) -> Result<Self, String> {
+        let bytes = read_bytes(path, LARGEST).map_err(|error| error.to_string())?;
+        let fault = |error: png::DecodingError| format!("is not a PNG picture: {error}");
         let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         decoder.set_transformations(png::Transformations::normalize_to_color8() | png::Transformations::ALPHA);
         let mut reader = decoder.read_info().map_err(fault)?;
         let (width, height) = reader.info().size();
-        if width > MOST || height > MOST {
-            return Err(PictureError::TooLarge(width, height));
-        }
-        let size = reader.output_buffer_size().ok_or(PictureError::TooLarge(width, height))?;
+        let size = reader.output_buffer_size().filter(|_| width.max(height) <= MOST);
+        let size = size.ok_or_else(|| format!("has {width} × {height} pixels: allowed are {MOST} along a side"))?;
         let mut pixels = vec![0; size];
         let frame = reader.next_frame(&mut pixels).map_err(fault)?;
         pixels.truncate(frame.buffer_size());
@@ -90,7 +71,7 @@ mod tests {
             assert_eq!((read.size, read.rgba.len(), &read.rgba[..4]), ([3, 2], 24, &first[..]));
         }
         std::fs::write(&path, "no picture").unwrap();
-        assert!(Picture::load(&path, "").unwrap_err().to_string().contains("is not a PNG picture"));
-        assert!(Picture::load(folder.path(), "").unwrap_err().to_string().contains("a folder"));
+        assert!(Picture::load(&path, "").unwrap_err().contains("is not a PNG picture"));
+        assert!(Picture::load(folder.path(), "").unwrap_err().contains("a folder"));
     }
 }

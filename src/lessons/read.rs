@@ -4,7 +4,7 @@ mod step;
 mod table;
 
 use super::error::LessonError;
-use super::lesson::{Lesson, Step, WindowNames};
+use super::lesson::{Lesson, WindowNames};
 use std::path::Path;
 use step::{BLOCKS, Raw};
 pub(super) use table::Beside;
@@ -23,17 +23,13 @@ pub(super) fn lesson(
 ) -> Result<Lesson, Vec<LessonError>> {
     let mut reader = Reader { origin, names, beside, faults: Vec::new(), scene: None };
     let lesson = reader.lesson(id, source);
-    match lesson {
-        Some(lesson) if reader.faults.is_empty() => Ok(lesson),
-        _ => {
-            reader.faults.sort_by_key(|fault| fault.line);
-            Err(reader.faults)
-        }
-    }
+    reader.faults.sort_by_key(|fault| fault.line);
+    if reader.faults.is_empty() { Ok(lesson) } else { Err(reader.faults) }
 }
 
 impl Reader<'_> {
-    fn lesson(&mut self, id: &str, source: &str) -> Option<Lesson> {
+    /// The lesson, without the steps that have no scene; for each of them there is a fault.
+    fn lesson(&mut self, id: &str, source: &str) -> Lesson {
         let mut title = String::new();
         let mut about = Vec::new();
         let mut steps: Vec<Raw> = Vec::new();
@@ -94,8 +90,7 @@ impl Reader<'_> {
             self.fault(1, "has no steps: expected `## Step` below the title, once for each");
         }
         let about = self.text(&about);
-        let steps: Vec<Option<Step>> = steps.iter().map(|step| self.step(step)).collect();
-        let steps: Option<Vec<Step>> = steps.into_iter().collect();
-        Some(Lesson { id: id.to_owned(), title, about, steps: steps? })
+        let steps = steps.iter().filter_map(|step| self.step(step)).collect();
+        Lesson { id: id.to_owned(), title, about, steps }
     }
 }

@@ -3,9 +3,9 @@
 //! emphasis and lists; formulas, numbers and messages would still have to be read here.
 
 use super::check::Reading;
-use super::formula::{Formula, FormulaError};
-use super::picture::{Picture, PictureError};
-use std::borrow::Cow;
+use super::formula::Formula;
+use super::picture::Picture;
+use crate::scene::Scene;
 
 /// A part of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,17 +23,14 @@ pub enum Inline {
     Number(Reading),
 }
 
-/// Reads the text between the braces of a number.
-pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, String>;
-
 /// Reads the picture in a file; the second argument describes it in words.
-pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, PictureError>;
+pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, String>;
 
-/// The functions that read numbers and pictures of a text.
+/// What the text of a step may show beside words and formulas.
 #[derive(Clone, Copy)]
 pub struct Outside<'a> {
-    /// Numbers of the run.
-    pub numbers: Numbers<'a>,
+    /// The scene whose numbers it may quote.
+    pub scene: &'a Scene,
     /// Pictures beside the text.
     pub pictures: Pictures<'a>,
 }
@@ -66,7 +63,7 @@ pub enum Block {
 }
 
 /// Reads blocks from Markdown. An error comes with its line, from 0. Without `outside` a text has neither numbers of a run nor pictures.
-pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, (usize, TextError)> {
+pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, (usize, String)> {
     let mut blocks = Vec::new();
     let mut lines = source.lines().enumerate().peekable();
     while let Some((number, line)) = lines.next() {
@@ -77,18 +74,18 @@ pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, 
         if let Some(rest) = line.strip_prefix("$$") {
             let mut formula = rest.to_owned();
             while !formula.trim_end().ends_with("$$") {
-                let Some((_, more)) = lines.next() else { return Err((number, TextError::Dollar)) };
+                let Some((_, more)) = lines.next() else { return Err((number, DOLLAR.to_owned())) };
                 formula.push(' ');
                 formula.push_str(more.trim());
             }
             let formula = formula.trim_end().trim_end_matches("$$");
-            let formula = Formula::parse(formula).map_err(|error| (number, error.into()))?;
+            let formula = Formula::parse(formula).map_err(|error| (number, error))?;
             blocks.push(Block::Formula(formula));
             continue;
         }
         if let (Some((alternative, file)), Some(outside)) = (picture(line), outside) {
             let read = (outside.pictures)(file, alternative);
-            let read = read.map_err(|error| (number, TextError::Picture(file.to_owned(), error)))?;
+            let read = read.map_err(|error| (number, format!("picture {file}: {error}")))?;
             blocks.push(Block::Picture(read));
             continue;
         }
@@ -103,7 +100,7 @@ pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, 
             text.push_str(next);
             lines.next();
         }
-        let inline = inline(&text, outside.map(|outside| outside.numbers)).map_err(|error| (number, error))?;
+        let inline = inline(&text, outside.map(|outside| outside.scene)).map_err(|error| (number, error))?;
         blocks.push(if item.is_some() { Block::Item(inline) } else { Block::Paragraph(inline) });
     }
     Ok(blocks)
@@ -114,28 +111,11 @@ fn picture(line: &str) -> Option<(&str, &str)> {
     line.strip_prefix("![")?.strip_suffix(')')?.split_once("](")
 }
 
-/// Why a text cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TextError {
-    /// A formula cannot be read.
-    #[error("{0}")]
-    Formula(#[from] FormulaError),
-    /// A formula has no closing dollar sign.
-    #[error("a formula begins with $ and does not end; write \\$ for the sign itself")]
-    Dollar,
-    /// A number of the run cannot be read: the number as written, and the reason.
-    #[error("{{{0}}}: {1}; write \\{{ for the brace itself")]
-    Number(String, String),
-    /// A picture cannot be shown: its file, and the reason.
-    #[error("picture {0}: {1}")]
-    Picture(String, PictureError),
-    /// A number of the run has no closing brace.
-    #[error("a number of the run begins with {{ and does not end; write \\{{ for the brace itself")]
-    Brace,
-}
+const DOLLAR: &str = "a formula begins with $ and does not end; write \\$ for the sign itself";
+const BRACE: &str = "a number of the run begins with { and does not end; write \\{ for the brace itself";
 
-/// Reads one line.
-pub fn inline(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Inline>, TextError> {
+/// Reads one line, which may quote numbers of a run of `scene`.
+pub fn inline(source: &str, scene: Option<&Scene>) -> Result<Vec<Inline>, String> {
     let mut parts = Vec::new();
     let mut text = String::new();
     let mut style = Style::Plain;
@@ -152,18 +132,18 @@ pub fn inline(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Inline>,
             continue;
         }
         if let (true, Some(after)) = (style != Style::Code, rest.strip_prefix('$')) {
-            let Some(end) = after.find('$') else { return Err(TextError::Dollar) };
+            let Some(end) = after.find('$') else { return Err(DOLLAR.to_owned()) };
             flush(&mut text, style, &mut parts);
             parts.push(Inline::Math(Formula::parse(&after[..end])?));
             rest = &after[end + 1..];
             continue;
         }
-        if let (true, Some(numbers), Some(after)) = (style != Style::Code, numbers, rest.strip_prefix('{')) {
-            let Some(end) = after.find('}') else { return Err(TextError::Brace) };
+        if let (true, Some(scene), Some(after)) = (style != Style::Code, scene, rest.strip_prefix('{')) {
+            let Some(end) = after.find('}') else { return Err(BRACE.to_owned()) };
             let number = after[..end].trim();
             flush(&mut text, style, &mut parts);
-            let reading = numbers(number).map_err(|error| TextError::Number(number.to_owned(), error))?;
-            parts.push(Inline::Number(reading));
+            let fault = |error: String| format!("{{{number}}}: {error}; write \\{{ for the brace itself");
+            parts.push(Inline::Number(Reading::parse(number, scene).map_err(fault)?));
             rest = &after[end + 1..];
             continue;
         }
@@ -197,15 +177,12 @@ pub fn plain(parts: &[Inline]) -> String {
 }
 
 /// `parts`, with each number replaced by the text that `value` returns for it.
-pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Cow<'a, [Inline]> {
-    if !parts.iter().any(|part| matches!(part, Inline::Number(_))) {
-        return Cow::Borrowed(parts);
-    }
+pub fn filled(parts: &[Inline], value: &dyn Fn(&Reading) -> String) -> Vec<Inline> {
     let fill = |part: &Inline| match part {
         Inline::Number(reading) => Inline::Text { text: value(reading), style: Style::Plain },
         other => other.clone(),
     };
-    Cow::Owned(parts.iter().map(fill).collect())
+    parts.iter().map(fill).collect()
 }
 
 /// The numbers of the run that blocks quote.
@@ -243,7 +220,7 @@ mod tests {
         assert_eq!(styles[1], Style::Strong);
         assert_eq!(styles[3], Style::Slanted);
         assert_eq!(styles[5], Style::Code);
-        assert_eq!(inline("costs $5", None).unwrap_err(), TextError::Dollar);
+        assert_eq!(inline("costs $5", None).unwrap_err(), DOLLAR);
     }
 
     #[test]
@@ -252,6 +229,6 @@ mod tests {
         assert_eq!(plain_blocks(&read), "One line.\nfirst and more\nsecond\na = b\nlast");
         assert!(matches!(read[3], Block::Formula(_)));
         assert_eq!(blocks("fine\n\n$x", None).unwrap_err().0, 2);
-        assert_eq!(blocks("$$ x", None).unwrap_err(), (0, TextError::Dollar));
+        assert_eq!(blocks("$$ x", None).unwrap_err(), (0, DOLLAR.to_owned()));
     }
 }

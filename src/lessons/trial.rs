@@ -1,6 +1,6 @@
 //! Tries the tasks of a lesson without a window: carries out the actions in `try` and `wrong`, and evaluates the check after each of them.
 
-use super::check::{Check, Ran, Reading};
+use super::check::{Ran, Reading};
 use super::lesson::{Act, Answer, Doing, Lesson, Step, Task};
 use super::live::{Live, Readings};
 use super::text::readings;
@@ -27,70 +27,36 @@ const KEPT: f64 = 8.0;
 /// Number of evaluations of the check during the hold.
 const LOOKS: usize = 80;
 
-/// A fault of a step, or advice about it.
+/// What is wrong with a step, in words.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// Number of the step, from 1.
-    pub step: usize,
-    /// Its title.
-    pub title: String,
-    /// The fault.
-    pub fault: StepFault,
+pub enum Finding {
+    /// The step cannot be done as it is.
+    Error(String),
+    /// Advice.
+    Advice(String),
 }
 
-/// A fault of a step.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StepFault {
-    /// The check holds for the scene that the step begins with.
-    #[error("the check holds from the start: there is nothing to do")]
-    TrueFromStart,
-    /// The actions in `try` do not fulfil the check; the reason.
-    #[error("try does not fulfil the check: {0}")]
-    TryFails(String),
-    /// The actions in `try` fulfil `too_far`.
-    #[error("try goes too far: too_far holds")]
-    TryTooFar,
-    /// The actions in `wrong` fulfil the check.
-    #[error("wrong fulfils the check")]
-    WrongPasses,
-    /// There is no `try`.
-    #[error("no try: nobody can be shown how, and the check is not tried")]
-    NoTry,
-    /// There is no `wrong`.
-    #[error("no wrong: it is not tried whether the check can fail")]
-    NoWrong,
-    /// A text quotes a number that the run does not have; the number as written.
-    #[error("{{{0}}} is not known in the run that does the task")]
-    Unknown(String),
-    /// A wrong choice has no reply; which choice it is.
-    #[error("{0} is wrong and has no reply")]
-    NoReply(String),
-    /// The scene could not be solved; the reason.
-    #[error("the scene was not solved: {0}")]
-    Unsolved(String),
-}
+impl Finding {
+    fn error(words: &str) -> Self {
+        Self::Error(words.to_owned())
+    }
 
-impl StepFault {
-    /// Whether the step cannot be done as it is. Every other fault is advice.
-    pub fn is_error(&self) -> bool {
-        !matches!(self, Self::NoTry | Self::NoWrong | Self::NoReply(_))
+    fn advice(words: &str) -> Self {
+        Self::Advice(words.to_owned())
     }
 }
 
-/// Tries every task of a lesson, until it is cancelled. `each` is called with the index of a step before the step is tried.
-pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> Vec<Finding> {
+/// Tries every task of a lesson, until it is cancelled, and returns what is wrong, with the step. `each` is called with a step before it is tried.
+pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(&Step), cancel: &Cancel) -> Vec<(usize, Finding)> {
     let mut findings = Vec::new();
     for (i, step) in lesson.steps.iter().enumerate() {
         if cancel.is_cancelled() {
             break;
         }
-        each(i);
-        let tried = step
-            .task
-            .iter()
-            .flat_map(|task| try_task(step, task, cancel).unwrap_or_else(|why| vec![StepFault::Unsolved(why)]));
-        let faults = replies(step).into_iter().chain(tried);
-        findings.extend(faults.map(|fault| Finding { step: i + 1, title: step.title.clone(), fault }));
+        each(step);
+        let unsolved = |why: String| vec![Finding::Error(format!("the scene was not solved: {why}"))];
+        let tried = step.task.iter().flat_map(|task| try_task(step, task, cancel).unwrap_or_else(unsolved));
+        findings.extend(replies(step).into_iter().chain(tried).map(|finding| (i, finding)));
     }
     findings
 }
@@ -109,39 +75,42 @@ pub struct Quoted {
 /// # Errors
 /// Why a scene of it was not solved.
 pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
-    let asked = step.question.iter().flat_map(|question| &question.ask);
-    let above: Vec<&Reading> = readings(step.body.iter().chain(asked)).collect();
-    if above.is_empty() && readings(step.told()).next().is_none() {
+    if above(step).chain(readings(step.told())).next().is_none() {
         return Ok(Quoted::default());
     }
-    let wanted = wanted(step);
-    let start = Tried::of(&step.scene, &wanted, cancel)?;
+    let start = Tried::of(step, &step.scene, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
-    known.before = above.into_iter().filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
+    known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
-        Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, &wanted, cancel)?.known,
+        Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, cancel)?.known,
         _ => readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
     };
     Ok(known)
 }
 
-/// The numbers of tabs that the check and the texts of a step use.
-fn wanted(step: &Step) -> Vec<Live> {
-    let asked = step.question.iter().flat_map(|question| &question.ask);
-    let quoted = readings(step.body.iter().chain(asked)).chain(readings(step.told()));
-    step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live)).collect()
+/// The numbers that the texts above the task quote.
+fn above(step: &Step) -> impl Iterator<Item = &Reading> {
+    readings(step.body.iter().chain(step.question.iter().flat_map(|question| &question.ask)))
+}
+
+/// Whether the check and the texts of a step use numbers of the tab Torque.
+fn uses_torque(step: &Step) -> bool {
+    let quoted = above(step).chain(readings(step.told()));
+    let mut used = step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live));
+    used.any(|live| live.tab() == Live::Stall.tab())
 }
 
 /// Wrong choices without a reply, of the question and of what is to be observed, if that has choices of its own.
-fn replies(step: &Step) -> Vec<StepFault> {
+fn replies(step: &Step) -> Vec<Finding> {
     let observe = step.observe.as_ref().filter(|observe| !observe.ask.is_empty());
-    let mut faults = Vec::new();
+    let mut findings = Vec::new();
     for (asked, of) in [(step.question.as_ref(), ""), (observe, " of observe")] {
         let Some(Answer::Choice { choices, right }) = asked.map(|question| &question.answer) else { continue };
         let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
-        faults.extend(silent.map(|(i, _)| StepFault::NoReply(format!("choice {}{of}", i + 1))));
+        let told = |i: usize| Finding::Advice(format!("choice {}{of} is wrong and has no reply", i + 1));
+        findings.extend(silent.map(|(i, _)| told(i)));
     }
-    faults
+    findings
 }
 
 /// A run, and the numbers of the tabs that belong to it.
@@ -153,7 +122,8 @@ struct Tried {
 }
 
 impl Tried {
-    fn of(scene: &Scene, wanted: &[Live], cancel: &Cancel) -> Result<Self, String> {
+    /// The run of `scene`, with what is used in `step`.
+    fn of(step: &Step, scene: &Scene, cancel: &Cancel) -> Result<Self, String> {
         let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
         let settings = Settings { fidelity: FIDELITY, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), cancel).map_err(|error| error.to_string())?;
@@ -168,7 +138,7 @@ impl Tried {
                 live.read_exact(plate, &solution.recording);
                 live.read_held(plate.mean_gap, plate.gas.ambient_pressure);
             }
-            Scenario::Motor(_) if wanted.iter().any(|live| live.tab() == Live::Stall.tab()) => {
+            Scenario::Motor(_) if uses_torque(step) => {
                 let curves = TorqueCurves::of(&problem, FIDELITY, &solution, cancel);
                 if let Some(curves) = curves.map_err(|error| error.to_string())? {
                     live.read_torque(&curves);
@@ -193,48 +163,41 @@ struct Outcome {
     known: BTreeMap<String, f64>,
 }
 
-fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<StepFault>, String> {
-    let wanted = wanted(step);
-    let start = Tried::of(&step.scene, &wanted, cancel)?;
-    let mut faults = Vec::new();
+fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, String> {
+    let start = Tried::of(step, &step.scene, cancel)?;
+    let mut findings = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
-        faults.push(StepFault::TrueFromStart);
+        findings.push(Finding::error("the check holds from the start: there is nothing to do"));
     }
     if task.example.is_empty() {
-        faults.push(StepFault::NoTry);
+        findings.push(Finding::advice("no try: nobody can be shown how, and the check is not tried"));
     } else {
-        let done = act(step, task, &task.example, &start, &wanted, cancel)?;
+        let done = act(step, task, &task.example, &start, cancel)?;
         match done.unmet {
-            Some(unmet) => faults.push(StepFault::TryFails(unmet)),
-            None if done.too_far => faults.push(StepFault::TryTooFar),
+            Some(unmet) => findings.push(Finding::Error(format!("try does not fulfil the check: {unmet}"))),
+            None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
             None => {
-                let lacks = |reading: &&Reading| !done.known.contains_key(&reading.source);
-                let unknown = readings(step.told()).filter(lacks).map(|reading| reading.source.clone());
-                faults.extend(unknown.map(StepFault::Unknown));
+                let unknown = readings(step.told()).filter(|reading| !done.known.contains_key(&reading.source));
+                let told = |of: &Reading| format!("{{{}}} is not known in the run that does the task", of.source);
+                findings.extend(unknown.map(told).map(Finding::Error));
             }
         }
     }
     if task.wrong.is_empty() {
-        faults.push(StepFault::NoWrong);
-    } else if act(step, task, &task.wrong, &start, &wanted, cancel)?.unmet.is_none() {
-        faults.push(StepFault::WrongPasses);
+        findings.push(Finding::advice("no wrong: it is not tried whether the check can fail"));
+    } else if act(step, task, &task.wrong, &start, cancel)?.unmet.is_none() {
+        findings.push(Finding::error("wrong fulfils the check"));
     }
-    Ok(faults)
+    Ok(findings)
 }
 
 /// Carries out actions, and evaluates the check whenever something has changed.
-fn act(
-    step: &Step,
-    task: &Task,
-    doing: &Doing,
-    start: &Tried,
-    wanted: &[Live],
-    cancel: &Cancel,
-) -> Result<Outcome, String> {
+fn act(step: &Step, task: &Task, doing: &Doing, start: &Tried, cancel: &Cancel) -> Result<Outcome, String> {
     let scene = step.scene.with(&doing.changes).map_err(|error| error.to_string())?;
-    let run = Tried::of(&scene, wanted, cancel)?;
-    let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
+    let run = Tried::of(step, &scene, cancel)?;
+    let outcome = Outcome { unmet: Some(String::new()), too_far: false, known: BTreeMap::new() };
+    let mut look = Look { task, step, run: &run, start, began: start.live, outcome };
     look.at(&run.live);
     for act in &doing.acts {
         match act {
@@ -242,7 +205,7 @@ fn act(
             Act::StartUp => start_up(&run, &mut look, cancel)?,
         }
     }
-    Ok(look.outcome.unwrap_or(Outcome { unmet: None, too_far: false, known: BTreeMap::new() }))
+    Ok(look.outcome)
 }
 
 /// Evaluates the check while actions go on. Once it has held, the task is fulfilled.
@@ -253,21 +216,20 @@ struct Look<'a> {
     start: &'a Tried,
     /// The numbers of the tabs when the step began.
     began: Readings,
-    outcome: Option<Outcome>,
+    outcome: Outcome,
 }
 
 impl Look<'_> {
     fn at(&mut self, live: &Readings) {
-        if self.outcome.as_ref().is_some_and(|outcome| outcome.unmet.is_none()) {
+        if self.outcome.unmet.is_none() {
             return;
         }
         let (now, start) = (self.run.ran(live), self.start.ran(&self.began));
         let unmet = self.task.check.unmet(now, start);
-        let holds = |limit: &Check| limit.unmet(now, start).is_none();
-        let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| holds(limit));
+        let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
         let quoted = unmet.is_none().then(|| readings(self.step.told())).into_iter().flatten();
         let known = quoted.filter_map(|of| Some((of.source.clone(), of.value(now, start)?))).collect();
-        self.outcome = Some(Outcome { unmet, too_far, known });
+        self.outcome = Outcome { unmet, too_far, known };
     }
 }
 

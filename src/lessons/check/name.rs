@@ -27,22 +27,21 @@ pub struct Ran<'a> {
     pub live: &'a Readings,
 }
 
+/// All results and numbers of tabs.
+pub fn results() -> impl Iterator<Item = Name> {
+    Quantity::all().map(Name::Quantity).chain(Live::all().map(Name::Live))
+}
+
 /// Finds a name: a result, a number of a tab, or a key.
 ///
 /// # Errors
 /// There is none of this name; the message has the nearest one.
 pub fn name(text: &str) -> Result<Name, String> {
-    if let Some(quantity) = Quantity::all().find(|quantity| quantity.name() == text) {
-        return Ok(Name::Quantity(quantity));
+    let found = results().find(|name| name.text() == text);
+    if let Some(name) = found.or_else(|| Parameter::find(text).map(Name::Key)) {
+        return Ok(name);
     }
-    if let Some(live) = Live::all().find(|live| live.name() == text) {
-        return Ok(Name::Live(live));
-    }
-    if let Some(parameter) = Parameter::find(text) {
-        return Ok(Name::Key(parameter));
-    }
-    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
-    let known = results.chain(PARAMETERS.iter().map(|parameter| parameter.key));
+    let known = results().map(Name::text).chain(PARAMETERS.iter().map(|parameter| parameter.key));
     let meant = match nearest(text, known) {
         Some(name) => format!(": did you mean {name}?"),
         None => {

@@ -1,8 +1,7 @@
 //! The blocks of a step: its setup, its questions and its task.
 
 use super::table::{Piece, Reader, Table};
-use crate::analysis::quantity::Quantity;
-use crate::lessons::check::{Check, Name, name};
+use crate::lessons::check::{Check, Name, name, results};
 use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question, Step, Task};
 use crate::lessons::live::Live;
 use crate::scene::{Parameter, Scene, presets};
@@ -66,22 +65,22 @@ impl Reader<'_> {
         let preset = self.string(table, "preset");
         let changes = self.changes(table, "set");
         setup.sets = preset.is_some() || !changes.is_empty();
-        if let Some((name, line)) = preset {
+        if let Some(name) = preset {
             self.scene = None;
             let built_in = || presets::BuiltIn::find(&name).map(|preset| preset.scene());
             match (self.beside.preset)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
-                Some(Err(error)) => self.key_fault(line, SETUP, "preset", format!(": {error}")),
+                Some(Err(error)) => self.key_fault(table, "preset", format!(": {error}")),
                 None => {
                     let fault = "there is no such file beside lesson.md, and no such built-in preset";
                     let fault = format!(" = \"{name}\": {fault}; squeezefilm presets lists those");
-                    self.key_fault(line, SETUP, "preset", fault);
+                    self.key_fault(table, "preset", fault);
                 }
             }
         }
         if let Some(mut scene) = self.scene.clone() {
             if let Err(error) = scene.set_all(&changes) {
-                self.key_fault(table.line_of("set"), SETUP, "set", format!(": {error}"));
+                self.key_fault(table, "set", format!(": {error}"));
             }
             if !changes.is_empty() {
                 // What the preset says of itself is not true of it any more.
@@ -96,7 +95,7 @@ impl Reader<'_> {
                 }
                 (_, Some(scene)) => {
                     let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
-                    self.not_one_of(line, SETUP, "light", &key, &allowed);
+                    self.not_one_of(table, "light", line, &key, &allowed);
                 }
                 (_, None) => {}
             }
@@ -105,16 +104,16 @@ impl Reader<'_> {
             if self.names.places.contains(&place.as_str()) {
                 setup.look.push(place);
             } else {
-                self.not_one_of(line, SETUP, "look", &place, self.names.places);
+                self.not_one_of(table, "look", line, &place, self.names.places);
             }
         }
-        if let Some((tab, line)) = self.string(table, "tab") {
+        if let Some(tab) = self.string(table, "tab") {
             let plate = self.scene.as_ref().is_some_and(|scene| scene.scene() == "plate");
             let tabs = self.names.tabs[usize::from(plate)];
             if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
                 setup.tab = Some(tab);
             } else {
-                self.not_one_of(line, SETUP, "tab", &tab, tabs);
+                self.not_one_of(table, "tab", table.line_of("tab"), &tab, tabs);
             }
         }
         for (shown, line) in self.strings(table, "show") {
@@ -122,9 +121,8 @@ impl Reader<'_> {
             match found {
                 Some(name) => setup.show.push(name),
                 None => {
-                    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
-                    let allowed: Vec<&str> = results.chain(["or a key of this scene"]).collect();
-                    self.not_one_of(line, SETUP, "show", &shown, &allowed);
+                    let allowed: Vec<&str> = results().map(Name::text).chain(["or a key of this scene"]).collect();
+                    self.not_one_of(table, "show", line, &shown, &allowed);
                 }
             }
         }
@@ -142,18 +140,18 @@ impl Reader<'_> {
         let answer = if table.get("choices").is_some() || observes {
             if kind == Kind::Calculate {
                 let fault = " does not go with kind = \"calculate\": a calculation ends in a number";
-                self.key_fault(table.line_of("choices"), table.block, "choices", fault);
+                self.key_fault(table, "choices", fault);
                 return None;
             }
             self.choices(table)?
         } else {
             self.needs(table, "answer", "a number, or with choices the number of the right one");
-            let (value, _) = self.number(table, "answer")?;
-            let unit = self.string(table, "unit").map_or_else(String::new, |(unit, _)| unit);
-            let (within, line) = self.number(table, "within").unwrap_or((WITHIN, table.first_line()));
+            let value = self.number(table, "answer")?;
+            let unit = self.string(table, "unit").unwrap_or_default();
+            let within = self.number(table, "within").unwrap_or(WITHIN);
             if !(within > 0.0 && within <= 1.0) {
                 let fault = format!(" = {within} is out of range: allowed above 0 to 1, relative to the answer");
-                self.key_fault(line, QUESTION, "within", fault);
+                self.key_fault(table, "within", fault);
             }
             Answer::Number { value, unit, within }
         };
@@ -161,10 +159,10 @@ impl Reader<'_> {
     }
 
     fn kind(&mut self, table: &Table<'_>) -> Kind {
-        let Some((name, line)) = self.string(table, "kind") else { return Kind::Predict };
+        let Some(name) = self.string(table, "kind") else { return Kind::Predict };
         let found = KINDS.iter().find(|(known, _)| *known == name);
         if found.is_none() {
-            self.not_one_of(line, QUESTION, "kind", &name, &KINDS.map(|(known, _)| known));
+            self.not_one_of(table, "kind", table.line_of("kind"), &name, &KINDS.map(|(known, _)| known));
         }
         found.map_or(Kind::Predict, |(_, kind)| *kind)
     }
@@ -175,19 +173,19 @@ impl Reader<'_> {
         self.needs(table, "choices", "a list of answers");
         self.needs(table, "answer", "the number of the right choice, from 1");
         let replies = self.texts(table, "replies");
-        let (answer, line) = self.number(table, "answer")?;
+        let answer = self.number(table, "answer")?;
         let choices = choices?;
         let right = answer.fract() == 0.0 && answer >= 1.0 && answer <= choices.len() as f64;
         if !right || choices.len() < 2 {
             let fault = format!(" = {answer} is out of range: allowed 1 to {}, of at least 2 choices", choices.len());
-            self.key_fault(line, table.block, "answer", fault);
+            self.key_fault(table, "answer", fault);
             return None;
         }
         if !replies.is_empty() && replies.len() != choices.len() {
             let (found, wanted) = (replies.len(), choices.len());
             let allowed = format!("allowed {wanted}, one for each choice, \"\" for the right one");
             let fault = format!(" = {found} texts is out of range: {allowed}");
-            self.key_fault(table.line_of("replies"), table.block, "replies", fault);
+            self.key_fault(table, "replies", fault);
         }
         let replies = replies.into_iter().chain(std::iter::repeat(Vec::new()));
         let choices = choices.into_iter().zip(replies).map(|(text, reply)| Choice { text, reply }).collect();
@@ -209,9 +207,9 @@ impl Reader<'_> {
     }
 
     fn check(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Option<Check> {
-        let (source, line) = self.string(table, key)?;
+        let source = self.string(table, key)?;
         let check = Check::parse(&source, scene);
-        check.map_err(|error| self.key_fault(line, TASK, key, format!(" = \"{source}\": {error}"))).ok()
+        check.map_err(|error| self.key_fault(table, key, format!(" = \"{source}\": {error}"))).ok()
     }
 
     /// Changes of `scene`, which have to be allowed, and actions in a tab.
@@ -231,7 +229,7 @@ impl Reader<'_> {
             }
         }
         if let Err(error) = scene.with(&doing.changes) {
-            self.key_fault(table.line_of(key), TASK, key, format!(": {error}"));
+            self.key_fault(table, key, format!(": {error}"));
         }
         doing
     }
@@ -245,7 +243,7 @@ impl Reader<'_> {
     fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
         let Some((name, value)) = text.split_once('=') else {
             let expected = "expected \"key = value\", as in \"film.min_spacing_nm = 100\"";
-            self.key_fault(line, table.block, key, format!(": \"{text}\" is no change: {expected}"));
+            self.line_fault(table, key, line, format!(": \"{text}\" is no change: {expected}"));
             return None;
         };
         let value = value.trim();

@@ -1,9 +1,8 @@
 //! The state of the reader of a lesson (its origin, the names it may use, the faults found so far), and how it reads the TOML of a block.
 
-use crate::lessons::check::Reading;
 use crate::lessons::error::LessonError;
 use crate::lessons::lesson::WindowNames;
-use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
+use crate::lessons::text::{self, Block, Inline, Outside, Pictures};
 use crate::scene::{Scene, SceneError};
 use std::fmt::Display;
 use std::path::Path;
@@ -42,24 +41,25 @@ impl Reader<'_> {
     }
 
     /// Something is wrong with a key of a block. `fault`, the value as written and what is allowed, follows the key in the message.
-    pub(super) fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: impl Display) {
-        self.fault(line, format!("{block}.{key}{fault}"));
+    pub(super) fn key_fault(&mut self, table: &Table<'_>, key: &str, fault: impl Display) {
+        self.line_fault(table, key, table.line_of(key), fault);
+    }
+
+    /// Likewise, in this line of its value.
+    pub(super) fn line_fault(&mut self, table: &Table<'_>, key: &str, line: usize, fault: impl Display) {
+        self.fault(line, format!("{}.{key}{fault}", table.block));
     }
 
     /// The value `found` of a key is none of those that are `allowed`.
-    pub(super) fn not_one_of(&mut self, line: usize, block: &'static str, key: &str, found: &str, allowed: &[&str]) {
-        self.key_fault(
-            line,
-            block,
-            key,
-            format!(" = \"{found}\" is not known: expected one of {}", allowed.join(", ")),
-        );
+    pub(super) fn not_one_of(&mut self, table: &Table<'_>, key: &str, line: usize, found: &str, allowed: &[&str]) {
+        let fault = format!(" = \"{found}\" is not known: expected one of {}", allowed.join(", "));
+        self.line_fault(table, key, line, fault);
     }
 
     /// Adds a fault if a block lacks a required key; `what` describes the key.
     pub(super) fn needs(&mut self, table: &Table<'_>, key: &str, what: &str) {
         if table.get(key).is_none() {
-            self.key_fault(table.first_line(), table.block, key, format!(" is missing: {what}"));
+            self.key_fault(table, key, format!(" is missing: {what}"));
         }
     }
 
@@ -79,7 +79,7 @@ impl Reader<'_> {
                     let name = key.get_ref().as_ref();
                     if !keys.contains(&name) {
                         let fault = format!(" is not known: expected one of {}", keys.join(", "));
-                        self.key_fault(table.line(key.span().start), block, name, fault);
+                        self.line_fault(&table, name, table.line(key.span().start), fault);
                     }
                 }
                 read(self, &table)
@@ -106,19 +106,14 @@ impl Reader<'_> {
     }
 
     /// Text that may quote numbers of a run of the present scene; a fault comes with its line, from 0.
-    fn formatted(&self, text: &str) -> Result<Vec<Block>, (usize, TextError)> {
-        match &self.scene {
-            Some(scene) => {
-                let numbers = |number: &str| Reading::parse(number, scene);
-                text::blocks(text, Some(Outside { numbers: &numbers, pictures: self.beside.pictures }))
-            }
-            None => text::blocks(text, None),
-        }
+    fn formatted(&self, text: &str) -> Result<Vec<Block>, (usize, String)> {
+        let pictures = self.beside.pictures;
+        text::blocks(text, self.scene.as_ref().map(|scene| Outside { scene, pictures }))
     }
 
     /// The text of a key as it was read; `None`, with a fault added, if it could not be.
-    fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, TextError>) -> Option<T> {
-        read.map_err(|error| self.key_fault(line, table.block, key, format!(": {error}"))).ok()
+    fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, String>) -> Option<T> {
+        read.map_err(|error| self.line_fault(table, key, line, format!(": {error}"))).ok()
     }
 
     /// A list of texts as lines; `None` if one cannot be read.
@@ -144,38 +139,29 @@ impl Reader<'_> {
     pub(super) fn blocks(&mut self, table: &Table<'_>, key: &'static str, needed: Option<&'static str>) -> Vec<Block> {
         needed.into_iter().for_each(|what| self.needs(table, key, what));
         let text = self.string(table, key);
-        text.and_then(|(text, line)| self.block(table, key, &text, line)).unwrap_or_default()
+        text.and_then(|text| self.block(table, key, &text, table.line_of(key))).unwrap_or_default()
     }
 
-    /// A text as it is written, and its line.
-    pub(super) fn string(&mut self, table: &Table<'_>, key: &'static str) -> Option<(String, usize)> {
+    /// A text as it is written.
+    pub(super) fn string(&mut self, table: &Table<'_>, key: &'static str) -> Option<String> {
         let value = table.get(key)?;
-        let line = table.line(value.span().start);
-        let text = value.get_ref().as_str().map(|text| (text.to_owned(), line));
+        let text = value.get_ref().as_str().map(str::to_owned);
         if text.is_none() {
             self.wrong_type(table, key, value, "text in quotes");
         }
         text
     }
 
-    /// A finite number, and its line.
-    pub(super) fn number(&mut self, table: &Table<'_>, key: &'static str) -> Option<(f64, usize)> {
+    /// A finite number.
+    pub(super) fn number(&mut self, table: &Table<'_>, key: &'static str) -> Option<f64> {
         let value = table.get(key)?;
-        let line = table.line(value.span().start);
-        let number = match value.get_ref() {
-            DeValue::Integer(_) | DeValue::Float(_) => table.piece.text[value.span()].replace('_', "").parse::<f64>(),
-            _ => {
-                self.wrong_type(table, key, value, "a number");
-                return None;
-            }
-        };
-        match number {
-            Ok(number) if number.is_finite() => Some((number, line)),
-            _ => {
-                self.wrong_type(table, key, value, "a finite decimal number");
-                None
-            }
+        let written = table.piece.text[value.span()].replace('_', "");
+        let number = written.parse().ok().filter(|number: &f64| number.is_finite());
+        if number.is_none() {
+            let is_number = matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_));
+            self.wrong_type(table, key, value, if is_number { "a finite decimal number" } else { "a number" });
         }
+        number
     }
 
     /// A list of texts with their lines.
@@ -205,7 +191,7 @@ impl Reader<'_> {
         const LONGEST: usize = 60;
         let found: String = table.piece.text[value.span()].chars().take(LONGEST).collect();
         let fault = format!(" = {found} is of the wrong type: expected {expected}");
-        self.key_fault(table.line(value.span().start), table.block, key, fault);
+        self.line_fault(table, key, table.line(value.span().start), fault);
     }
 }
 
@@ -218,7 +204,7 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     pub(super) fn get(&self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
-        self.tree.iter().find(|(found, _)| found.get_ref().as_ref() == key).map(|(_, value)| value)
+        self.tree.get(key)
     }
 
     /// Line in the file of a byte of the block.
@@ -228,12 +214,7 @@ impl<'a> Table<'a> {
 
     /// Line of the value of a key, or of the fence if there is no such key.
     pub(super) fn line_of(&self, key: &str) -> usize {
-        self.get(key).map_or(self.first_line(), |value| self.line(value.span().start))
-    }
-
-    /// The line of the fence.
-    pub(super) fn first_line(&self) -> usize {
-        self.piece.line - 1
+        self.get(key).map_or(self.piece.line - 1, |value| self.line(value.span().start))
     }
 }
 

@@ -29,8 +29,8 @@ pub(super) fn commit_label(kind: Kind) -> &'static str {
 pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look, told: bool, cx: &DrawContext<'_>) {
     let value = |reading: &_| cx.state.lessons.quoted(reading, cx.state.document.scene(), told);
     let fill = |block: &Block| match block {
-        Block::Paragraph(parts) => Block::Paragraph(filled(parts, &value).into_owned()),
-        Block::Item(parts) => Block::Item(filled(parts, &value).into_owned()),
+        Block::Paragraph(parts) => Block::Paragraph(filled(parts, &value)),
+        Block::Item(parts) => Block::Item(filled(parts, &value)),
         other => other.clone(),
     };
     rich::blocks(ui, &blocks.iter().map(fill).collect::<Vec<_>>(), look);
