@@ -62,7 +62,8 @@ pub fn to_png(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
 /// The figure as a PDF of one page, its text as text.
 pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let drawing = Drawing::new(figure);
-    render::pdf(&drawing, &drawing.svg(figure, false), &facts(figure))
+    let svg = drawing.svg(figure, false);
+    render::pdf(&[(drawing, svg)], &facts(figure))
 }
 
 /// The figure in a format, a PNG in print's resolution.

@@ -3,7 +3,6 @@
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
 use super::svg::{Picture, Rect};
-use super::text::FAMILIES;
 use crate::platform::{dejavu, liberation};
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
@@ -34,11 +33,6 @@ pub(super) fn pixels(
         *colour = [*r, *g, *b];
     }
     Ok(Pixels { width: pixmap.width(), height: pixmap.height(), rgb })
-}
-
-/// A drawing as a PDF of one page, with its text as text.
-pub(super) fn pdf(drawing: &Drawing, svg: &str, facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
-    document(&[Page { size: drawing.size, pictures: &drawing.pictures, svg }], facts)
 }
 
 /// The drawing as the renderers read it.
@@ -72,17 +66,8 @@ fn options() -> usvg::Options<'static> {
     usvg::Options { fontdb: Arc::clone(&FONTS), font_family: "Liberation Sans".to_owned(), ..usvg::Options::default() }
 }
 
-/// A page: pictures, and the drawing over them.
-struct Page<'a> {
-    /// Width and height \[pt\].
-    size: [f64; 2],
-    pictures: &'a [Picture],
-    /// The drawing, an SVG.
-    svg: &'a str,
-}
-
-/// Pages as a PDF, their text as text.
-fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
+/// Drawings as the pages of a PDF, each with its SVG without background and pictures, their text as text.
+pub(super) fn pdf(pages: &[(Drawing, String)], facts: &[(&str, String)]) -> Result<Vec<u8>, FigureError> {
     let failed = |error: &dyn std::fmt::Display| FigureError::Draw(error.to_string());
     let mut next = Ref::new(1);
     let [catalog, all, info] = [(); 3].map(|()| next.bump());
@@ -90,7 +75,7 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(all);
     pdf.pages(all).kids(leaves.iter().copied()).count(i32::try_from(leaves.len()).unwrap_or(i32::MAX));
-    for (Page { size, pictures, svg }, leaf) in pages.iter().zip(leaves) {
+    for ((Drawing { size, pictures, .. }, svg), leaf) in pages.iter().zip(leaves) {
         let options = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
         let (chunk, drawn) = svg2pdf::to_chunk(&tree(svg)?, options).map_err(|error| failed(&error))?;
         let mut renamed = HashMap::new();
@@ -125,7 +110,7 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
         operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
         operations.x_object(Name(b"Drawing"));
         pdf.stream(content, &operations.finish());
-        for (image, picture) in images.iter().zip(*pictures) {
+        for (image, picture) in images.iter().zip(pictures) {
             let packed = deflated(&picture.rgb).map_err(|error| failed(&error))?;
             let mut object = pdf.image_xobject(*image, &packed);
             object.filter(Filter::FlateDecode);
@@ -145,19 +130,6 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
     }
     about.finish();
     Ok(pdf.finish())
-}
-
-/// Pages of a size \[pt\], each the body of an SVG, as one PDF, their text as text.
-pub(super) fn svg_pages(title: &str, size: [f64; 2], pages: &[String]) -> Result<Vec<u8>, FigureError> {
-    let [width, height] = size;
-    let drawing = |body: &String| {
-        format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
-        )
-    };
-    let drawings: Vec<String> = pages.iter().map(drawing).collect();
-    let pages: Vec<Page<'_>> = drawings.iter().map(|svg| Page { size, pictures: &[], svg }).collect();
-    document(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
 fn deflated(bytes: &[u8]) -> std::io::Result<Vec<u8>> {

@@ -2,14 +2,15 @@
 //! largest type in which it fits on one page.
 
 use super::colour::Colour;
+use super::drawing::Drawing;
 use super::error::FigureError;
-use super::render::svg_pages;
+use super::render;
 use super::svg::{Pen, Rect, Svg, Type};
-use super::text::wrapped;
+use super::text::{FAMILIES, wrapped};
 use serde::{Deserialize, Serialize};
 
 /// A4 \[pt\].
-pub(super) const PAGE: [f64; 2] = [595.28, 841.89];
+const PAGE: [f64; 2] = [595.28, 841.89];
 const MARGIN: f64 = 42.0;
 const COLUMNS: usize = 2;
 /// Between columns.
@@ -52,7 +53,15 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
         let fitting = SIZES.iter().map(|size| set(sheet, *size)).find(|pages| pages.len() < 2);
         pages.extend(fitting.unwrap_or_else(|| set(sheet, SIZES[SIZES.len() - 1])));
     }
-    svg_pages(title, PAGE, &pages)
+    let [width, height] = PAGE;
+    let page = |body: String| {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
+        );
+        (Drawing { size: PAGE, pictures: Vec::new(), body }, svg)
+    };
+    let pages: Vec<(Drawing, String)> = pages.into_iter().map(page).collect();
+    render::pdf(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
 /// A sheet in type of this size: the body of each of its pages.
