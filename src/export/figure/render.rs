@@ -43,13 +43,13 @@ fn tree(svg: &str) -> Result<Tree, FigureError> {
 /// Puts a picture where it belongs.
 fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
     let Rect { x, y, width, height } = picture.rect;
-    let [columns, rows] = picture.size;
-    let Some(mut stamp) = Pixmap::new(columns as u32, rows as u32) else { return };
-    for (pixel, rgb) in stamp.data_mut().chunks_exact_mut(4).zip(picture.rgb.chunks_exact(3)) {
+    let Pixels { width: columns, height: rows, rgb } = &picture.pixels;
+    let Some(mut stamp) = Pixmap::new(*columns, *rows) else { return };
+    for (pixel, rgb) in stamp.data_mut().chunks_exact_mut(4).zip(rgb.chunks_exact(3)) {
         pixel[..3].copy_from_slice(rgb);
         pixel[3] = 255;
     }
-    let (sx, sy) = (width * scale / columns as f64, height * scale / rows as f64);
+    let (sx, sy) = (width * scale / f64::from(*columns), height * scale / f64::from(*rows));
     let place = Transform::from_row(sx as f32, 0.0, 0.0, sy as f32, (x * scale) as f32, (y * scale) as f32);
     pixmap.draw_pixmap(0, 0, stamp.as_ref(), &PixmapPaint::default(), place, None);
 }
@@ -110,11 +110,11 @@ pub(super) fn pdf(pages: &[(Drawing, String)], facts: &[(&str, String)]) -> Resu
         operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
         operations.x_object(Name(b"Drawing"));
         pdf.stream(content, &operations.finish());
-        for (image, picture) in images.iter().zip(pictures) {
-            let packed = deflated(&picture.rgb).map_err(|error| failed(&error))?;
+        for (image, Picture { pixels, .. }) in images.iter().zip(pictures) {
+            let packed = deflated(&pixels.rgb).map_err(|error| failed(&error))?;
             let mut object = pdf.image_xobject(*image, &packed);
             object.filter(Filter::FlateDecode);
-            let [columns, rows] = picture.size.map(|count| i32::try_from(count).unwrap_or(i32::MAX));
+            let [columns, rows] = [pixels.width, pixels.height].map(|count| i32::try_from(count).unwrap_or(i32::MAX));
             object.width(columns).height(rows).bits_per_component(8).color_space().device_rgb();
         }
         pdf.extend(&chunk);

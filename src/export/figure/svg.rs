@@ -1,6 +1,7 @@
 //! An SVG as it grows: lines, areas, text and pictures, in points from the upper left corner.
 
 use super::colour::Colour;
+use super::error::Pixels;
 use super::style::{Dash, Marker, Shape};
 use super::text::{SMALL, Script, pieces, plain, width};
 use std::fmt::Write as _;
@@ -39,12 +40,10 @@ impl Rect {
     }
 }
 
-/// A picture under the drawing: rows of red, green, blue from the top.
-#[derive(Clone, Debug)]
+/// A picture under the drawing.
 pub(super) struct Picture {
     pub(super) rect: Rect,
-    pub(super) size: [usize; 2],
-    pub(super) rgb: Vec<u8>,
+    pub(super) pixels: Pixels,
 }
 
 /// How a line is drawn.
