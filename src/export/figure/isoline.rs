@@ -1,6 +1,6 @@
 //! Lines of equal value with their values written into them.
 
-use super::geometry::distance;
+use super::geometry::{along, distance};
 use super::svg::{Pen, Svg, Type};
 use super::text;
 
@@ -26,11 +26,9 @@ impl Isoline {
     pub(super) fn new(line: Vec<[f64; 2]>, label: &str, pen: Pen) -> Self {
         let mut points = Vec::new();
         for pair in line.windows(2) {
-            let steps = (distance(pair[0], pair[1]) / STEP).ceil().max(1.0);
-            for i in 0..steps as usize {
-                let t = i as f64 / steps;
-                points.push(([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])), i == 0));
-            }
+            points.extend(along(pair[0], pair[1], STEP).enumerate().map(|(i, point)| (point, i == 0)));
+            // The end is the next one's beginning.
+            points.pop();
         }
         points.extend(line.last().map(|last| (*last, true)));
         Self { points, label: label.to_owned(), pen }

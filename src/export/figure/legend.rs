@@ -1,7 +1,7 @@
 //! The names of the layers: which there are, and where they stand.
 
 use super::description::{Legend, Panel};
-use super::geometry::{clipped_line, distance};
+use super::geometry::{along, clipped_line};
 use super::layers::{Band, Layer, Line};
 use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills, mark_ends};
 use super::scale::Scaled;
@@ -89,11 +89,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
         for part in clipped_line(line, area) {
             for pair in part.windows(2) {
-                let steps = (distance(pair[0], pair[1]) / 3.0).ceil().max(1.0);
-                for i in 0..=steps as usize {
-                    let t = i as f64 / steps;
-                    points.push([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])));
-                }
+                points.extend(along(pair[0], pair[1], 3.0));
             }
         }
     };

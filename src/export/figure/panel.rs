@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::axis::{Range, Scale};
 use super::colour::Colour;
 use super::description::Panel;
-use super::geometry::{clipped_area, clipped_line, contour, distance, is_contour};
+use super::geometry::{along, clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
 use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
 use super::legend::{covered, drawn};
@@ -84,7 +84,7 @@ pub(crate) fn names(
     ends: [[f64; 2]; 2],
     [width, height]: [f64; 2],
     words: impl Fn(&str) -> [f64; 2],
-) -> Vec<(String, [f64; 2], Option<[f64; 4]>)> {
+) -> Vec<(String, [f64; 2], Option<[[f64; 2]; 2]>)> {
     let ruler =
         |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
     let placed = Placed {
@@ -99,17 +99,10 @@ pub(crate) fn names(
 }
 
 /// The line from the rim of a point to its name, if that is not right beside it.
-fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[f64; 4]> {
+fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[[f64; 2]; 2]> {
     let near = [x.max(name.x).min(name.right()), y.max(name.y).min(name.bottom())];
     let share = RIM / distance([x, y], near);
-    (share < RIM / FAR).then(|| [x + share * (near[0] - x), y + share * (near[1] - y), near[0], near[1]])
-}
-
-/// Points along a line, at most a point of type apart.
-fn along([x, y, to_x, to_y]: [f64; 4]) -> Vec<[f64; 2]> {
-    let steps = distance([x, y], [to_x, to_y]).ceil().max(1.0);
-    let shares = (0..=steps as usize).map(|i| i as f64 / steps);
-    shares.map(|share| [x + share * (to_x - x), y + share * (to_y - y)]).collect()
+    (share < RIM / FAR).then(|| [[x + share * (near[0] - x), y + share * (near[1] - y)], near])
 }
 
 /// A panel at its place.
@@ -269,7 +262,8 @@ impl On<'_> {
 
     fn names(&self, svg: &mut Svg) {
         let names = self.named_places(|words| [text::width(words, NOTE), 0.8 * NOTE]);
-        let leaders: Vec<[f64; 4]> = names.iter().filter_map(|(_, at, place)| leader(*at, place)).collect();
+        let leaders = names.iter().filter_map(|(_, at, place)| leader(*at, place));
+        let leaders: Vec<[f64; 4]> = leaders.map(|[[x, y], [to_x, to_y]]| [x, y, to_x, to_y]).collect();
         if !leaders.is_empty() {
             svg.open(r#"class="leaders""#);
             svg.segments(&leaders, &Pen::solid(Colour::QUIET, 0.4));
@@ -302,7 +296,8 @@ impl On<'_> {
                 [beside, corners].concat()
             });
             let places: Vec<Rect> = places.concat().into_iter().map(|[x, y]| Rect { x, y, width, height }).collect();
-            let line = |rect: &Rect| leader([x, y], rect).map_or_else(Vec::new, along);
+            let line =
+                |rect: &Rect| leader([x, y], rect).map_or_else(Vec::new, |[from, to]| along(from, to, 1.0).collect());
             let crossed = |line: &[[f64; 2]]| written.iter().map(|name| covered(name, line)).sum::<usize>();
             let place = self.freest(&places, |rect| covered(rect, &taken) + crossed(&line(rect)));
             taken.extend(place.points().chain(line(&place)));
@@ -522,7 +517,7 @@ mod tests {
         let names = names(&panel, [[0.0, 200.0], [0.0, 150.0]], [200.0, 150.0], size);
         assert!(names.iter().any(|(.., line)| line.is_some()), "{names:?}");
         for (name, _, line) in &names {
-            let line = line.map_or_else(Vec::new, along);
+            let line = line.map_or_else(Vec::new, |[from, to]| along(from, to, 1.0).collect());
             for (other, [x, y], _) in names.iter().filter(|(other, ..)| other != name) {
                 let [width, height] = size(other);
                 assert_eq!(covered(&Rect { x: *x, y: *y, width, height }, &line), 0, "{name}, {other}: {names:?}");
