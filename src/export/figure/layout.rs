@@ -1,7 +1,7 @@
 //! Where everything stands on the paper: plotting areas that line up, with room for what is round them.
 
 use super::axis::{Axis, Scale};
-use super::description::{Figure, Legend, Panel};
+use super::description::{Figure, Panel};
 use super::layers::{Layer, Shading};
 use super::legend;
 use super::placed::{
@@ -283,7 +283,6 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
     for (column, [left, right]) in sides.iter().enumerate() {
         for i in (column..panels.len()).step_by(columns) {
             let placed = &mut panels[i];
-            placed.rect.x = x + left;
             placed.rect.width = plot;
             let (axis, range) = (&figure.panels[i].x, placed.x.range);
             placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot, ((plot / 26.0) as usize).clamp(2, 9)));
@@ -294,9 +293,8 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
                 let (axis, range) = (Axis::new(&map.label, &map.unit), bar.ruler.range);
                 bar.ruler = Ruler::new(&axis, range, level_ticks(&axis, &range, width, 4));
             }
-            if figure.panels[i].legend != Legend::None {
-                legend::choose(placed, &figure.panels[i]);
-            }
+            legend::choose(placed, &figure.panels[i]);
+            placed.rect.x = x + left;
         }
         x += left + plot + right + COLUMN_GAP;
     }

@@ -3,8 +3,7 @@
 use super::description::{Legend, Panel};
 use super::geometry::{along, clipped_line};
 use super::layers::{Band, Layer, Line};
-use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills, mark_ends};
-use super::scale::Scaled;
+use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills};
 use super::svg::Rect;
 
 /// Between names in a row.
@@ -39,8 +38,8 @@ pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
     entries
 }
 
-/// Decides where the legend goes. A legend inside is placed at once, relative to the plotting area; one above when the
-/// area has its top.
+/// Decides where the legend goes, of a plotting area that still has its corner at the origin. A legend inside is placed at once; one above
+/// when the area has its place.
 pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let entries = entries(panel);
     if entries.is_empty() || panel.legend != Legend::Auto || fills(panel) {
@@ -49,11 +48,11 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let line = LEADING * NOTE;
     let (width, height) =
         (entries.iter().map(Entry::width).fold(0.0, f64::max) + 2.0 * SPACE, entries.len() as f64 * line + SPACE);
-    let area = Rect { x: 0.0, y: 0.0, ..placed.rect };
+    let area = placed.rect;
     if width + 2.0 * INSET > area.width || width * height > MOST * area.width * area.height || height > area.height {
         return;
     }
-    let drawn = drawn(placed, panel, &area, true);
+    let drawn = drawn(placed, panel, true);
     let (left, right) = (INSET, area.width - INSET - width);
     let (top, bottom) = (INSET, area.height - INSET - height);
     // Corners first, then along the sides, then anywhere.
@@ -80,38 +79,34 @@ pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
     points.iter().filter(|point| wide.holds(**point)).count()
 }
 
-/// Points all along what is drawn, close together, in `area`; marks on request.
-pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) -> Vec<[f64; 2]> {
+/// Points all along what is drawn, close together; marks on request.
+pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
-    let at = |y: &Scaled, p: [f64; 2]| {
-        [area.x + placed.x.range.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
-    };
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
-        for part in clipped_line(line, area) {
+        for part in clipped_line(line, &placed.rect) {
             for pair in part.windows(2) {
                 points.extend(along(pair[0], pair[1], 3.0));
             }
         }
     };
-    let (mut single, y) = (Vec::new(), &placed.y.range);
+    let mut single = Vec::new();
     for layer in &panel.layers {
         match layer {
-            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(placed.upright(line.right), *p))),
+            Layer::Line(line) => path(&mut line.points.iter().map(|p| placed.at(*p, line.right))),
             Layer::Band(band) => {
                 for [x, low, high] in &band.points {
-                    path(&mut [*low, *high].map(|end| at(y, [*x, end])).into_iter());
+                    path(&mut [*low, *high].map(|end| placed.at([*x, end], false)).into_iter());
                 }
             }
             Layer::Points(cloud) => {
                 for (i, [x, value]) in cloud.points.iter().enumerate() {
                     let error = cloud.error(i);
-                    single.push(at(y, [*x, *value]));
-                    path(&mut [value - error, value + error].map(|end| at(y, [*x, end])).into_iter());
+                    single.push(placed.at([*x, *value], false));
+                    path(&mut [value - error, value + error].map(|end| placed.at([*x, end], false)).into_iter());
                 }
             }
             Layer::Mark(mark) if marks => {
-                let [from, to] = mark_ends(placed, mark, area);
-                path(&mut [from, to].into_iter());
+                path(&mut placed.mark_ends(mark).into_iter());
             }
             _ => {}
         }

@@ -10,7 +10,7 @@ use super::isoline::{self, Isoline};
 use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
 use super::legend::{covered, drawn};
 use super::placed::{
-    Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range, mark_ends,
+    Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range,
 };
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
@@ -128,23 +128,11 @@ impl On<'_> {
         )
     }
 
-    fn px(&self, x: f64) -> f64 {
-        self.placed.rect.x + self.placed.x.range.fraction(x) * self.placed.rect.width
-    }
-
-    fn py(&self, y: f64, right: bool) -> f64 {
-        self.placed.rect.bottom() - self.placed.upright(right).fraction(y) * self.placed.rect.height
-    }
-
-    fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
-        [self.px(x), self.py(y, right)]
-    }
-
     fn line(&self, svg: &mut Svg, line: &Line, curve: usize) {
         let style = &line.style;
         let pen = pen(style);
         svg.open(&named("line", &line.name));
-        let all = line.points.iter().map(|point| self.at(*point, line.right));
+        let all = line.points.iter().map(|point| self.placed.at(*point, line.right));
         for part in clipped_line(all, &self.placed.rect) {
             svg.polyline(&part, &pen);
         }
@@ -152,7 +140,7 @@ impl On<'_> {
             let shown: Vec<[f64; 2]> = line
                 .points
                 .iter()
-                .map(|point| self.at(*point, line.right))
+                .map(|point| self.placed.at(*point, line.right))
                 .filter(|point| self.placed.rect.holds(*point))
                 .collect();
             for point in sparse(&shown, curve) {
@@ -164,7 +152,7 @@ impl On<'_> {
 
     fn band(&self, svg: &mut Svg, band: &Band) {
         svg.open(&named("band", &band.name));
-        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], false), self.at([p[0], p[2]], false)];
+        let at = |p: &[f64; 3]| [self.placed.at([p[0], p[1]], false), self.placed.at([p[0], p[2]], false)];
         let known = |p: &[f64; 3]| at(p).iter().flatten().all(|c| !c.is_nan());
         for run in band.points.split(|p| !known(p)) {
             let there = run.iter().map(|p| at(p)[0]);
@@ -178,7 +166,7 @@ impl On<'_> {
     fn points(&self, svg: &mut Svg, points: &Points) {
         svg.open(&named("points", &points.name));
         let rect = &self.placed.rect;
-        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, false)));
+        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.placed.at(*p, false)));
         let mut bars = Vec::new();
         for (i, [x, y], _) in shown() {
             let error = points.error(i);
@@ -187,7 +175,7 @@ impl On<'_> {
             }
             // What a logarithmic axis cannot show of a bar is below it.
             let ends = [y + error, y - error].map(|y| {
-                let [px, py] = self.at([x, y], false);
+                let [px, py] = self.placed.at([x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
             });
             for part in clipped_line(ends.into_iter(), rect) {
@@ -210,7 +198,7 @@ impl On<'_> {
 
     fn mark(&self, svg: &mut Svg, mark: &Mark) {
         let rect = &self.placed.rect;
-        let [from, to] = mark_ends(self.placed, mark, rect);
+        let [from, to] = self.placed.mark_ends(mark);
         if !(rect.holds(from) && rect.holds(to)) {
             return;
         }
@@ -255,7 +243,7 @@ impl On<'_> {
 
     /// Points all over what is drawn, the legend too; marks on request.
     fn taken(&self, marks: bool) -> Vec<[f64; 2]> {
-        let mut taken = drawn(self.placed, self.panel, &self.placed.rect, marks);
+        let mut taken = drawn(self.placed, self.panel, marks);
         taken.extend(self.placed.legend_box.iter().flat_map(Rect::points));
         taken
     }
@@ -280,7 +268,7 @@ impl On<'_> {
     fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
+            Layer::Text(words) => Some((words, self.placed.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
             _ => None,
         });
         let names: Vec<(&Text, [f64; 2])> = names.collect();
@@ -312,8 +300,8 @@ impl On<'_> {
         let Some(error) = map.contours.filter(|_| plane::fits(x, y, values.len())) else { return };
         let (levels, step) = levels(values, error);
         // Places first, so that lines are straight on paper on either kind of axis.
-        let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
-        let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
+        let px: Vec<f64> = x.iter().map(|x| self.placed.px(*x)).collect();
+        let py: Vec<f64> = y.iter().map(|y| self.placed.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
         let mut lines = Vec::new();
         for level in levels {
@@ -345,7 +333,7 @@ impl On<'_> {
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
         for tick in &x.ticks.ticks {
-            let at = rect.x + x.range.fraction(tick.at) * rect.width;
+            let at = self.placed.px(tick.at);
             strokes.push([at, rect.bottom(), at, rect.bottom() + length(tick.label.is_some())]);
             if let Some(label) = tick.label.as_ref().filter(|_| self.placed.x_labels) {
                 let baseline = rect.bottom() + MAJOR + GAP + 0.74 * TICK;

@@ -79,8 +79,30 @@ pub(super) struct Placed {
 
 impl Placed {
     /// The axis of what is read on the left, or on the right if there is one.
-    pub(super) fn upright(&self, right: bool) -> &Scaled {
+    fn upright(&self, right: bool) -> &Scaled {
         &self.right.as_ref().filter(|_| right).unwrap_or(&self.y).range
+    }
+
+    /// Where an x stands across the paper.
+    pub(super) fn px(&self, x: f64) -> f64 {
+        self.rect.x + self.x.range.fraction(x) * self.rect.width
+    }
+
+    /// Where a y stands down the paper, read on the left, or on the right.
+    pub(super) fn py(&self, y: f64, right: bool) -> f64 {
+        self.rect.bottom() - self.upright(right).fraction(y) * self.rect.height
+    }
+
+    pub(super) fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
+        [self.px(x), self.py(y, right)]
+    }
+
+    /// The ends of a mark across the axes.
+    pub(super) fn mark_ends(&self, mark: &Mark) -> [[f64; 2]; 2] {
+        match mark.direction {
+            Direction::Vertical => [self.rect.bottom(), self.rect.y].map(|y| [self.px(mark.at), y]),
+            Direction::Horizontal => [self.rect.x, self.rect.right()].map(|x| [x, self.py(mark.at, false)]),
+        }
     }
 }
 
@@ -112,20 +134,6 @@ impl Entry {
     /// Width of sign and name.
     pub(super) fn width(&self) -> f64 {
         self.sample() + SPACE + text::width(&self.name, NOTE)
-    }
-}
-
-/// The ends of a mark across `rect`.
-pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
-    match mark.direction {
-        Direction::Vertical => {
-            let x = rect.x + placed.x.range.fraction(mark.at) * rect.width;
-            [[x, rect.bottom()], [x, rect.y]]
-        }
-        Direction::Horizontal => {
-            let y = rect.bottom() - placed.y.range.fraction(mark.at) * rect.height;
-            [[rect.x, y], [rect.right(), y]]
-        }
     }
 }
 
