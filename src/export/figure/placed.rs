@@ -4,10 +4,11 @@ use super::axis::{Axis, Scale};
 use super::colour::Colour;
 use super::description::Panel;
 use super::layers::{Direction, Layer, Map, Mark};
-use super::scale::{Scaled, Ticks, power};
+use super::scale::{Scaled, Ticks};
 use super::style::{Marker, Style};
 use super::svg::Rect;
 use super::text;
+use crate::digits::power_of_ten;
 
 /// Points in a millimetre.
 pub(super) const MM: f64 = 72.0 / 25.4;
@@ -137,9 +138,9 @@ impl Entry {
     }
 }
 
-/// `gap (10^{−9} m)`
+/// `gap (10⁻⁹ m)`
 fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
-    let factor = if exponent == 0 { String::new() } else { power(exponent) };
+    let factor = if exponent == 0 { String::new() } else { power_of_ten(f64::from(exponent)) };
     let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
     match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
         (_, true) => label.to_owned(),
