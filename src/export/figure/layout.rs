@@ -247,9 +247,7 @@ impl Placed {
         self.rect.y = top;
         let rect = self.rect;
         let legend = legend::height(self, panel);
-        if !panel.title.trim().is_empty() {
-            self.title = Some([rect.x, row + HEAD]);
-        }
+        self.title = [rect.x, row + HEAD];
         legend::place(self, panel);
         if let Some(bar) = &mut self.bar {
             bar.rect = if bar.upright {

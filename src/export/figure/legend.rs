@@ -13,8 +13,8 @@ const INSET: f64 = 4.0;
 /// A legend inside may cover this part of the plotting area.
 const MOST: f64 = 0.45;
 
-/// The names of a panel, in the order of its layers.
-pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
+/// The names of a panel that has a legend, in the order of its layers.
+fn entries(panel: &Panel) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let mut push = |sign: Sign, name: &str| {
         let entry = Entry { sign, name: name.to_owned() };
@@ -22,7 +22,7 @@ pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
             entries.push(entry);
         }
     };
-    for layer in &panel.layers {
+    for layer in panel.layers.iter().filter(|_| panel.legend != Legend::None) {
         match layer {
             Layer::Line(Line { name, style, .. }) => push(Sign::Line(*style), name),
             Layer::Band(Band { name, colour, opacity, .. }) => push(Sign::Patch(*colour, *opacity), name),
@@ -135,7 +135,7 @@ fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
 
 /// Height that a legend above the axes takes.
 pub(super) fn height(placed: &Placed, panel: &Panel) -> f64 {
-    if placed.legend_box.is_some() || panel.legend == Legend::None {
+    if placed.legend_box.is_some() {
         return 0.0;
     }
     let rows = in_rows(entries(panel), placed.rect.width).len();
@@ -151,9 +151,6 @@ pub(super) fn place(placed: &mut Placed, panel: &Panel) {
         for (_, at) in &mut placed.legend {
             *at = [at[0] + area.x, at[1] + area.y];
         }
-        return;
-    }
-    if panel.legend == Legend::None {
         return;
     }
     let rows = in_rows(entries(panel), area.width);

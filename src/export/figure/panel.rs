@@ -69,9 +69,7 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
         colour_bar(svg, bar);
     }
     on.legend(svg);
-    if let Some(at) = placed.title {
-        svg.text(at, &panel.title, &Type::new(HEAD, "start"));
-    }
+    svg.text(placed.title, &panel.title, &Type::new(HEAD, "start"));
     svg.close();
 }
 
@@ -473,8 +471,8 @@ fn levels(values: &[f64], error: f64) -> (Vec<f64>, f64) {
 
 /// Black or white, whichever shows on the map's colour of a value.
 fn contrast(map: &Map, value: f64) -> Colour {
-    let under = map_range(map).colour(map.colours, value);
-    if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
+    let under = map.colours.at(map_range(map).fraction(value));
+    if under.lightness() < 0.55 { Colour::WHITE } else { Colour::BLACK }
 }
 
 #[cfg(test)]

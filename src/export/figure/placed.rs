@@ -73,9 +73,9 @@ pub(super) struct Placed {
     pub(super) x_labels: bool,
     pub(super) bar: Option<Bar>,
     pub(super) legend: Vec<(Entry, [f64; 2])>,
-    /// A legend inside has a background.
+    /// Of a legend inside.
     pub(super) legend_box: Option<Rect>,
-    pub(super) title: Option<[f64; 2]>,
+    pub(super) title: [f64; 2],
 }
 
 impl Placed {

@@ -19,11 +19,7 @@ pub(super) fn fits(x: &[f64], y: &[f64], values: usize) -> bool {
 
 /// The ends of what nodes cover: themselves, or with half a cell beyond either.
 pub(super) fn ends(nodes: &[f64], cells: bool, log: bool) -> Vec<f64> {
-    let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else { return Vec::new() };
-    let [second, before] = match nodes {
-        [_] => return vec![*first],
-        _ => [nodes[1], nodes[nodes.len() - 2]],
-    };
+    let ([first, second, ..], [.., before, last]) = (nodes, nodes) else { return nodes.to_vec() };
     if !cells {
         return vec![*first, *last];
     }

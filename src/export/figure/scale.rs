@@ -2,7 +2,6 @@
 //! logarithmic.
 
 use super::axis::{Range, Scale, extent};
-use super::colour::{Colour, Colours};
 use crate::digits::{power_of_ten, short, signed};
 use crate::ticks::{Decimal, Steps, decades};
 
@@ -91,12 +90,6 @@ impl Scaled {
     pub(super) fn holds(&self, value: f64) -> bool {
         let fraction = self.fraction(value);
         (-1e-9..=1.0 + 1e-9).contains(&fraction)
-    }
-
-    /// The colour of a value over the range; none for what cannot be shown on it.
-    pub(super) fn colour(&self, colours: Colours, value: f64) -> Option<Colour> {
-        let shown = value.is_finite() && (self.scale == Scale::Linear || value > 0.0);
-        shown.then(|| colours.at(self.fraction(value)))
     }
 }
 
