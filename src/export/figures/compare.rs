@@ -1,7 +1,7 @@
 //! Figures of several runs: curves laid over each other, maps side by side with one scale of colours. All are at the same
 //! phase of the cycle, and axes cover the whole cycle of every run.
 
-use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span};
+use super::motor::{all_teeth, crest_in_the_middle, one_tooth, pressure_span};
 use super::plate;
 use super::series::{
     along, along_where_not_zero, over_cycle, phase as phase_of, pressure_map, rest, span, tooth_map, with_margin,
@@ -203,10 +203,10 @@ fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64
 
 /// The film's pressure under all teeth of every run, with one scale of colours.
 pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
-    let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let (span, _) = common_pressure(runs.iter().map(|run| run.recording));
     let mut figure = Figure::new(format!("pressure of the air film, t/T = {phase:.3}"));
     figure.panels.extend(runs.iter().map(|run| {
-        let map = all_teeth_on(run.recording, nearest_frame(run.recording, phase), &unit, scale, span);
+        let map = all_teeth(run.recording, nearest_frame(run.recording, phase), span);
         Panel { title: run.name.to_owned(), height: 11.0, ..map }
     }));
     figure.width = Width::Page;

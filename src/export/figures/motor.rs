@@ -169,14 +169,9 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
     figure
 }
 
-/// The film's pressure under all teeth, absolute.
-pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
-    let (unit, scale) = pressure_unit(pressure_span(recording)[1]);
-    all_teeth_on(recording, frame, &unit, scale, pressure_span(recording))
-}
-
-/// As [`all_teeth`], in `unit`, of which a pascal is `scale`, with colours that cover `span` \[Pa\].
-pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scale: f64, span: [f64; 2]) -> Panel {
+/// The film's pressure under all teeth, absolute, with colours that cover `span` \[Pa\].
+pub(super) fn all_teeth(recording: &Recording, frame: usize, span: [f64; 2]) -> Panel {
+    let (unit, scale) = pressure_unit(span[1]);
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
     // Of teeth without a groove between them, one ends where the next begins.
@@ -198,7 +193,7 @@ pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scal
         }
     }
     let grid = Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values };
-    let map = pressure_map(grid, unit, Range::Fixed(span[0] * scale, span[1] * scale));
+    let map = pressure_map(grid, &unit, Range::Fixed(span[0] * scale, span[1] * scale));
     Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
 }
 
@@ -208,7 +203,7 @@ pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
 
 /// Surfaces, pressures and the film's map at a frame, for moving pictures.
 pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut map = all_teeth(recording, frame);
+    let mut map = all_teeth(recording, frame, pressure_span(recording));
     map.title = "(c) air film from above".to_owned();
     let mut figure = Figure::new("")
         .panel(surfaces(motor, recording, frame).height(30.0))
@@ -228,9 +223,10 @@ pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit
 
 /// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
 pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut all = all_teeth(recording, frame).height(14.0);
+    let span = pressure_span(recording);
+    let mut all = all_teeth(recording, frame, span).height(14.0);
     all.title = "(a) all teeth".to_owned();
-    let one = one_tooth(recording, frame, Range::Auto, pressure_unit(pressure_span(recording)[1]));
+    let one = one_tooth(recording, frame, Range::Auto, pressure_unit(span[1]));
     let one = Panel { title: "(b) the tooth in the middle".to_owned(), ..one };
     let mut figure =
         Figure::new(format!("pressure of the air film, t/T = {:.3}", phase(recording, frame))).panel(all).panel(one);
@@ -251,21 +247,21 @@ mod tests {
     use crate::export::figure::Layer;
     use crate::recording::LineLoads;
 
-    /// Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts.
+    /// Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts in kPa.
     fn two_teeth(pitch: f64) -> Recording {
         Recording {
             lines: LineLoads { frames: 4, teeth: 2, stored_teeth: 1, pitch, ..LineLoads::default() },
             map_x: vec![-0.5e-3, 0.5e-3],
             map_y: vec![0.0, 1e-4],
             half_width: true,
-            pressure: (0..16).map(f64::from).collect(),
+            pressure: (0..16).map(|count| f64::from(count) * 1e3).collect(),
             ..Recording::default()
         }
     }
 
     #[test]
     fn teeth_without_grooves_are_one_map() {
-        let panel = all_teeth_on(&two_teeth(1e-3), 1, "hPa", 0.01, [0.0, 20.0]);
+        let panel = all_teeth(&two_teeth(1e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         assert_eq!((map.grid.x.as_slice(), map.grid.values.len()), ([-0.5, 0.5, 1.5].as_slice(), 9));
         assert!(map.grid.values.iter().all(|value| value.is_finite()));
@@ -273,7 +269,7 @@ mod tests {
 
     #[test]
     fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
-        let panel = all_teeth_on(&two_teeth(2e-3), 1, "hPa", 0.01, [0.0, 20.0]);
+        let panel = all_teeth(&two_teeth(2e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         let near = |found: &[f64], expected: &[f64]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(
@@ -282,8 +278,8 @@ mod tests {
             map.grid
         );
         let values = &map.grid.values;
-        assert!(near(&values[..6], &[0.05, 0.04, 0.05, 0.07, 0.06, 0.07]) && values[6..9].iter().all(|v| v.is_nan()));
-        assert!(values.len() == 15 && near(&values[9..], &[0.13, 0.12, 0.13, 0.15, 0.14, 0.15]), "{values:?}");
-        assert_eq!(map.range, Range::Fixed(0.0, 0.2));
+        assert!(near(&values[..6], &[5.0, 4.0, 5.0, 7.0, 6.0, 7.0]) && values[6..9].iter().all(|v| v.is_nan()));
+        assert!(values.len() == 15 && near(&values[9..], &[13.0, 12.0, 13.0, 15.0, 14.0, 15.0]), "{values:?}");
+        assert_eq!((map.unit.as_str(), &map.range), ("kPa", &Range::Fixed(0.0, 20.0)));
     }
 }
