@@ -59,7 +59,7 @@ pub fn motors(runs: &[MotorRun<'_>], performances: &[Performance]) -> Vec<(&'sta
 }
 
 /// The frame of a recording that is nearest to a phase of the cycle, 0 to 1.
-pub fn nearest_frame(recording: &Recording, phase: f64) -> usize {
+fn nearest_frame(recording: &Recording, phase: f64) -> usize {
     (phase * recording.frames as f64).round() as usize % recording.frames.max(1)
 }
 
@@ -271,9 +271,9 @@ fn plate_axis(runs: &[PlateRun<'_>]) -> (Axis, fn(&Plate) -> f64) {
 }
 
 fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
-    let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
-    let margin = 0.06 * (high - low);
-    let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let [low, high] = with_margin(span, 0.06);
+    let y = Axis::new("absolute pressure", unit).fixed(low * scale, high * scale);
     let (axis, length) = plate_axis(runs);
     let lines = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);

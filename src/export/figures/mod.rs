@@ -67,17 +67,12 @@ pub fn of(
         figures.push(("convergence", convergence(history)));
     }
     figures.extend(curves.map(|curves| ("torque", torque::torque(curves))));
-    figures.into_iter().map(|(name, figure)| (name, dressed(problem, solution, figure))).collect()
-}
-
-/// With the scene's name above, and where its numbers come from below.
-fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
-    figure.title = match figure.title.as_str() {
-        "" => show_text(&problem.name),
-        title => format!("{}: {title}", show_text(&problem.name)),
-    };
-    figure.provenance = Provenance::of(problem, solution);
-    figure
+    // The scene's name above, and where the numbers come from below.
+    for (_, figure) in &mut figures {
+        figure.title = format!("{}: {}", show_text(&problem.name), figure.title);
+        figure.provenance = Provenance::of(problem, solution);
+    }
+    figures
 }
 
 /// The change in every round of every grid, and what it had to fall below.

@@ -1,6 +1,6 @@
 //! Figures of a plate.
 
-use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
+use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane, with_margin};
 use super::unit::{prefixed, pressure_unit};
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
@@ -130,12 +130,12 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
         ));
     }
     let ambient = plate.gas.ambient_pressure;
-    let [low, high] = span(recording.pressure.iter().copied(), ambient);
-    let (unit, scale) = pressure_unit(high);
-    let margin = 0.06 * (high - low);
+    let range = span(recording.pressure.iter().copied(), ambient);
+    let (unit, scale) = pressure_unit(range[1]);
+    let [low, high] = with_margin(range, 0.06);
     let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
     let area = points.iter().map(|[x, p]| [*x, ambient * scale, *p]);
-    let y = Axis::new(pressure_at_the_middle(plate), unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let y = Axis::new(pressure_at_the_middle(plate), unit).fixed(low * scale, high * scale);
     let pressure = Panel::new("(c) pressure", Axis::new("x", "mm").fixed(-half, half), y)
         .layer(Band::new("", area, Colour::FILM))
         .layer(rest(ambient * scale, ""))
