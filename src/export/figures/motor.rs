@@ -25,25 +25,23 @@ pub fn crest_in_the_middle(recording: &Recording) -> usize {
 
 /// Surfaces, contact pressure and film pressure along one wavelength at a frame, as the paper's Fig. 4.
 pub fn wave(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut figure = Figure::new(format!("t/T = {:.3}", phase(recording, frame)));
     let unit =
         |values: &[f64]| pressure_unit(span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1]);
     let ((contact_unit, scale), (film_unit, film_scale)) = (unit(&recording.contact), unit(&recording.film));
     let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &contact_unit, scale };
     let film = Loads { values: &recording.film, unit: &film_unit, scale: film_scale, ..contact };
-    figure.panels = vec![
+    let panels = vec![
         surfaces(motor, recording, frame).height(38.0),
         contact.panel("(b) contact pressure", Colour::CONTACT).height(26.0),
         film.panel("(c) film pressure, gauge", Colour::FILM).height(26.0),
     ];
-    figure.share_x = true;
-    figure.caption = format!(
+    let phase = phase(recording, frame);
+    let caption = format!(
         "Normal displacement of stator teeth and rotor (a), contact pressure (b) and gauge pressure of the air film (c), both \
-         averaged over the contact width, along one wavelength at t/T = {:.3}. The wave travels towards −x, the rotor is \
-         driven towards +x.",
-        phase(recording, frame)
+         averaged over the contact width, along one wavelength at t/T = {phase:.3}. The wave travels towards −x, the rotor is \
+         driven towards +x."
     );
-    figure
+    Figure { panels, share_x: true, caption, ..Figure::new(format!("t/T = {phase:.3}")) }
 }
 
 fn x_axis(recording: &Recording) -> Axis {
@@ -140,7 +138,7 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
     let curve = |name: &str, series: &[f64], style: Style| Line::new(name, over_cycle(series, scale), style);
     let load = Panel::new(
         "(a) load on one wavelength",
-        Axis::new("", ""),
+        Axis::new("", "").fixed(0.0, 1.0),
         Axis::new("load", &unit).including([0.0, motor.load * scale]),
     )
     .layer(Mark::horizontal(motor.load * scale, "axial load"))
@@ -156,17 +154,15 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
         Axis::new("touching", "").fixed(0.0, most + 0.5).whole(),
     )
     .layer(Line::new("", steps, Style::solid(Colour::BLACK)));
-    let mut figure = Figure::new("loads over the cycle").panel(load.height(38.0)).panel(teeth.height(16.0));
-    figure.panels[0].x.range = Range::Fixed(0.0, 1.0);
-    figure.share_x = true;
+    let panels = vec![load.height(38.0), teeth.height(16.0)];
     let (unit, seconds) = prefixed(recording.period, "s");
-    figure.caption = format!(
+    let caption = format!(
         "Contact load and load of the air film on one wavelength over one cycle of {} {unit}; together they carry the axial load, the thin \
          line. Below, how many of the {} teeth touch the rotor.",
         significant(recording.period * seconds, 4),
         recording.teeth
     );
-    figure
+    Figure { panels, share_x: true, caption, ..Figure::new("loads over the cycle") }
 }
 
 /// The film's pressure under all teeth, absolute, with colours that cover `span` \[Pa\].
@@ -205,13 +201,12 @@ pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
 pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     let mut map = all_teeth(recording, frame, pressure_span(recording));
     map.title = "(c) air film from above".to_owned();
-    let mut figure = Figure::new("")
-        .panel(surfaces(motor, recording, frame).height(30.0))
-        .panel(pressures(motor, recording, frame).height(24.0))
-        .panel(map.height(9.0));
-    figure.width = Width::Millimetres(130.0);
-    figure.share_x = true;
-    figure
+    let panels = vec![
+        surfaces(motor, recording, frame).height(30.0),
+        pressures(motor, recording, frame).height(24.0),
+        map.height(9.0),
+    ];
+    Figure { panels, width: Width::Millimetres(130.0), share_x: true, ..Figure::default() }
 }
 
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
@@ -228,17 +223,15 @@ pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     all.title = "(a) all teeth".to_owned();
     let one = one_tooth(recording, frame, Range::Auto, pressure_unit(span[1]));
     let one = Panel { title: "(b) the tooth in the middle".to_owned(), ..one };
-    let mut figure =
-        Figure::new(format!("pressure of the air film, t/T = {:.3}", phase(recording, frame))).panel(all).panel(one);
-    figure.width = Width::Page;
-    figure.caption = format!(
-        "Absolute pressure of the air film at t/T = {:.3}, under all {} teeth of one wavelength (a) and under the tooth on which the \
+    let phase = phase(recording, frame);
+    let caption = format!(
+        "Absolute pressure of the air film at t/T = {phase:.3}, under all {} teeth of one wavelength (a) and under the tooth on which the \
          crest is (b); colours of (a) cover the whole cycle. Teeth are {} mm wide along x.",
-        phase(recording, frame),
         recording.teeth,
         significant(motor.tooth_width * 1e3, 4)
     );
-    figure
+    let title = format!("pressure of the air film, t/T = {phase:.3}");
+    Figure { panels: vec![all, one], width: Width::Page, caption, ..Figure::new(title) }
 }
 
 #[cfg(test)]

@@ -145,11 +145,8 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     let mut load = loads(plate, recording).panels.remove(0);
     load.title = "(d) over the cycle".to_owned();
     load = load.layer(Mark::vertical(phase(recording, frame), ""));
-    let mut figure = Figure::new("");
-    figure.panels = vec![surfaces, round, pressure, load].into_iter().map(|panel| panel.height(32.0)).collect();
-    figure.columns = 2;
-    figure.width = Width::Millimetres(150.0);
-    figure
+    let panels = [surfaces, round, pressure, load].map(|panel| panel.height(32.0)).into();
+    Figure { panels, columns: 2, width: Width::Millimetres(150.0), ..Figure::default() }
 }
 
 /// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
@@ -169,12 +166,10 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     };
     let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, Range::Auto) };
     let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(map).height(60.0);
-    let mut figure = Figure::new(title).panel(panel);
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = if strip {
+    let caption = if strip {
         format!("Absolute pressure of the film along the {along} and over one cycle.")
     } else {
         "Absolute pressure of the film over the plate, at the instant at which it is greatest.".to_owned()
     };
-    figure
+    Figure { width: Width::Millimetres(110.0), caption, ..Figure::new(title) }.panel(panel)
 }
