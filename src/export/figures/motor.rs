@@ -25,15 +25,15 @@ pub fn crest_in_the_middle(recording: &Recording) -> usize {
 
 /// Surfaces, contact pressure and film pressure along one wavelength at a frame, as the paper's Fig. 4.
 pub fn wave(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let unit =
-        |values: &[f64]| pressure_unit(span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1]);
-    let ((contact_unit, scale), (film_unit, film_scale)) = (unit(&recording.contact), unit(&recording.film));
-    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &contact_unit, scale };
-    let film = Loads { values: &recording.film, unit: &film_unit, scale: film_scale, ..contact };
+    let pressure = |title: &str, loads: &[f64], colour: Colour| {
+        let (y, scale) = pressure_axis(motor, loads.iter());
+        let (area, curve) = area_and_curve(recording, frame, (loads, scale), "", Style::solid(colour));
+        Panel::new(title, x_axis(recording), y).layer(area).layer(rest(0.0, "")).layer(curve).height(26.0)
+    };
     let panels = vec![
         surfaces(motor, recording, frame).height(38.0),
-        contact.panel("(b) contact pressure", Colour::CONTACT).height(26.0),
-        film.panel("(c) film pressure, gauge", Colour::FILM).height(26.0),
+        pressure("(b) contact pressure", &recording.contact, Colour::CONTACT),
+        pressure("(c) film pressure, gauge", &recording.film, Colour::FILM),
     ];
     let phase = phase(recording, frame);
     let caption = format!(
@@ -81,48 +81,35 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
         .legend(Legend::Above)
 }
 
-/// A line load of all teeth as a pressure.
-#[derive(Clone, Copy)]
-struct Loads<'a> {
-    motor: &'a Motor,
-    recording: &'a Recording,
-    frame: usize,
-    values: &'a [f64],
-    unit: &'a str,
-    scale: f64,
+/// An axis for line loads as pressures, and what a load is on it.
+fn pressure_axis<'a>(motor: &Motor, loads: impl Iterator<Item = &'a f64> + Clone) -> (Axis, f64) {
+    let greatest = span(loads.clone().map(|load| (load / motor.contact_width).abs()), 0.0)[1];
+    let (unit, scale) = pressure_unit(greatest);
+    let scale = scale / motor.contact_width;
+    let [low, high] = with_margin(span(loads.map(|load| load * scale), 0.0), 0.06);
+    (Axis::new("pressure", unit).fixed(low, high), scale)
 }
 
-impl Loads<'_> {
-    /// One curve for each tooth, with a pale area below.
-    fn layers(&self, name: &str, colour: Colour, dash: Dash) -> (Band, Line) {
-        let per_width = self.scale / self.motor.contact_width;
-        let curve = along_where_not_zero(self.recording, self.frame, 1e3, |i| self.values[i] * per_width);
-        let area: Vec<[f64; 3]> = curve.iter().map(|[x, pressure]| [*x, 0.0, *pressure]).collect();
-        (Band::new("", area, colour), Line::new(name, curve, Style::solid(colour).dash(dash)))
-    }
-
-    fn axis(&self, also: &[f64]) -> Axis {
-        let per_width = self.scale / self.motor.contact_width;
-        let all = self.values.iter().chain(also).map(|load| load * per_width);
-        let [low, high] = with_margin(span(all, 0.0), 0.06);
-        Axis::new("pressure", self.unit).fixed(low, high)
-    }
-
-    fn panel(&self, title: &str, colour: Colour) -> Panel {
-        let (area, curve) = self.layers("", colour, Dash::Solid);
-        Panel::new(title, x_axis(self.recording), self.axis(&[])).layer(area).layer(rest(0.0, "")).layer(curve)
-    }
+/// A line load, `scale` times, as one curve for each tooth, with a pale area below.
+fn area_and_curve(
+    recording: &Recording,
+    frame: usize,
+    (loads, scale): (&[f64], f64),
+    name: &str,
+    style: Style,
+) -> (Band, Line) {
+    let curve = along_where_not_zero(recording, frame, 1e3, |i| loads[i] * scale);
+    let area = curve.iter().map(|[x, pressure]| [*x, 0.0, *pressure]);
+    (Band::new("", area, style.colour), Line::new(name, curve, style))
 }
 
 /// Contact pressure and film pressure in one panel.
 pub fn pressures(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
-    let all = recording.contact.iter().chain(&recording.film).map(|load| (load / motor.contact_width).abs());
-    let (unit, scale) = pressure_unit(span(all, 0.0)[1]);
-    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &unit, scale };
-    let film = Loads { values: &recording.film, ..contact };
-    let (contact_area, contact_line) = contact.layers("contact", Colour::CONTACT, Dash::Dashed);
-    let (film_area, film_line) = film.layers("air film, gauge", Colour::FILM, Dash::Solid);
-    let y = contact.axis(&recording.film);
+    let (y, scale) = pressure_axis(motor, recording.contact.iter().chain(&recording.film));
+    let of = |loads: &[f64], name: &str, style: Style| area_and_curve(recording, frame, (loads, scale), name, style);
+    let dashed = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+    let (contact_area, contact_line) = of(&recording.contact, "contact", dashed);
+    let (film_area, film_line) = of(&recording.film, "air film, gauge", Style::solid(Colour::FILM));
     Panel::new("(b) pressure on the teeth", x_axis(recording), y)
         .layer(contact_area)
         .layer(film_area)
