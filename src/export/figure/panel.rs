@@ -319,7 +319,7 @@ impl On<'_> {
         let Placed { rect, x, y, right, .. } = self.placed;
         let pen = Pen::solid(Colour::BLACK, THIN);
         if fills(self.panel) {
-            svg.rect(rect, Some(&pen), None);
+            svg.rect(rect, &pen, None);
         } else {
             let mut spines =
                 vec![[rect.x, rect.bottom(), rect.x, rect.y], [rect.x, rect.bottom(), rect.right(), rect.bottom()]];
@@ -369,7 +369,7 @@ impl On<'_> {
                 }
                 Sign::Patch(colour, opacity) => {
                     let patch = Rect { x: *x, y: y - 2.7, width: sample, height: 5.4 };
-                    svg.rect(&patch, Some(&Pen::solid(*colour, 0.4)), Some((*colour, *opacity)));
+                    svg.rect(&patch, &Pen::solid(*colour, 0.4), Some((*colour, *opacity)));
                 }
                 Sign::Point(marker, colour) => svg.marker([x + 0.5 * sample, *y], marker, *colour),
             }
@@ -437,7 +437,7 @@ fn upright_label(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) {
 fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
     let pen = Pen::solid(Colour::BLACK, THIN);
     svg.open(r#"class="bar""#);
-    svg.rect(rect, Some(&pen), None);
+    svg.rect(rect, &pen, None);
     let mut strokes = Vec::new();
     if *upright {
         strokes = upright_ticks(svg, ruler, rect, 1.0);

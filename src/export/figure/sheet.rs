@@ -183,7 +183,7 @@ impl Setter {
         let top = self.y - lines * LINE * size + 0.25 * size;
         let square = Rect { x: self.left(), y: top, width: 0.75 * size, height: 0.75 * size };
         let fill = ticked.then_some((Colour::FILM, 1.0));
-        self.draw(|page| page.rect(&square, Some(&Pen::solid(Colour::QUIET, 0.6)), fill));
+        self.draw(|page| page.rect(&square, &Pen::solid(Colour::QUIET, 0.6), fill));
     }
 
     fn ruled(&mut self, lines: usize) {

@@ -119,6 +119,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
+    /// Ends an element with how its line is drawn.
     fn stroke(&mut self, pen: &Pen) {
         let _ = write!(self.body, r#" stroke="{}" stroke-width="{}""#, pen.colour.hex(), coordinate(pen.width));
         let w = pen.width.max(0.4);
@@ -132,6 +133,7 @@ impl Svg {
             let list: Vec<String> = dashes.iter().map(|part| coordinate(part * w)).collect();
             let _ = write!(self.body, r#" stroke-dasharray="{}""#, list.join(" "));
         }
+        self.body.push_str("/>\n");
     }
 
     /// A line through points.
@@ -143,7 +145,6 @@ impl Svg {
         self.points(points);
         self.body.push('"');
         self.stroke(pen);
-        self.body.push_str("/>\n");
     }
 
     fn points(&mut self, points: &[[f64; 2]]) {
@@ -167,8 +168,8 @@ impl Svg {
         self.body.push_str("/>\n");
     }
 
-    /// A rectangle with an outline, a filling, or both.
-    pub(super) fn rect(&mut self, rect: &Rect, pen: Option<&Pen>, fill: Option<(Colour, f64)>) {
+    /// A rectangle with an outline, and a filling or none.
+    pub(super) fn rect(&mut self, rect: &Rect, pen: &Pen, fill: Option<(Colour, f64)>) {
         let [x, y, w, h] = [rect.x, rect.y, rect.width.max(0.0), rect.height.max(0.0)].map(coordinate);
         let _ = write!(self.body, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}""#);
         match fill {
@@ -177,10 +178,7 @@ impl Svg {
             }
             None => self.body.push_str(r#" fill="none""#),
         }
-        if let Some(pen) = pen {
-            self.stroke(pen);
-        }
-        self.body.push_str("/>\n");
+        self.stroke(pen);
     }
 
     /// Ticks and the like: many short lines in one path.
@@ -195,7 +193,6 @@ impl Svg {
         }
         self.body.push('"');
         self.stroke(pen);
-        self.body.push_str("/>\n");
     }
 
     /// A marker's sign.
@@ -227,7 +224,6 @@ impl Svg {
             let _ = write!(self.body, r#"" fill="{}""#, fill.hex());
         }
         self.stroke(&outline);
-        self.body.push_str("/>\n");
     }
 
     /// Words whose baseline is at a point.
