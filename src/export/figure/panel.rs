@@ -130,18 +130,13 @@ impl On<'_> {
         let style = &line.style;
         let pen = pen(style);
         svg.open(&named("line", &line.name));
-        let all = line.points.iter().map(|point| self.placed.at(*point, line.right));
-        for part in clipped_line(all, &self.placed.rect) {
+        let mut places: Vec<[f64; 2]> = line.points.iter().map(|point| self.placed.at(*point, line.right)).collect();
+        for part in clipped_line(places.iter().copied(), &self.placed.rect) {
             svg.polyline(&part, &pen);
         }
         if let Some(marker) = &style.marker {
-            let shown: Vec<[f64; 2]> = line
-                .points
-                .iter()
-                .map(|point| self.placed.at(*point, line.right))
-                .filter(|point| self.placed.rect.holds(*point))
-                .collect();
-            for point in sparse(&shown, curve) {
+            places.retain(|point| self.placed.rect.holds(*point));
+            for point in sparse(&places, curve) {
                 svg.marker(point, marker, style.colour);
             }
         }
@@ -164,16 +159,15 @@ impl On<'_> {
     fn points(&self, svg: &mut Svg, points: &Points) {
         svg.open(&named("points", &points.name));
         let rect = &self.placed.rect;
-        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.placed.at(*p, false)));
         let mut bars = Vec::new();
-        for (i, [x, y], _) in shown() {
+        for (i, [x, y]) in points.points.iter().enumerate() {
             let error = points.error(i);
             if error == 0.0 {
                 continue;
             }
             // What a logarithmic axis cannot show of a bar is below it.
             let ends = [y + error, y - error].map(|y| {
-                let [px, py] = self.placed.at([x, y], false);
+                let [px, py] = self.placed.at([*x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
             });
             for part in clipped_line(ends.into_iter(), rect) {
@@ -188,7 +182,8 @@ impl On<'_> {
             }
         }
         svg.segments(&bars, &Pen::solid(points.colour, 0.7));
-        for (_, _, at) in shown().filter(|(_, _, at)| rect.holds(*at)) {
+        let places = points.points.iter().map(|point| self.placed.at(*point, false));
+        for at in places.filter(|at| rect.holds(*at)) {
             svg.marker(at, &points.marker, points.colour);
         }
         svg.close();
