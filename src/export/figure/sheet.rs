@@ -224,10 +224,8 @@ mod tests {
         };
         assert_eq!(pages(&[some(110), some(3)]), 2);
         assert_eq!(pages(&[some(200)]), 2);
-        assert_eq!(
-            pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
-            1
-        );
+        let others = vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)];
+        assert_eq!(pages(&[others]), 1);
     }
 
     #[test]
@@ -260,12 +258,7 @@ mod tests {
     fn the_axes_of_a_sketch_have_their_names_at_their_ends() {
         let size = SIZES[0];
         let page = &set(&[Piece::Axes(["along".to_owned(), "up".to_owned()])], size)[0];
-        let place = |word: &str| {
-            let text = page[..page.find(&format!(">{word}")).unwrap()].rsplit("<text ").next().unwrap();
-            [" y=\"", "x=\""]
-                .map(|of| text.split(of).nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap())
-        };
-        let ([along, right], [up, left]) = (place("along"), place("up"));
+        let ([right, along], [left, up]) = (place(page, "along"), place(page, "up"));
         assert!((along - up - (AXES + 0.4) * size).abs() < 0.1, "{along} {up}");
         assert!((right - left) / Setter::width() > 0.85 && right < MARGIN + Setter::width(), "{left} {right}");
     }
@@ -281,11 +274,7 @@ mod tests {
                 sheet.extend([Piece::Heading("head".to_owned()), Piece::Text("ask".to_owned())]);
                 sheet.extend_from_slice(with);
                 let page = &set(&sheet, SIZES[0])[0];
-                let in_second = |word: &str| {
-                    let place = page.find(&format!(">{word}")).unwrap();
-                    let x = page[..place].rsplit("<text x=\"").next().unwrap().split('"').next().unwrap();
-                    x.parse::<f64>().unwrap() > 0.5 * PAGE[0]
-                };
+                let in_second = |word: &str| place(page, word)[0] > 0.5 * PAGE[0];
                 let parts = ["head", "ask", last].map(in_second);
                 assert!(parts == [true; 3] || parts == [false; 3], "{last} after {before} lines: {parts:?}");
                 moved |= in_second("ask");
@@ -301,6 +290,12 @@ mod tests {
         let value =
             |tag: &str| tag.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()?.parse().ok());
         tags.filter_map(value).collect()
+    }
+
+    /// Where the text that begins with a word stands.
+    fn place(page: &str, word: &str) -> [f64; 2] {
+        let until = &page[..page.find(&format!(">{word}")).unwrap()];
+        ["x", "y"].map(|name| attributes(until, "text", name).pop().unwrap())
     }
 
     #[test]
