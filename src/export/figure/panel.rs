@@ -15,7 +15,7 @@ use super::placed::{
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
 use super::style::Style;
-use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
+use super::svg::{Picture, Rect, Svg, Type, escaped};
 use super::text;
 use crate::ticks::Steps;
 
@@ -128,11 +128,10 @@ impl On<'_> {
 
     fn line(&self, svg: &mut Svg, line: &Line, curve: usize) {
         let style = &line.style;
-        let pen = pen(style);
         svg.open(&named("line", &line.name));
         let mut places: Vec<[f64; 2]> = line.points.iter().map(|point| self.placed.at(*point, line.right)).collect();
         for part in clipped_line(places.iter().copied(), &self.placed.rect) {
-            svg.polyline(&part, &pen);
+            svg.polyline(&part, style);
         }
         if let Some(marker) = &style.marker {
             places.retain(|point| self.placed.rect.holds(*point));
@@ -181,7 +180,7 @@ impl On<'_> {
                 }
             }
         }
-        svg.segments(&bars, &Pen::solid(points.colour, 0.7));
+        svg.segments(&bars, &Style::solid(points.colour).width(0.7));
         let places = points.points.iter().map(|point| self.placed.at(*point, false));
         for at in places.filter(|at| rect.holds(*at)) {
             svg.marker(at, &points.marker, points.colour);
@@ -196,7 +195,7 @@ impl On<'_> {
             return;
         }
         svg.open(&named("mark", &mark.label));
-        svg.polyline(&[from, to], &pen(&mark.style));
+        svg.polyline(&[from, to], &mark.style);
         if !mark.label.trim().is_empty() {
             let words = self.place_of_words(mark, from);
             let style = Type { colour: mark.style.colour, ..Type::new(NOTE, "start") };
@@ -247,7 +246,7 @@ impl On<'_> {
         let leaders: Vec<[f64; 4]> = leaders.map(|[[x, y], [to_x, to_y]]| [x, y, to_x, to_y]).collect();
         if !leaders.is_empty() {
             svg.open(r#"class="leaders""#);
-            svg.segments(&leaders, &Pen::solid(Colour::QUIET, 0.4));
+            svg.segments(&leaders, &Style::solid(Colour::QUIET).width(0.4));
             svg.close();
         }
         for (words, _, place) in names {
@@ -298,11 +297,11 @@ impl On<'_> {
         svg.open(r#"class="contours""#);
         let mut lines = Vec::new();
         for level in levels {
-            let pen = Pen::solid(contrast(map, level), 0.7);
+            let style = Style::solid(contrast(map, level)).width(0.7);
             let label = on_contour(level, step);
             for line in contour(&px, &py, values, level) {
                 for part in clipped_line(line.into_iter(), &self.placed.rect) {
-                    lines.push(Isoline::new(part, &label, pen));
+                    lines.push(Isoline::new(part, &label, style));
                 }
             }
         }
@@ -312,16 +311,16 @@ impl On<'_> {
 
     fn axes(&self, svg: &mut Svg) {
         let Placed { rect, x, y, right, .. } = self.placed;
-        let pen = Pen::solid(Colour::BLACK, THIN);
+        let style = Style::solid(Colour::BLACK).width(THIN);
         if fills(self.panel) {
-            svg.rect(rect, &pen, None);
+            svg.rect(rect, &style, None);
         } else {
             let mut spines =
                 vec![[rect.x, rect.bottom(), rect.x, rect.y], [rect.x, rect.bottom(), rect.right(), rect.bottom()]];
             if right.is_some() {
                 spines.push([rect.right(), rect.bottom(), rect.right(), rect.y]);
             }
-            svg.segments(&spines, &pen);
+            svg.segments(&spines, &style);
         }
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
@@ -337,7 +336,7 @@ impl On<'_> {
         if let Some(right) = right {
             strokes.extend(upright_ticks(svg, right, rect, 1.0));
         }
-        svg.segments(&strokes, &pen);
+        svg.segments(&strokes, &style);
         if self.placed.x_labels {
             let baseline = rect.bottom() + MAJOR + GAP + TICK + GAP + 0.76 * LABEL;
             svg.text([rect.x + 0.5 * rect.width, baseline], &x.label, &Type::new(LABEL, "middle"));
@@ -357,14 +356,14 @@ impl On<'_> {
             let sample = entry.sample();
             match &entry.sign {
                 Sign::Line(style) => {
-                    svg.polyline(&[[*x, *y], [x + sample, *y]], &pen(style));
+                    svg.polyline(&[[*x, *y], [x + sample, *y]], style);
                     if let Some(marker) = &style.marker {
                         svg.marker([x + 0.5 * sample, *y], marker, style.colour);
                     }
                 }
                 Sign::Patch(colour, opacity) => {
                     let patch = Rect { x: *x, y: y - 2.7, width: sample, height: 5.4 };
-                    svg.rect(&patch, &Pen::solid(*colour, 0.4), Some((*colour, *opacity)));
+                    svg.rect(&patch, &Style::solid(*colour).width(0.4), Some((*colour, *opacity)));
                 }
                 Sign::Point(marker, colour) => svg.marker([x + 0.5 * sample, *y], marker, *colour),
             }
@@ -378,11 +377,6 @@ impl On<'_> {
 /// `class="line" data-name="film"`
 fn named(class: &str, name: &str) -> String {
     format!(r#"class="{class}" data-name="{}""#, escaped(&text::plain(name)))
-}
-
-fn pen(style: &Style) -> Pen {
-    let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
-    Pen { colour: style.colour, width, dash: style.dash }
 }
 
 /// All of a few points; of many, some at equal lengths along the line, at other places on every curve.
@@ -430,9 +424,9 @@ fn upright_label(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) {
 }
 
 fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
-    let pen = Pen::solid(Colour::BLACK, THIN);
+    let style = Style::solid(Colour::BLACK).width(THIN);
     svg.open(r#"class="bar""#);
-    svg.rect(rect, &pen, None);
+    svg.rect(rect, &style, None);
     let mut strokes = Vec::new();
     if *upright {
         strokes = upright_ticks(svg, ruler, rect, 1.0);
@@ -447,7 +441,7 @@ fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
         }
         svg.text([rect.x - 5.0, rect.bottom()], &ruler.label, &Type::new(NOTE, "end"));
     }
-    svg.segments(&strokes, &pen);
+    svg.segments(&strokes, &style);
     svg.close();
 }
 

@@ -5,7 +5,8 @@ use super::colour::Colour;
 use super::drawing::Drawing;
 use super::error::FigureError;
 use super::render;
-use super::svg::{Pen, Rect, Svg, Type};
+use super::style::Style;
+use super::svg::{Rect, Svg, Type};
 use super::text::{FAMILIES, wrapped};
 use serde::{Deserialize, Serialize};
 
@@ -183,14 +184,14 @@ impl Setter {
         let top = self.y - lines * LINE * size + 0.25 * size;
         let square = Rect { x: self.left(), y: top, width: 0.75 * size, height: 0.75 * size };
         let fill = ticked.then_some((Colour::FILM, 1.0));
-        self.draw(|page| page.rect(&square, &Pen::solid(Colour::QUIET, 0.6), fill));
+        self.draw(|page| page.rect(&square, &Style::solid(Colour::QUIET).width(0.6), fill));
     }
 
     fn ruled(&mut self, lines: usize) {
         for _ in 0..lines {
             let y = self.take(RULED * self.size) + RULED * self.size;
             let (left, right) = (self.left(), self.left() + Self::width());
-            self.draw(|page| page.segments(&[[left, y, right, y]], &Pen::solid(Colour::QUIET, 0.4)));
+            self.draw(|page| page.segments(&[[left, y, right, y]], &Style::solid(Colour::QUIET).width(0.4)));
         }
         self.y += 0.3 * self.size;
     }
@@ -201,7 +202,10 @@ impl Setter {
         let (left, bottom) = (self.left() + 0.5 * size, top + AXES * size);
         let right = self.left() + 0.9 * Self::width();
         self.draw(|page| {
-            page.segments(&[[left, top, left, bottom], [left, bottom, right, bottom]], &Pen::solid(Colour::BLACK, 0.8));
+            page.segments(
+                &[[left, top, left, bottom], [left, bottom, right, bottom]],
+                &Style::solid(Colour::BLACK).width(0.8),
+            );
             page.text([right, bottom + size], along, &Type::new(0.85 * size, "end"));
             page.text([left + 0.5 * size, top + 0.6 * size], up, &Type::new(0.85 * size, "start"));
         });

@@ -27,6 +27,13 @@ impl Style {
         Self { colour, ..Self::default() }
     }
 
+    /// With another width \[pt\].
+    #[must_use]
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
     /// With dashes.
     #[must_use]
     pub fn dash(mut self, dash: Dash) -> Self {
@@ -36,7 +43,7 @@ impl Style {
 
     /// A thin grey line for marks.
     pub fn quiet() -> Self {
-        Self { colour: Colour::QUIET, width: 0.6, dash: Dash::Solid, marker: None }
+        Self::solid(Colour::QUIET).width(0.6)
     }
 
     /// The style of curve `index` of several: colour, dashes and marker all differ, so that they can be told apart in grey.

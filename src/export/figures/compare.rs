@@ -118,12 +118,12 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     let tops = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);
         let tops = along(run.recording, frame, metre(run.recording), |i| run.recording.stator[i] * scale);
-        Line::new("", tops, Style { width: 0.6, ..run.style })
+        Line::new("", tops, run.style.width(0.6))
     });
     let rotors = runs.iter().map(|run| {
         let rotor = Lines::at(run.recording, nearest_frame(run.recording, phase) as f64).underside(run.recording);
         let rotor = rotor.into_iter().map(|[x, height]| [x * metre(run.recording), height * scale]);
-        Line::new(run.name, rotor, Style { width: 1.3, ..run.style })
+        Line::new(run.name, rotor, run.style.width(1.3))
     });
     let y = Axis::new("displacement", unit).fixed(low * scale, high * scale);
     Panel::new("(a) surfaces", x, y).layers(tops).layers(rotors).legend(Legend::Above)

@@ -69,14 +69,14 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let above = rotor.iter().map(|[x, y]| [*x, *y, f64::INFINITY]);
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
-    let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
+    let thick = Style::solid(Colour::CONTACT).width(2.4);
     // Wherever in the cycle: the legend is the same at every instant.
     let touched = recording.contact.iter().any(|load| touches(*load));
     Panel::new("(a) surfaces", x_axis(recording), y)
         .layer(above)
         .layer(body)
-        .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
-        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }))
+        .layer(Line::new("stator", outline, Style::solid(Colour::STATOR).width(0.8)))
+        .layer(Line::new("rotor", rotor, Style::solid(Colour::BLACK).width(1.2)))
         .layers(touched.then(|| Line::new("in contact", touching, thick)))
         .legend(Legend::Above)
 }

@@ -16,7 +16,7 @@ pub(super) fn with_margin([low, high]: [f64; 2], part: f64) -> [f64; 2] {
 
 /// A thin line at zero or ambient.
 pub(super) fn rest(at: f64, label: &str) -> Mark {
-    Mark { style: Style { width: 0.4, ..Style::quiet() }, ..Mark::horizontal(at, label) }
+    Mark { style: Style::quiet().width(0.4), ..Mark::horizontal(at, label) }
 }
 
 /// Phase of a frame, t/T.
