@@ -140,12 +140,12 @@ impl Entry {
 
 /// `gap (10⁻⁹ m)`
 fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
-    let factor = if exponent == 0 { String::new() } else { power_of_ten(f64::from(exponent)) };
-    let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
-    match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
-        (_, true) => label.to_owned(),
-        (true, false) => format!("{factor}{gap}{unit}"),
-        (false, false) => format!("{label} ({factor}{gap}{unit})"),
+    let power = if exponent == 0 { String::new() } else { power_of_ten(f64::from(exponent)) };
+    let unit = format!("{power} {unit}");
+    match (label, unit.trim()) {
+        (label, "") => label.to_owned(),
+        ("", unit) => unit.to_owned(),
+        (label, unit) => format!("{label} ({unit})"),
     }
 }
 
