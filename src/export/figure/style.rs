@@ -51,13 +51,9 @@ impl Style {
         let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
         let shape = [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross];
         let hollow = (index / shape.len()) % 2 == 1;
-        let marker = Marker { shape: shape[index % shape.len()], hollow, ..Marker::default() };
-        Self {
-            colour: Colour::CYCLE[index % Colour::CYCLE.len()],
-            width: 1.0,
-            dash: dash[index % dash.len()],
-            marker: Some(marker),
-        }
+        let marker = Marker { hollow, ..Marker::solid(shape[index % shape.len()]) };
+        let line = Self::solid(Colour::CYCLE[index % Colour::CYCLE.len()]).dash(dash[index % dash.len()]);
+        Self { marker: Some(marker), ..line }
     }
 }
 
