@@ -11,7 +11,7 @@
 //! | plate | `loop` | mean pressure against the gap |
 //! | plate | `map` | pressure over the plate at its greatest; of a strip, along it and over the cycle |
 //! | plate | `exact` | spring and damping over the squeeze number, load over the cycle, beside what is known exactly |
-//! | several motors | `waves`, `loads`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
+//! | several motors | `waves`, `loads`, `torque`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
 //! | several plates | `profiles`, `loads`, `loops`, `maps` | the same |
 //! | both | `convergence` | change in every round, if the rounds were kept |
 
