@@ -48,12 +48,16 @@ impl Style {
 
     /// The style of curve `index` of several: colour, dashes and marker all differ, so that they can be told apart in grey.
     pub fn nth(index: usize) -> Self {
-        let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
         let shape = [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross];
         let hollow = (index / shape.len()) % 2 == 1;
         let marker = Marker { hollow, ..Marker::solid(shape[index % shape.len()]) };
-        let line = Self::solid(Colour::CYCLE[index % Colour::CYCLE.len()]).dash(dash[index % dash.len()]);
-        Self { marker: Some(marker), ..line }
+        Self { marker: Some(marker), ..Self::unmarked(index) }
+    }
+
+    /// As [`Self::nth`], without markers: of curves with many points.
+    pub fn unmarked(index: usize) -> Self {
+        let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+        Self::solid(Colour::CYCLE[index % Colour::CYCLE.len()]).dash(dash[index % dash.len()])
     }
 }
 

@@ -31,11 +31,6 @@ pub type MotorRun<'a> = DrawnRun<'a, Motor>;
 /// A plate's run.
 pub type PlateRun<'a> = DrawnRun<'a, Plate>;
 
-/// The style of run `index` of several: without markers, as curves have many points.
-pub fn style(index: usize) -> Style {
-    Style { marker: None, ..Style::nth(index) }
-}
-
 /// Whose numbers a caption is about, if there are several.
 fn of_every<S>(runs: &[DrawnRun<'_, S>]) -> &'static str {
     if runs.len() > 1 { " of every run" } else { "" }

@@ -14,7 +14,7 @@ pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let (unit, scale) = pressure_unit(span(recording.pressure.iter().copied(), ambient)[1]);
     let quarters = ["t = 0", "T/4", "T/2", "3T/4"].into_iter().enumerate().map(|(quarter, name)| {
         let points = along_the_middle(recording, quarter * recording.frames / 4, scale, |x| x * 1e3);
-        Line::new(name, points, Style { marker: None, ..Style::nth(quarter) })
+        Line::new(name, points, Style::unmarked(quarter))
     });
     let panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
         .layer(rest(ambient * scale, "ambient"))
