@@ -75,8 +75,8 @@ fn vertices(panel: Node<'_, '_>, name: &str, y: &str) -> Vec<[f64; 2]> {
 #[test]
 fn the_numbers_are_in_the_svg() {
     let points: Vec<[f64; 2]> = (0..40).map(|i| 3e3 * 1.1f64.powi(i)).map(|f| [f, 0.26 * f / (f + 1e4)]).collect();
-    let mut right = Line::new("gap", points.iter().map(|[f, a]| [*f, 1e-9 / a]), Style::nth(1));
-    right.right = true;
+    let gap = points.iter().map(|[f, a]| [*f, 1e-9 / a]);
+    let right = Line { right: true, ..Line::new("gap", gap, Style::nth(1)) };
     let mut panel =
         Panel::new("(a) share & gap", Axis::new("frequency", "Hz").log(), Axis::new("α", "").including([0.0]))
             .layer(Line::new("share < 1", points.clone(), Style::nth(0)))
@@ -84,9 +84,8 @@ fn the_numbers_are_in_the_svg() {
             .layer(Text::new([1e4, 0.1], "a note"))
             .layer(Text::new([1e7, 0.1], "beyond the axes"));
     panel.right = Some(Axis::new("gap", "m").log());
-    let mut figure = Figure::new("Share \"and\" gap").panel(panel);
-    figure.caption = "What it shows".to_owned();
-    figure.provenance = Provenance { preset: "My <motor>".into(), version: "0.1.0".into(), ..Provenance::default() };
+    let provenance = Provenance { preset: "My <motor>".into(), version: "0.1.0".into(), ..Provenance::default() };
+    let figure = Figure { provenance, ..Figure::new("Share \"and\" gap").panel(panel).caption("What it shows") };
     let svg = figure::to_svg(&figure);
     let document = Document::parse(&svg).unwrap();
     let panel = panels(&document)[0];
@@ -152,10 +151,8 @@ fn names_of_places_close_together_stand_apart() {
 fn panels_of_a_column_line_up() {
     let line = |scale: f64| Line::new("", [[0.0, 0.0], [1.0, scale]], Style::default());
     let panel = |scale: f64| Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(line(scale));
-    let mut figure = Figure::new("").panel(panel(1.0)).panel(panel(12_345.0)).panel(panel(1e-6)).panel(panel(-1.0));
-    figure.columns = 2;
-    figure.share_x = true;
-    let svg = figure::to_svg(&figure);
+    let all = [1.0, 12_345.0, 1e-6, -1.0].map(panel).into();
+    let svg = figure::to_svg(&Figure { panels: all, columns: 2, share_x: true, ..Figure::default() });
     let document = Document::parse(&svg).unwrap();
     let areas: Vec<Vec<f64>> = panels(&document).iter().map(|p| numbers(p.attribute("data-area").unwrap())).collect();
     for [a, b] in [[0, 2], [1, 3]] {
@@ -182,9 +179,8 @@ fn a_map() -> Figure {
     let grid = Grid { x: nodes.to_vec(), y: nodes.to_vec(), values };
     let map = Map { label: "pressure".into(), unit: "kPa".into(), grid, contours: Some(0.0), ..Map::default() };
     let panel = Panel::new("", Axis::new("x", "mm"), Axis::new("y", "mm")).layer(map);
-    let mut figure = Figure::new("A map of p").panel(panel);
-    figure.provenance = Provenance { preset: "plate".into(), error: "± 1 %".into(), ..Provenance::default() };
-    figure
+    let provenance = Provenance { preset: "plate".into(), error: "± 1 %".into(), ..Provenance::default() };
+    Figure { provenance, ..Figure::new("A map of p").panel(panel) }
 }
 
 #[test]
@@ -262,10 +258,9 @@ fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
     let values: Vec<f64> = x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect();
     let kinds = values.iter().map(|value| (value.abs() as usize) % 4).collect();
     let grid = Grid { x: x.to_vec(), y: y.to_vec(), values };
-    let mut cloud = Points::new("points", points(), Colour::FILM, Marker::hollow(Shape::Diamond));
-    cloud.errors = y.to_vec();
-    let mut other = Line::new("right", points(), Style::nth(3));
-    other.right = true;
+    let cloud = Points::new("points", points(), Colour::FILM, Marker::hollow(Shape::Diamond));
+    let cloud = Points { errors: y.to_vec(), ..cloud };
+    let other = Line { right: true, ..Line::new("right", points(), Style::nth(3)) };
     let [ax, ay, az] = axes;
     let mut panel = Panel::new("p_{a}", ax.clone(), ay.clone())
         .layer(Map { grid: grid.clone(), ..Map::default() })
@@ -287,11 +282,8 @@ fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
         layers: panel.layers.iter().filter(|l| matches!(l, Layer::Line(_))).cloned().collect(),
         ..Panel::new("", ax, ay)
     };
-    let mut figure = Figure::new("awkward & <odd>").panel(panel).panel(lines);
-    figure.columns = 2;
-    figure.width = Width::Page;
-    figure.share_x = log;
-    figure
+    let panels = vec![panel, lines];
+    Figure { panels, columns: 2, width: Width::Page, share_x: log, ..Figure::new("awkward & <odd>") }
 }
 
 #[test]

@@ -29,9 +29,9 @@ mod scenes;
 
 use squeezefilm::atomic::write_file;
 use squeezefilm::control::Cancel;
-use squeezefilm::export::figure;
+use squeezefilm::export::figure::{self, Style};
 use squeezefilm::export::figures;
-use squeezefilm::export::figures::compare::{DrawnRun, style};
+use squeezefilm::export::figures::compare::DrawnRun;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::recording::Recording;
 use squeezefilm::solve::{Settings, solve};
@@ -322,7 +322,7 @@ fn frames_of_animations_are_what_is_drawn() {
 
 /// Scenes and their fields, each with the style of its place in a comparison.
 fn runs<'a, S>(solved: &[(&'a S, &'a Recording)]) -> Vec<DrawnRun<'a, S>> {
-    let run = |(index, (scene, recording))| DrawnRun { name: "run", scene, recording, style: style(index) };
+    let run = |(index, (scene, recording))| DrawnRun { name: "run", scene, recording, style: Style::unmarked(index) };
     solved.iter().copied().enumerate().map(run).collect()
 }
 

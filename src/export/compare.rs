@@ -6,7 +6,7 @@ use super::animation::{Movie, Options};
 use super::csv::words as csv_words;
 use super::error::ExportError;
 use super::estimates;
-use super::figure::{Figure, Provenance};
+use super::figure::{Figure, Provenance, Style};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{self, beside_limit, status_name};
@@ -142,7 +142,7 @@ pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write
 fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&'a S>) -> Vec<DrawnRun<'a, S>> {
     let drawn = |(i, run): (usize, &'a ComparedRun)| {
         let recording = &run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?.recording;
-        Some(DrawnRun { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: figures::style(i) })
+        Some(DrawnRun { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: Style::unmarked(i) })
     };
     runs.iter().enumerate().filter_map(drawn).collect()
 }

@@ -127,7 +127,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
             let of_condition = all().filter(|(one, ..)| one.condition == condition);
             let points: Vec<(f64, f64, f64)> =
                 of_condition.map(|(one, row, _)| (speed(one.what), one.value, row.error)).collect();
-            let style = Style { marker: None, ..Style::nth(condition) };
+            let style = Style::unmarked(condition);
             let named = if condition == 0 { ["measured", "computed"] } else { ["", ""] };
             // Of several conditions points and curve are told to belong together by their colour.
             let colour = if measured.conditions.len() == 1 { Colour::BLACK } else { style.colour };

@@ -94,22 +94,14 @@ pub struct Panel {
 
 impl Default for Panel {
     fn default() -> Self {
-        Self {
-            title: String::new(),
-            height: 45.0,
-            x: Axis::default(),
-            y: Axis::default(),
-            right: None,
-            layers: Vec::new(),
-            legend: Legend::default(),
-        }
+        Self::new("", Axis::default(), Axis::default())
     }
 }
 
 impl Panel {
     /// Empty axes.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self { title: title.into(), x, y, ..Self::default() }
+        Self { title: title.into(), height: 45.0, x, y, right: None, layers: Vec::new(), legend: Legend::Auto }
     }
 
     /// With one more layer on top.

@@ -62,7 +62,8 @@ pub fn to_png(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
 /// The figure as a PDF of one page, its text as text.
 pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let drawing = Drawing::new(figure);
-    render::pdf(&drawing, &drawing.svg(figure, false), &facts(figure))
+    let svg = drawing.svg(figure, false);
+    render::pdf(&[(drawing, svg)], &facts(figure))
 }
 
 /// The figure in a format, a PNG in print's resolution.
@@ -167,9 +168,7 @@ impl Drawing {
 
 /// A picture as an element, its pixels in it.
 fn image(svg: &mut String, picture: &Picture) {
-    let [width, height] = picture.size.map(|count| u32::try_from(count).unwrap_or(u32::MAX));
-    let pixels = Pixels { width, height, rgb: picture.rgb.clone() };
-    let Ok(bytes) = png_bytes(&pixels, None, &[]) else { return };
+    let Ok(bytes) = png_bytes(&picture.pixels, None, &[]) else { return };
     let Rect { x, y, width, height } = picture.rect;
     let [x, y, width, height] = [x, y, width, height].map(coordinate);
     let _ = writeln!(

@@ -49,6 +49,12 @@ pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
+/// Points from `a` to `b`, both included, at most `apart` from each other.
+pub(super) fn along(a: [f64; 2], b: [f64; 2], apart: f64) -> impl Iterator<Item = [f64; 2]> {
+    let steps = (distance(a, b) / apart).ceil().max(1.0);
+    (0..=steps as usize).map(move |i| [0, 1].map(|k| a[k] + i as f64 / steps * (b[k] - a[k])))
+}
+
 /// The part of a segment inside `rect` (Liang and Barsky 1984).
 fn clipped_segment(a: [f64; 2], b: [f64; 2], rect: &Rect) -> Option<([f64; 2], [f64; 2])> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);

@@ -1,7 +1,8 @@
 //! Lines of equal value with their values written into them.
 
-use super::geometry::distance;
-use super::svg::{Pen, Svg, Type};
+use super::geometry::{along, distance};
+use super::style::Style;
+use super::svg::{Svg, Type};
 use super::text;
 
 /// Size of the values \[pt\].
@@ -18,22 +19,20 @@ pub(super) struct Isoline {
     /// Points close together, and whether each was a point of the line before.
     points: Vec<([f64; 2], bool)>,
     label: String,
-    pen: Pen,
+    style: Style,
 }
 
 impl Isoline {
     /// A line that carries a value.
-    pub(super) fn new(line: Vec<[f64; 2]>, label: &str, pen: Pen) -> Self {
+    pub(super) fn new(line: Vec<[f64; 2]>, label: &str, style: Style) -> Self {
         let mut points = Vec::new();
         for pair in line.windows(2) {
-            let steps = (distance(pair[0], pair[1]) / STEP).ceil().max(1.0);
-            for i in 0..steps as usize {
-                let t = i as f64 / steps;
-                points.push(([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])), i == 0));
-            }
+            points.extend(along(pair[0], pair[1], STEP).enumerate().map(|(i, point)| (point, i == 0)));
+            // The end is the next one's beginning.
+            points.pop();
         }
         points.extend(line.last().map(|last| (*last, true)));
-        Self { points, label: label.to_owned(), pen }
+        Self { points, label: label.to_owned(), style }
     }
 
     /// The stretch for the value: straight, clear of other lines and values, as near the middle as may be.
@@ -88,11 +87,11 @@ pub(super) fn draw(svg: &mut Svg, lines: &[Isoline]) {
     for (index, line) in lines.iter().enumerate() {
         let Some(last) = line.points.len().checked_sub(1) else { continue };
         let Some((from, to)) = line.stretch(index, lines, &values) else {
-            svg.polyline(&line.between(0, last), &line.pen);
+            svg.polyline(&line.between(0, last), &line.style);
             continue;
         };
-        svg.polyline(&line.between(0, from), &line.pen);
-        svg.polyline(&line.between(to, last), &line.pen);
+        svg.polyline(&line.between(0, from), &line.style);
+        svg.polyline(&line.between(to, last), &line.style);
         let (a, b) = (line.points[from].0, line.points[to].0);
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         values.push(middle);
@@ -103,7 +102,7 @@ pub(super) fn draw(svg: &mut Svg, lines: &[Isoline]) {
         let (sin, cos) = angle.sin_cos();
         let drop = 0.35 * SIZE;
         let at = [middle[0] - drop * sin, middle[1] + drop * cos];
-        let style = Type { colour: line.pen.colour, angle: angle.to_degrees(), ..Type::new(SIZE, "middle") };
+        let style = Type { colour: line.style.colour, angle: angle.to_degrees(), ..Type::new(SIZE, "middle") };
         svg.text(at, &line.label, &style);
     }
 }
@@ -114,7 +113,7 @@ mod tests {
     use crate::export::figure::Colour;
 
     fn level(y: f64) -> Isoline {
-        Isoline::new(vec![[0.0, y], [100.0, y]], "12", Pen::solid(Colour::BLACK, 0.7))
+        Isoline::new(vec![[0.0, y], [100.0, y]], "12", Style::solid(Colour::BLACK).width(0.7))
     }
 
     #[test]
@@ -139,7 +138,7 @@ mod tests {
         for (times, values) in [(2.7, 0), (3.2, 1)] {
             let line = vec![[0.0, 10.0], [times * need, 10.0]];
             let mut svg = Svg::default();
-            draw(&mut svg, &[Isoline::new(line, "12", Pen::solid(Colour::BLACK, 0.7))]);
+            draw(&mut svg, &[Isoline::new(line, "12", Style::solid(Colour::BLACK).width(0.7))]);
             assert_eq!(svg.body.matches(">12<").count(), values, "{times}");
         }
     }
@@ -149,6 +148,6 @@ mod tests {
         let mut svg = Svg::default();
         draw(&mut svg, &[level(10.0), level(12.0)]);
         assert_eq!((svg.body.matches("<polyline").count(), svg.body.matches("<text").count()), (2, 0));
-        draw(&mut svg, &[Isoline::new(Vec::new(), "1", Pen::solid(Colour::BLACK, 1.0))]);
+        draw(&mut svg, &[Isoline::new(Vec::new(), "1", Style::solid(Colour::BLACK).width(1.0))]);
     }
 }

@@ -1,7 +1,7 @@
 //! Where everything stands on the paper: plotting areas that line up, with room for what is round them.
 
 use super::axis::{Axis, Scale};
-use super::description::{Figure, Legend, Panel};
+use super::description::{Figure, Panel};
 use super::layers::{Layer, Shading};
 use super::legend;
 use super::placed::{
@@ -41,11 +41,12 @@ impl Layout {
         let width = figure.width.points();
         let count = figure.panels.len();
         let columns = figure.columns.clamp(1, count.max(1));
-        let ranges = ranges(&figure.panels, columns, figure.share_x);
         let mut panels: Vec<Placed> = Vec::with_capacity(count);
-        for (index, (panel, range)) in figure.panels.iter().zip(ranges).enumerate() {
+        for (index, panel) in figure.panels.iter().enumerate() {
+            let shared = |i: usize| i == index || (figure.share_x && i % columns == index % columns);
+            let together = (0..count).filter(|i| shared(*i)).map(|i| &figure.panels[i]);
             let lowest = index + columns >= count;
-            panels.push(Placed::beside(panel, range, !figure.share_x || lowest));
+            panels.push(Placed::beside(panel, ranges(panel, together), !figure.share_x || lowest));
         }
         place_columns(figure, &mut panels, columns, width);
 
@@ -93,29 +94,22 @@ type Ranges = (Scaled, Scaled, Option<Scaled>);
 /// Where the axes of a panel begin and end by itself: x, and the one at the left.
 #[cfg(feature = "gui")]
 pub(crate) fn ends(panel: &Panel) -> [[f64; 2]; 2] {
-    let found = ranges(std::slice::from_ref(panel), 1, false);
-    found.first().map_or([[0.0, 1.0]; 2], |(x, y, _)| [x, y].map(|range| [range.from, range.to]))
+    let (x, y, _) = ranges(panel, std::iter::once(panel));
+    [x, y].map(|range| [range.from, range.to])
 }
 
-/// `shared`: the panels of a column have one x axis.
-fn ranges(panels: &[Panel], columns: usize, shared: bool) -> Vec<Ranges> {
-    let x = |index: usize, panel: &Panel| {
-        let together =
-            panels.iter().enumerate().filter(|(i, _)| *i == index || (shared && i % columns == index % columns));
-        let values = together.flat_map(|(_, other)| covered(other, panel.x.scale, 0, false));
-        // Curves run from end to end; markers stand clear of the axes.
-        let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
-        let margin = !(fills(panel) || panel.layers.iter().any(curve));
-        Scaled::new(&panel.x.range, panel.x.scale, values, margin)
-    };
-    let y = |panel: &Panel, axis: &Axis, right: bool| {
+/// `together`: the panels that have one x axis with it, itself among them.
+fn ranges<'a>(panel: &Panel, together: impl Iterator<Item = &'a Panel>) -> Ranges {
+    let values = together.flat_map(|other| covered(other, panel.x.scale, 0, false));
+    // Curves run from end to end; markers stand clear of the axes.
+    let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
+    let margin = !(fills(panel) || panel.layers.iter().any(curve));
+    let x = Scaled::new(&panel.x.range, panel.x.scale, values, margin);
+    let upright = |axis: &Axis, right: bool| {
         let values = covered(panel, axis.scale, 1, right).into_iter();
         Scaled::new(&axis.range, axis.scale, values, right || !fills(panel))
     };
-    let of = |(index, panel): (usize, &Panel)| {
-        (x(index, panel), y(panel, &panel.y, false), panel.right.as_ref().map(|axis| y(panel, axis, true)))
-    };
-    panels.iter().enumerate().map(of).collect()
+    (x, upright(&panel.y, false), panel.right.as_ref().map(|axis| upright(axis, true)))
 }
 
 /// Values that the layers cover along x (0), or along the vertical axis (1) at the left or the right.
@@ -247,9 +241,7 @@ impl Placed {
         self.rect.y = top;
         let rect = self.rect;
         let legend = legend::height(self, panel);
-        if !panel.title.trim().is_empty() {
-            self.title = Some([rect.x, row + HEAD]);
-        }
+        self.title = [rect.x, row + HEAD];
         legend::place(self, panel);
         if let Some(bar) = &mut self.bar {
             bar.rect = if bar.upright {
@@ -283,7 +275,6 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
     for (column, [left, right]) in sides.iter().enumerate() {
         for i in (column..panels.len()).step_by(columns) {
             let placed = &mut panels[i];
-            placed.rect.x = x + left;
             placed.rect.width = plot;
             let (axis, range) = (&figure.panels[i].x, placed.x.range);
             placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot, ((plot / 26.0) as usize).clamp(2, 9)));
@@ -294,9 +285,8 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
                 let (axis, range) = (Axis::new(&map.label, &map.unit), bar.ruler.range);
                 bar.ruler = Ruler::new(&axis, range, level_ticks(&axis, &range, width, 4));
             }
-            if figure.panels[i].legend != Legend::None {
-                legend::choose(placed, &figure.panels[i]);
-            }
+            legend::choose(placed, &figure.panels[i]);
+            placed.rect.x = x + left;
         }
         x += left + plot + right + COLUMN_GAP;
     }

@@ -1,10 +1,9 @@
 //! The names of the layers: which there are, and where they stand.
 
 use super::description::{Legend, Panel};
-use super::geometry::{clipped_line, distance};
+use super::geometry::{along, clipped_line};
 use super::layers::{Band, Layer, Line};
-use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills, mark_ends};
-use super::scale::Scaled;
+use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills};
 use super::svg::Rect;
 
 /// Between names in a row.
@@ -14,8 +13,8 @@ const INSET: f64 = 4.0;
 /// A legend inside may cover this part of the plotting area.
 const MOST: f64 = 0.45;
 
-/// The names of a panel, in the order of its layers.
-pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
+/// The names of a panel that has a legend, in the order of its layers.
+fn entries(panel: &Panel) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let mut push = |sign: Sign, name: &str| {
         let entry = Entry { sign, name: name.to_owned() };
@@ -23,7 +22,7 @@ pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
             entries.push(entry);
         }
     };
-    for layer in &panel.layers {
+    for layer in panel.layers.iter().filter(|_| panel.legend != Legend::None) {
         match layer {
             Layer::Line(Line { name, style, .. }) => push(Sign::Line(*style), name),
             Layer::Band(Band { name, colour, opacity, .. }) => push(Sign::Patch(*colour, *opacity), name),
@@ -39,8 +38,8 @@ pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
     entries
 }
 
-/// Decides where the legend goes. A legend inside is placed at once, relative to the plotting area; one above when the
-/// area has its top.
+/// Decides where the legend goes, of a plotting area that still has its corner at the origin. A legend inside is placed at once; one above
+/// when the area has its place.
 pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let entries = entries(panel);
     if entries.is_empty() || panel.legend != Legend::Auto || fills(panel) {
@@ -49,11 +48,11 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let line = LEADING * NOTE;
     let (width, height) =
         (entries.iter().map(Entry::width).fold(0.0, f64::max) + 2.0 * SPACE, entries.len() as f64 * line + SPACE);
-    let area = Rect { x: 0.0, y: 0.0, ..placed.rect };
+    let area = placed.rect;
     if width + 2.0 * INSET > area.width || width * height > MOST * area.width * area.height || height > area.height {
         return;
     }
-    let drawn = drawn(placed, panel, &area, true);
+    let drawn = drawn(placed, panel, true);
     let (left, right) = (INSET, area.width - INSET - width);
     let (top, bottom) = (INSET, area.height - INSET - height);
     // Corners first, then along the sides, then anywhere.
@@ -80,42 +79,34 @@ pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
     points.iter().filter(|point| wide.holds(**point)).count()
 }
 
-/// Points all along what is drawn, close together, in `area`; marks on request.
-pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) -> Vec<[f64; 2]> {
+/// Points all along what is drawn, close together; marks on request.
+pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
-    let at = |y: &Scaled, p: [f64; 2]| {
-        [area.x + placed.x.range.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
-    };
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
-        for part in clipped_line(line, area) {
+        for part in clipped_line(line, &placed.rect) {
             for pair in part.windows(2) {
-                let steps = (distance(pair[0], pair[1]) / 3.0).ceil().max(1.0);
-                for i in 0..=steps as usize {
-                    let t = i as f64 / steps;
-                    points.push([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])));
-                }
+                points.extend(along(pair[0], pair[1], 3.0));
             }
         }
     };
-    let (mut single, y) = (Vec::new(), &placed.y.range);
+    let mut single = Vec::new();
     for layer in &panel.layers {
         match layer {
-            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(placed.upright(line.right), *p))),
+            Layer::Line(line) => path(&mut line.points.iter().map(|p| placed.at(*p, line.right))),
             Layer::Band(band) => {
                 for [x, low, high] in &band.points {
-                    path(&mut [*low, *high].map(|end| at(y, [*x, end])).into_iter());
+                    path(&mut [*low, *high].map(|end| placed.at([*x, end], false)).into_iter());
                 }
             }
             Layer::Points(cloud) => {
                 for (i, [x, value]) in cloud.points.iter().enumerate() {
                     let error = cloud.error(i);
-                    single.push(at(y, [*x, *value]));
-                    path(&mut [value - error, value + error].map(|end| at(y, [*x, end])).into_iter());
+                    single.push(placed.at([*x, *value], false));
+                    path(&mut [value - error, value + error].map(|end| placed.at([*x, end], false)).into_iter());
                 }
             }
             Layer::Mark(mark) if marks => {
-                let [from, to] = mark_ends(placed, mark, area);
-                path(&mut [from, to].into_iter());
+                path(&mut placed.mark_ends(mark).into_iter());
             }
             _ => {}
         }
@@ -144,7 +135,7 @@ fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
 
 /// Height that a legend above the axes takes.
 pub(super) fn height(placed: &Placed, panel: &Panel) -> f64 {
-    if placed.legend_box.is_some() || panel.legend == Legend::None {
+    if placed.legend_box.is_some() {
         return 0.0;
     }
     let rows = in_rows(entries(panel), placed.rect.width).len();
@@ -160,9 +151,6 @@ pub(super) fn place(placed: &mut Placed, panel: &Panel) {
         for (_, at) in &mut placed.legend {
             *at = [at[0] + area.x, at[1] + area.y];
         }
-        return;
-    }
-    if panel.legend == Legend::None {
         return;
     }
     let rows = in_rows(entries(panel), area.width);

@@ -9,11 +9,6 @@ pub(super) fn pixels(_: &Drawing, _: &str, _: f64, _: [f64; 2]) -> Result<Pixels
 }
 
 /// Always [`FigureError::NotBuilt`].
-pub(super) fn pdf(_: &Drawing, _: &str, _: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
-    Err(FigureError::NotBuilt)
-}
-
-/// Always [`FigureError::NotBuilt`].
-pub(super) fn svg_pages(_: &str, _: [f64; 2], _: &[String]) -> Result<Vec<u8>, FigureError> {
+pub(super) fn pdf(_: &[(Drawing, String)], _: &[(&str, String)]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }

@@ -5,17 +5,17 @@ use super::axis::Axis;
 use super::axis::{Range, Scale};
 use super::colour::Colour;
 use super::description::Panel;
-use super::geometry::{clipped_area, clipped_line, contour, distance, is_contour};
+use super::geometry::{along, clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
 use super::layers::{Band, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
 use super::legend::{covered, drawn};
 use super::placed::{
-    Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range, mark_ends,
+    Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, Ruler, SPACE, Sign, TICK, fills, first_map, map_range,
 };
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
 use super::style::Style;
-use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
+use super::svg::{Picture, Rect, Svg, Type, escaped};
 use super::text;
 use crate::ticks::Steps;
 
@@ -69,9 +69,7 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
         colour_bar(svg, bar);
     }
     on.legend(svg);
-    if let Some(at) = placed.title {
-        svg.text(at, &panel.title, &Type::new(HEAD, "start"));
-    }
+    svg.text(placed.title, &panel.title, &Type::new(HEAD, "start"));
     svg.close();
 }
 
@@ -84,7 +82,7 @@ pub(crate) fn names(
     ends: [[f64; 2]; 2],
     [width, height]: [f64; 2],
     words: impl Fn(&str) -> [f64; 2],
-) -> Vec<(String, [f64; 2], Option<[f64; 4]>)> {
+) -> Vec<(String, [f64; 2], Option<[[f64; 2]; 2]>)> {
     let ruler =
         |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
     let placed = Placed {
@@ -99,17 +97,10 @@ pub(crate) fn names(
 }
 
 /// The line from the rim of a point to its name, if that is not right beside it.
-fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[f64; 4]> {
+fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[[f64; 2]; 2]> {
     let near = [x.max(name.x).min(name.right()), y.max(name.y).min(name.bottom())];
     let share = RIM / distance([x, y], near);
-    (share < RIM / FAR).then(|| [x + share * (near[0] - x), y + share * (near[1] - y), near[0], near[1]])
-}
-
-/// Points along a line, at most a point of type apart.
-fn along([x, y, to_x, to_y]: [f64; 4]) -> Vec<[f64; 2]> {
-    let steps = distance([x, y], [to_x, to_y]).ceil().max(1.0);
-    let shares = (0..=steps as usize).map(|i| i as f64 / steps);
-    shares.map(|share| [x + share * (to_x - x), y + share * (to_y - y)]).collect()
+    (share < RIM / FAR).then(|| [[x + share * (near[0] - x), y + share * (near[1] - y)], near])
 }
 
 /// A panel at its place.
@@ -135,34 +126,16 @@ impl On<'_> {
         )
     }
 
-    fn px(&self, x: f64) -> f64 {
-        self.placed.rect.x + self.placed.x.range.fraction(x) * self.placed.rect.width
-    }
-
-    fn py(&self, y: f64, right: bool) -> f64 {
-        self.placed.rect.bottom() - self.placed.upright(right).fraction(y) * self.placed.rect.height
-    }
-
-    fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
-        [self.px(x), self.py(y, right)]
-    }
-
     fn line(&self, svg: &mut Svg, line: &Line, curve: usize) {
         let style = &line.style;
-        let pen = pen(style);
         svg.open(&named("line", &line.name));
-        let all = line.points.iter().map(|point| self.at(*point, line.right));
-        for part in clipped_line(all, &self.placed.rect) {
-            svg.polyline(&part, &pen);
+        let mut places: Vec<[f64; 2]> = line.points.iter().map(|point| self.placed.at(*point, line.right)).collect();
+        for part in clipped_line(places.iter().copied(), &self.placed.rect) {
+            svg.polyline(&part, style);
         }
         if let Some(marker) = &style.marker {
-            let shown: Vec<[f64; 2]> = line
-                .points
-                .iter()
-                .map(|point| self.at(*point, line.right))
-                .filter(|point| self.placed.rect.holds(*point))
-                .collect();
-            for point in sparse(&shown, curve) {
+            places.retain(|point| self.placed.rect.holds(*point));
+            for point in sparse(&places, curve) {
                 svg.marker(point, marker, style.colour);
             }
         }
@@ -171,7 +144,7 @@ impl On<'_> {
 
     fn band(&self, svg: &mut Svg, band: &Band) {
         svg.open(&named("band", &band.name));
-        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], false), self.at([p[0], p[2]], false)];
+        let at = |p: &[f64; 3]| [self.placed.at([p[0], p[1]], false), self.placed.at([p[0], p[2]], false)];
         let known = |p: &[f64; 3]| at(p).iter().flatten().all(|c| !c.is_nan());
         for run in band.points.split(|p| !known(p)) {
             let there = run.iter().map(|p| at(p)[0]);
@@ -185,16 +158,15 @@ impl On<'_> {
     fn points(&self, svg: &mut Svg, points: &Points) {
         svg.open(&named("points", &points.name));
         let rect = &self.placed.rect;
-        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, false)));
         let mut bars = Vec::new();
-        for (i, [x, y], _) in shown() {
+        for (i, [x, y]) in points.points.iter().enumerate() {
             let error = points.error(i);
             if error == 0.0 {
                 continue;
             }
             // What a logarithmic axis cannot show of a bar is below it.
             let ends = [y + error, y - error].map(|y| {
-                let [px, py] = self.at([x, y], false);
+                let [px, py] = self.placed.at([*x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
             });
             for part in clipped_line(ends.into_iter(), rect) {
@@ -208,8 +180,9 @@ impl On<'_> {
                 }
             }
         }
-        svg.segments(&bars, &Pen::solid(points.colour, 0.7));
-        for (_, _, at) in shown().filter(|(_, _, at)| rect.holds(*at)) {
+        svg.segments(&bars, &Style::solid(points.colour).width(0.7));
+        let places = points.points.iter().map(|point| self.placed.at(*point, false));
+        for at in places.filter(|at| rect.holds(*at)) {
             svg.marker(at, &points.marker, points.colour);
         }
         svg.close();
@@ -217,12 +190,12 @@ impl On<'_> {
 
     fn mark(&self, svg: &mut Svg, mark: &Mark) {
         let rect = &self.placed.rect;
-        let [from, to] = mark_ends(self.placed, mark, rect);
+        let [from, to] = self.placed.mark_ends(mark);
         if !(rect.holds(from) && rect.holds(to)) {
             return;
         }
         svg.open(&named("mark", &mark.label));
-        svg.polyline(&[from, to], &pen(&mark.style));
+        svg.polyline(&[from, to], &mark.style);
         if !mark.label.trim().is_empty() {
             let words = self.place_of_words(mark, from);
             let style = Type { colour: mark.style.colour, ..Type::new(NOTE, "start") };
@@ -262,17 +235,18 @@ impl On<'_> {
 
     /// Points all over what is drawn, the legend too; marks on request.
     fn taken(&self, marks: bool) -> Vec<[f64; 2]> {
-        let mut taken = drawn(self.placed, self.panel, &self.placed.rect, marks);
+        let mut taken = drawn(self.placed, self.panel, marks);
         taken.extend(self.placed.legend_box.iter().flat_map(Rect::points));
         taken
     }
 
     fn names(&self, svg: &mut Svg) {
         let names = self.named_places(|words| [text::width(words, NOTE), 0.8 * NOTE]);
-        let leaders: Vec<[f64; 4]> = names.iter().filter_map(|(_, at, place)| leader(*at, place)).collect();
+        let leaders = names.iter().filter_map(|(_, at, place)| leader(*at, place));
+        let leaders: Vec<[f64; 4]> = leaders.map(|[[x, y], [to_x, to_y]]| [x, y, to_x, to_y]).collect();
         if !leaders.is_empty() {
             svg.open(r#"class="leaders""#);
-            svg.segments(&leaders, &Pen::solid(Colour::QUIET, 0.4));
+            svg.segments(&leaders, &Style::solid(Colour::QUIET).width(0.4));
             svg.close();
         }
         for (words, _, place) in names {
@@ -286,7 +260,7 @@ impl On<'_> {
     fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
+            Layer::Text(words) => Some((words, self.placed.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
             _ => None,
         });
         let names: Vec<(&Text, [f64; 2])> = names.collect();
@@ -302,7 +276,8 @@ impl On<'_> {
                 [beside, corners].concat()
             });
             let places: Vec<Rect> = places.concat().into_iter().map(|[x, y]| Rect { x, y, width, height }).collect();
-            let line = |rect: &Rect| leader([x, y], rect).map_or_else(Vec::new, along);
+            let line =
+                |rect: &Rect| leader([x, y], rect).map_or_else(Vec::new, |[from, to]| along(from, to, 1.0).collect());
             let crossed = |line: &[[f64; 2]]| written.iter().map(|name| covered(name, line)).sum::<usize>();
             let place = self.freest(&places, |rect| covered(rect, &taken) + crossed(&line(rect)));
             taken.extend(place.points().chain(line(&place)));
@@ -317,16 +292,16 @@ impl On<'_> {
         let Some(error) = map.contours.filter(|_| plane::fits(x, y, values.len())) else { return };
         let (levels, step) = levels(values, error);
         // Places first, so that lines are straight on paper on either kind of axis.
-        let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
-        let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
+        let px: Vec<f64> = x.iter().map(|x| self.placed.px(*x)).collect();
+        let py: Vec<f64> = y.iter().map(|y| self.placed.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
         let mut lines = Vec::new();
         for level in levels {
-            let pen = Pen::solid(contrast(map, level), 0.7);
+            let style = Style::solid(contrast(map, level)).width(0.7);
             let label = on_contour(level, step);
             for line in contour(&px, &py, values, level) {
                 for part in clipped_line(line.into_iter(), &self.placed.rect) {
-                    lines.push(Isoline::new(part, &label, pen));
+                    lines.push(Isoline::new(part, &label, style));
                 }
             }
         }
@@ -336,21 +311,21 @@ impl On<'_> {
 
     fn axes(&self, svg: &mut Svg) {
         let Placed { rect, x, y, right, .. } = self.placed;
-        let pen = Pen::solid(Colour::BLACK, THIN);
+        let style = Style::solid(Colour::BLACK).width(THIN);
         if fills(self.panel) {
-            svg.rect(rect, Some(&pen), None);
+            svg.rect(rect, &style, None);
         } else {
             let mut spines =
                 vec![[rect.x, rect.bottom(), rect.x, rect.y], [rect.x, rect.bottom(), rect.right(), rect.bottom()]];
             if right.is_some() {
                 spines.push([rect.right(), rect.bottom(), rect.right(), rect.y]);
             }
-            svg.segments(&spines, &pen);
+            svg.segments(&spines, &style);
         }
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
         for tick in &x.ticks.ticks {
-            let at = rect.x + x.range.fraction(tick.at) * rect.width;
+            let at = self.placed.px(tick.at);
             strokes.push([at, rect.bottom(), at, rect.bottom() + length(tick.label.is_some())]);
             if let Some(label) = tick.label.as_ref().filter(|_| self.placed.x_labels) {
                 let baseline = rect.bottom() + MAJOR + GAP + 0.74 * TICK;
@@ -361,7 +336,7 @@ impl On<'_> {
         if let Some(right) = right {
             strokes.extend(upright_ticks(svg, right, rect, 1.0));
         }
-        svg.segments(&strokes, &pen);
+        svg.segments(&strokes, &style);
         if self.placed.x_labels {
             let baseline = rect.bottom() + MAJOR + GAP + TICK + GAP + 0.76 * LABEL;
             svg.text([rect.x + 0.5 * rect.width, baseline], &x.label, &Type::new(LABEL, "middle"));
@@ -381,14 +356,14 @@ impl On<'_> {
             let sample = entry.sample();
             match &entry.sign {
                 Sign::Line(style) => {
-                    svg.polyline(&[[*x, *y], [x + sample, *y]], &pen(style));
+                    svg.polyline(&[[*x, *y], [x + sample, *y]], style);
                     if let Some(marker) = &style.marker {
                         svg.marker([x + 0.5 * sample, *y], marker, style.colour);
                     }
                 }
                 Sign::Patch(colour, opacity) => {
                     let patch = Rect { x: *x, y: y - 2.7, width: sample, height: 5.4 };
-                    svg.rect(&patch, Some(&Pen::solid(*colour, 0.4)), Some((*colour, *opacity)));
+                    svg.rect(&patch, &Style::solid(*colour).width(0.4), Some((*colour, *opacity)));
                 }
                 Sign::Point(marker, colour) => svg.marker([x + 0.5 * sample, *y], marker, *colour),
             }
@@ -402,11 +377,6 @@ impl On<'_> {
 /// `class="line" data-name="film"`
 fn named(class: &str, name: &str) -> String {
     format!(r#"class="{class}" data-name="{}""#, escaped(&text::plain(name)))
-}
-
-fn pen(style: &Style) -> Pen {
-    let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
-    Pen { colour: style.colour, width, dash: style.dash }
 }
 
 /// All of a few points; of many, some at equal lengths along the line, at other places on every curve.
@@ -454,9 +424,9 @@ fn upright_label(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) {
 }
 
 fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
-    let pen = Pen::solid(Colour::BLACK, THIN);
+    let style = Style::solid(Colour::BLACK).width(THIN);
     svg.open(r#"class="bar""#);
-    svg.rect(rect, Some(&pen), None);
+    svg.rect(rect, &style, None);
     let mut strokes = Vec::new();
     if *upright {
         strokes = upright_ticks(svg, ruler, rect, 1.0);
@@ -471,7 +441,7 @@ fn colour_bar(svg: &mut Svg, Bar { rect, upright, ruler }: &Bar) {
         }
         svg.text([rect.x - 5.0, rect.bottom()], &ruler.label, &Type::new(NOTE, "end"));
     }
-    svg.segments(&strokes, &pen);
+    svg.segments(&strokes, &style);
     svg.close();
 }
 
@@ -490,8 +460,8 @@ fn levels(values: &[f64], error: f64) -> (Vec<f64>, f64) {
 
 /// Black or white, whichever shows on the map's colour of a value.
 fn contrast(map: &Map, value: f64) -> Colour {
-    let under = map_range(map).colour(map.colours, value);
-    if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
+    let under = map.colours.at(map_range(map).fraction(value));
+    if under.lightness() < 0.55 { Colour::WHITE } else { Colour::BLACK }
 }
 
 #[cfg(test)]
@@ -522,7 +492,7 @@ mod tests {
         let names = names(&panel, [[0.0, 200.0], [0.0, 150.0]], [200.0, 150.0], size);
         assert!(names.iter().any(|(.., line)| line.is_some()), "{names:?}");
         for (name, _, line) in &names {
-            let line = line.map_or_else(Vec::new, along);
+            let line = line.map_or_else(Vec::new, |[from, to]| along(from, to, 1.0).collect());
             for (other, [x, y], _) in names.iter().filter(|(other, ..)| other != name) {
                 let [width, height] = size(other);
                 assert_eq!(covered(&Rect { x: *x, y: *y, width, height }, &line), 0, "{name}, {other}: {names:?}");

@@ -4,10 +4,11 @@ use super::axis::{Axis, Scale};
 use super::colour::Colour;
 use super::description::Panel;
 use super::layers::{Direction, Layer, Map, Mark};
-use super::scale::{Scaled, Ticks, power};
+use super::scale::{Scaled, Ticks};
 use super::style::{Marker, Style};
 use super::svg::Rect;
 use super::text;
+use crate::digits::power_of_ten;
 
 /// Points in a millimetre.
 pub(super) const MM: f64 = 72.0 / 25.4;
@@ -72,15 +73,37 @@ pub(super) struct Placed {
     pub(super) x_labels: bool,
     pub(super) bar: Option<Bar>,
     pub(super) legend: Vec<(Entry, [f64; 2])>,
-    /// A legend inside has a background.
+    /// Of a legend inside.
     pub(super) legend_box: Option<Rect>,
-    pub(super) title: Option<[f64; 2]>,
+    pub(super) title: [f64; 2],
 }
 
 impl Placed {
     /// The axis of what is read on the left, or on the right if there is one.
-    pub(super) fn upright(&self, right: bool) -> &Scaled {
+    fn upright(&self, right: bool) -> &Scaled {
         &self.right.as_ref().filter(|_| right).unwrap_or(&self.y).range
+    }
+
+    /// Where an x stands across the paper.
+    pub(super) fn px(&self, x: f64) -> f64 {
+        self.rect.x + self.x.range.fraction(x) * self.rect.width
+    }
+
+    /// Where a y stands down the paper, read on the left, or on the right.
+    pub(super) fn py(&self, y: f64, right: bool) -> f64 {
+        self.rect.bottom() - self.upright(right).fraction(y) * self.rect.height
+    }
+
+    pub(super) fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
+        [self.px(x), self.py(y, right)]
+    }
+
+    /// The ends of a mark across the axes.
+    pub(super) fn mark_ends(&self, mark: &Mark) -> [[f64; 2]; 2] {
+        match mark.direction {
+            Direction::Vertical => [self.rect.bottom(), self.rect.y].map(|y| [self.px(mark.at), y]),
+            Direction::Horizontal => [self.rect.x, self.rect.right()].map(|x| [x, self.py(mark.at, false)]),
+        }
     }
 }
 
@@ -115,28 +138,14 @@ impl Entry {
     }
 }
 
-/// The ends of a mark across `rect`.
-pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
-    match mark.direction {
-        Direction::Vertical => {
-            let x = rect.x + placed.x.range.fraction(mark.at) * rect.width;
-            [[x, rect.bottom()], [x, rect.y]]
-        }
-        Direction::Horizontal => {
-            let y = rect.bottom() - placed.y.range.fraction(mark.at) * rect.height;
-            [[rect.x, y], [rect.right(), y]]
-        }
-    }
-}
-
-/// `gap (10^{−9} m)`
+/// `gap (10⁻⁹ m)`
 fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
-    let factor = if exponent == 0 { String::new() } else { power(exponent) };
-    let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
-    match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
-        (_, true) => label.to_owned(),
-        (true, false) => format!("{factor}{gap}{unit}"),
-        (false, false) => format!("{label} ({factor}{gap}{unit})"),
+    let power = if exponent == 0 { String::new() } else { power_of_ten(f64::from(exponent)) };
+    let unit = format!("{power} {unit}");
+    match (label, unit.trim()) {
+        (label, "") => label.to_owned(),
+        ("", unit) => unit.to_owned(),
+        (label, unit) => format!("{label} ({unit})"),
     }
 }
 

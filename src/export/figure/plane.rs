@@ -1,6 +1,7 @@
 //! Fields over a plane as pictures: from nodes to pixels.
 
 use super::colour::{Colour, Colours};
+use super::error::Pixels;
 use super::layers::{Categories, Grid, Map, Shading};
 use super::scale::Scaled;
 use super::svg::{Picture, Rect};
@@ -18,11 +19,7 @@ pub(super) fn fits(x: &[f64], y: &[f64], values: usize) -> bool {
 
 /// The ends of what nodes cover: themselves, or with half a cell beyond either.
 pub(super) fn ends(nodes: &[f64], cells: bool, log: bool) -> Vec<f64> {
-    let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else { return Vec::new() };
-    let [second, before] = match nodes {
-        [_] => return vec![*first],
-        _ => [nodes[1], nodes[nodes.len() - 2]],
-    };
+    let ([first, second, ..], [.., before, last]) = (nodes, nodes) else { return nodes.to_vec() };
     if !cells {
         return vec![*first, *last];
     }
@@ -77,7 +74,8 @@ fn paint(
             rgb.extend([r, g, b]);
         }
     }
-    Picture { rect: *rect, size, rgb }
+    let [width, height] = size.map(|count| count as u32);
+    Picture { rect: *rect, pixels: Pixels { width, height, rgb } }
 }
 
 /// The picture of a map; none if its nodes and values do not fit.
@@ -114,13 +112,13 @@ pub(super) fn categories(kinds: &Categories, rect: &Rect, x: &Scaled, y: &Scaled
 /// The picture of a colour bar, from left to right or from bottom to top.
 pub(super) fn bar(colours: Colours, rect: &Rect, upright: bool) -> Picture {
     let count = 256;
-    let ramp = (0..count).map(|i| colours.at((i as f64 + 0.5) / count as f64));
-    let rgb = |colours: &mut dyn Iterator<Item = Colour>| colours.flat_map(|Colour(r, g, b)| [r, g, b]).collect();
+    let mut ramp: Vec<Colour> = (0..count).map(|i| colours.at((f64::from(i) + 0.5) / f64::from(count))).collect();
     if upright {
-        Picture { rect: *rect, size: [1, count], rgb: rgb(&mut ramp.rev()) }
-    } else {
-        Picture { rect: *rect, size: [count, 1], rgb: rgb(&mut ramp.into_iter()) }
+        ramp.reverse();
     }
+    let (width, height) = if upright { (1, count) } else { (count, 1) };
+    let rgb = ramp.into_iter().flat_map(|Colour(r, g, b)| [r, g, b]).collect();
+    Picture { rect: *rect, pixels: Pixels { width, height, rgb } }
 }
 
 #[cfg(test)]
@@ -132,10 +130,10 @@ mod tests {
     const RECT: Rect = Rect { x: 0.0, y: 0.0, width: 24.0, height: 12.0 };
 
     fn pixel(picture: &Picture, x: f64, y: f64) -> Colour {
-        let [w, h] = picture.size;
-        let (i, j) = ((x * w as f64) as usize, ((1.0 - y) * h as f64) as usize);
-        let at = 3 * (j * w + i);
-        Colour(picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2])
+        let Pixels { width, height, rgb } = &picture.pixels;
+        let (i, j) = ((x * f64::from(*width)) as usize, ((1.0 - y) * f64::from(*height)) as usize);
+        let at = 3 * (j * *width as usize + i);
+        Colour(rgb[at], rgb[at + 1], rgb[at + 2])
     }
 
     #[test]
@@ -143,7 +141,7 @@ mod tests {
         let grid = Grid { x: vec![0.0, 0.2, 1.0], y: vec![0.0, 1.0], values: vec![0.0, 0.0, 1.0, 1.0, f64::NAN, 1.0] };
         let field = Map { grid, ..Map::default() };
         let picture = map(&field, &RECT, &UNIT, &UNIT, &UNIT).unwrap();
-        assert_eq!(picture.size, [100, 50]);
+        assert_eq!([picture.pixels.width, picture.pixels.height], [100, 50]);
         assert_eq!(pixel(&picture, 0.105, 0.5), Colours::Field.at(0.525));
         assert_eq!(pixel(&picture, 0.6, 0.5), Colour::WHITE);
         let cells = Map { shading: Shading::Cells, ..field };

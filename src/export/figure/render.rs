@@ -3,7 +3,6 @@
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
 use super::svg::{Picture, Rect};
-use super::text::FAMILIES;
 use crate::platform::{dejavu, liberation};
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
@@ -36,11 +35,6 @@ pub(super) fn pixels(
     Ok(Pixels { width: pixmap.width(), height: pixmap.height(), rgb })
 }
 
-/// A drawing as a PDF of one page, with its text as text.
-pub(super) fn pdf(drawing: &Drawing, svg: &str, facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
-    document(&[Page { size: drawing.size, pictures: &drawing.pictures, svg }], facts)
-}
-
 /// The drawing as the renderers read it.
 fn tree(svg: &str) -> Result<Tree, FigureError> {
     Tree::from_str(svg, &options()).map_err(|error| FigureError::Draw(error.to_string()))
@@ -49,13 +43,13 @@ fn tree(svg: &str) -> Result<Tree, FigureError> {
 /// Puts a picture where it belongs.
 fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
     let Rect { x, y, width, height } = picture.rect;
-    let [columns, rows] = picture.size;
-    let Some(mut stamp) = Pixmap::new(columns as u32, rows as u32) else { return };
-    for (pixel, rgb) in stamp.data_mut().chunks_exact_mut(4).zip(picture.rgb.chunks_exact(3)) {
+    let Pixels { width: columns, height: rows, rgb } = &picture.pixels;
+    let Some(mut stamp) = Pixmap::new(*columns, *rows) else { return };
+    for (pixel, rgb) in stamp.data_mut().chunks_exact_mut(4).zip(rgb.chunks_exact(3)) {
         pixel[..3].copy_from_slice(rgb);
         pixel[3] = 255;
     }
-    let (sx, sy) = (width * scale / columns as f64, height * scale / rows as f64);
+    let (sx, sy) = (width * scale / f64::from(*columns), height * scale / f64::from(*rows));
     let place = Transform::from_row(sx as f32, 0.0, 0.0, sy as f32, (x * scale) as f32, (y * scale) as f32);
     pixmap.draw_pixmap(0, 0, stamp.as_ref(), &PixmapPaint::default(), place, None);
 }
@@ -72,17 +66,8 @@ fn options() -> usvg::Options<'static> {
     usvg::Options { fontdb: Arc::clone(&FONTS), font_family: "Liberation Sans".to_owned(), ..usvg::Options::default() }
 }
 
-/// A page: pictures, and the drawing over them.
-struct Page<'a> {
-    /// Width and height \[pt\].
-    size: [f64; 2],
-    pictures: &'a [Picture],
-    /// The drawing, an SVG.
-    svg: &'a str,
-}
-
-/// Pages as a PDF, their text as text.
-fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
+/// Drawings as the pages of a PDF, each with its SVG without background and pictures, their text as text.
+pub(super) fn pdf(pages: &[(Drawing, String)], facts: &[(&str, String)]) -> Result<Vec<u8>, FigureError> {
     let failed = |error: &dyn std::fmt::Display| FigureError::Draw(error.to_string());
     let mut next = Ref::new(1);
     let [catalog, all, info] = [(); 3].map(|()| next.bump());
@@ -90,7 +75,7 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(all);
     pdf.pages(all).kids(leaves.iter().copied()).count(i32::try_from(leaves.len()).unwrap_or(i32::MAX));
-    for (Page { size, pictures, svg }, leaf) in pages.iter().zip(leaves) {
+    for ((Drawing { size, pictures, .. }, svg), leaf) in pages.iter().zip(leaves) {
         let options = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
         let (chunk, drawn) = svg2pdf::to_chunk(&tree(svg)?, options).map_err(|error| failed(&error))?;
         let mut renamed = HashMap::new();
@@ -125,11 +110,11 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
         operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
         operations.x_object(Name(b"Drawing"));
         pdf.stream(content, &operations.finish());
-        for (image, picture) in images.iter().zip(*pictures) {
-            let packed = deflated(&picture.rgb).map_err(|error| failed(&error))?;
+        for (image, Picture { pixels, .. }) in images.iter().zip(pictures) {
+            let packed = deflated(&pixels.rgb).map_err(|error| failed(&error))?;
             let mut object = pdf.image_xobject(*image, &packed);
             object.filter(Filter::FlateDecode);
-            let [columns, rows] = picture.size.map(|count| i32::try_from(count).unwrap_or(i32::MAX));
+            let [columns, rows] = [pixels.width, pixels.height].map(|count| i32::try_from(count).unwrap_or(i32::MAX));
             object.width(columns).height(rows).bits_per_component(8).color_space().device_rgb();
         }
         pdf.extend(&chunk);
@@ -145,19 +130,6 @@ fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<
     }
     about.finish();
     Ok(pdf.finish())
-}
-
-/// Pages of a size \[pt\], each the body of an SVG, as one PDF, their text as text.
-pub(super) fn svg_pages(title: &str, size: [f64; 2], pages: &[String]) -> Result<Vec<u8>, FigureError> {
-    let [width, height] = size;
-    let drawing = |body: &String| {
-        format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
-        )
-    };
-    let drawings: Vec<String> = pages.iter().map(drawing).collect();
-    let pages: Vec<Page<'_>> = drawings.iter().map(|svg| Page { size, pictures: &[], svg }).collect();
-    document(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
 fn deflated(bytes: &[u8]) -> std::io::Result<Vec<u8>> {

@@ -2,8 +2,7 @@
 //! logarithmic.
 
 use super::axis::{Range, Scale, extent};
-use super::colour::{Colour, Colours};
-use crate::digits::{self, signed};
+use crate::digits::{power_of_ten, short, signed};
 use crate::ticks::{Decimal, Steps, decades};
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
@@ -92,12 +91,6 @@ impl Scaled {
         let fraction = self.fraction(value);
         (-1e-9..=1.0 + 1e-9).contains(&fraction)
     }
-
-    /// The colour of a value over the range; none for what cannot be shown on it.
-    pub(super) fn colour(&self, colours: Colours, value: f64) -> Option<Colour> {
-        let shown = value.is_finite() && (self.scale == Scale::Linear || value > 0.0);
-        shown.then(|| colours.at(self.fraction(value)))
-    }
 }
 
 /// A tick: major with a label, minor without.
@@ -159,7 +152,7 @@ fn thousands(size: f64) -> i32 {
 }
 
 /// Digits with a minus sign, and none before zero.
-pub(super) fn fixed(value: f64, places: usize) -> String {
+fn fixed(value: f64, places: usize) -> String {
     signed(format!("{value:.places$}"))
 }
 
@@ -178,25 +171,20 @@ fn decade(number: Decimal, plain: bool) -> String {
     if plain {
         return fixed(number.value(), usize::try_from(-number.exponent).unwrap_or(0));
     }
-    let raised = power(number.exponent);
+    let raised = power_of_ten(f64::from(number.exponent));
     if number.digit == 1 { raised } else { format!("{}×{raised}", number.digit) }
 }
 
-/// `10^{−3}`.
-pub(super) fn power(exponent: i32) -> String {
-    format!("10^{{{}}}", fixed(f64::from(exponent), 0))
-}
-
-/// A value in a few digits, as on a contour: `0.245`, `1.5×10^{−9}`.
+/// A value in a few digits, as on a contour: `0.245`, `1.5×10⁻⁹`.
 pub(super) fn on_contour(value: f64, step: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e5).contains(&size) {
-        let exponent = size.log10().floor() as i32;
-        let mantissa = digits::short(without(value, exponent), 3);
-        return if mantissa == "1" { power(exponent) } else { format!("{mantissa}×{}", power(exponent)) };
+        let exponent = size.log10().floor();
+        let (mantissa, power) = (short(without(value, exponent as i32), 3), power_of_ten(exponent));
+        return if mantissa == "1" { power } else { format!("{mantissa}×{power}") };
     }
     let places = if step > 0.0 { (-step.log10() - 1e-9).ceil().clamp(0.0, 8.0) as usize } else { 3 };
     fixed(value, places)
@@ -224,8 +212,8 @@ mod tests {
     fn decades_are_labelled_and_divided() {
         assert_eq!(labels(1e-6, 1e2, Scale::Log, 8).0.len(), 9);
         assert_eq!(labels(1e-2, 1e3, Scale::Log, 6).0, ["0.01", "0.1", "1", "10", "100", "1000"]);
-        assert_eq!(labels(3e3, 1e5, Scale::Log, 5).0, ["5×10^{3}", "10^{4}", "2×10^{4}", "5×10^{4}", "10^{5}"]);
-        assert_eq!(labels(1e3, 1e9, Scale::Log, 3).0, ["10^{4}", "10^{6}", "10^{8}"]);
+        assert_eq!(labels(3e3, 1e5, Scale::Log, 5).0, ["5×10³", "10⁴", "2×10⁴", "5×10⁴", "10⁵"]);
+        assert_eq!(labels(1e3, 1e9, Scale::Log, 3).0, ["10⁴", "10⁶", "10⁸"]);
         assert_eq!(labels(1.0, 1.5, Scale::Log, 5).0, ["1.0", "1.2", "1.4"]);
         let ticks = Ticks::new(&Scaled { from: 1.0, to: 100.0, scale: Scale::Log }, 4, false).ticks;
         let minor: Vec<f64> = ticks.iter().filter(|tick| tick.label.is_none()).map(|tick| tick.at).collect();
@@ -266,7 +254,7 @@ mod tests {
     fn values_on_contours() {
         assert_eq!(on_contour(0.25, 0.05), "0.25");
         assert_eq!(on_contour(-400.0, 100.0), "−400");
-        assert_eq!(on_contour(1e-9, 1e-9), "10^{−9}");
-        assert_eq!(on_contour(1.5e-9, 1e-9), "1.5×10^{−9}");
+        assert_eq!(on_contour(1e-9, 1e-9), "10⁻⁹");
+        assert_eq!(on_contour(1.5e-9, 1e-9), "1.5×10⁻⁹");
     }
 }

@@ -2,14 +2,16 @@
 //! largest type in which it fits on one page.
 
 use super::colour::Colour;
+use super::drawing::Drawing;
 use super::error::FigureError;
-use super::render::svg_pages;
-use super::svg::{Pen, Rect, Svg, Type};
-use super::text::wrapped;
+use super::render;
+use super::style::Style;
+use super::svg::{Rect, Svg, Type};
+use super::text::{FAMILIES, wrapped};
 use serde::{Deserialize, Serialize};
 
 /// A4 \[pt\].
-pub(super) const PAGE: [f64; 2] = [595.28, 841.89];
+const PAGE: [f64; 2] = [595.28, 841.89];
 const MARGIN: f64 = 42.0;
 const COLUMNS: usize = 2;
 /// Between columns.
@@ -52,7 +54,15 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
         let fitting = SIZES.iter().map(|size| set(sheet, *size)).find(|pages| pages.len() < 2);
         pages.extend(fitting.unwrap_or_else(|| set(sheet, SIZES[SIZES.len() - 1])));
     }
-    svg_pages(title, PAGE, &pages)
+    let [width, height] = PAGE;
+    let page = |body: String| {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
+        );
+        (Drawing { size: PAGE, pictures: Vec::new(), body }, svg)
+    };
+    let pages: Vec<(Drawing, String)> = pages.into_iter().map(page).collect();
+    render::pdf(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
 /// A sheet in type of this size: the body of each of its pages.
@@ -174,14 +184,14 @@ impl Setter {
         let top = self.y - lines * LINE * size + 0.25 * size;
         let square = Rect { x: self.left(), y: top, width: 0.75 * size, height: 0.75 * size };
         let fill = ticked.then_some((Colour::FILM, 1.0));
-        self.draw(|page| page.rect(&square, Some(&Pen::solid(Colour::QUIET, 0.6)), fill));
+        self.draw(|page| page.rect(&square, &Style::solid(Colour::QUIET).width(0.6), fill));
     }
 
     fn ruled(&mut self, lines: usize) {
         for _ in 0..lines {
             let y = self.take(RULED * self.size) + RULED * self.size;
             let (left, right) = (self.left(), self.left() + Self::width());
-            self.draw(|page| page.segments(&[[left, y, right, y]], &Pen::solid(Colour::QUIET, 0.4)));
+            self.draw(|page| page.segments(&[[left, y, right, y]], &Style::solid(Colour::QUIET).width(0.4)));
         }
         self.y += 0.3 * self.size;
     }
@@ -192,7 +202,10 @@ impl Setter {
         let (left, bottom) = (self.left() + 0.5 * size, top + AXES * size);
         let right = self.left() + 0.9 * Self::width();
         self.draw(|page| {
-            page.segments(&[[left, top, left, bottom], [left, bottom, right, bottom]], &Pen::solid(Colour::BLACK, 0.8));
+            page.segments(
+                &[[left, top, left, bottom], [left, bottom, right, bottom]],
+                &Style::solid(Colour::BLACK).width(0.8),
+            );
             page.text([right, bottom + size], along, &Type::new(0.85 * size, "end"));
             page.text([left + 0.5 * size, top + 0.6 * size], up, &Type::new(0.85 * size, "start"));
         });
@@ -215,10 +228,8 @@ mod tests {
         };
         assert_eq!(pages(&[some(110), some(3)]), 2);
         assert_eq!(pages(&[some(200)]), 2);
-        assert_eq!(
-            pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
-            1
-        );
+        let others = vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)];
+        assert_eq!(pages(&[others]), 1);
     }
 
     #[test]
@@ -251,12 +262,7 @@ mod tests {
     fn the_axes_of_a_sketch_have_their_names_at_their_ends() {
         let size = SIZES[0];
         let page = &set(&[Piece::Axes(["along".to_owned(), "up".to_owned()])], size)[0];
-        let place = |word: &str| {
-            let text = page[..page.find(&format!(">{word}")).unwrap()].rsplit("<text ").next().unwrap();
-            [" y=\"", "x=\""]
-                .map(|of| text.split(of).nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap())
-        };
-        let ([along, right], [up, left]) = (place("along"), place("up"));
+        let ([right, along], [left, up]) = (place(page, "along"), place(page, "up"));
         assert!((along - up - (AXES + 0.4) * size).abs() < 0.1, "{along} {up}");
         assert!((right - left) / Setter::width() > 0.85 && right < MARGIN + Setter::width(), "{left} {right}");
     }
@@ -272,11 +278,7 @@ mod tests {
                 sheet.extend([Piece::Heading("head".to_owned()), Piece::Text("ask".to_owned())]);
                 sheet.extend_from_slice(with);
                 let page = &set(&sheet, SIZES[0])[0];
-                let in_second = |word: &str| {
-                    let place = page.find(&format!(">{word}")).unwrap();
-                    let x = page[..place].rsplit("<text x=\"").next().unwrap().split('"').next().unwrap();
-                    x.parse::<f64>().unwrap() > 0.5 * PAGE[0]
-                };
+                let in_second = |word: &str| place(page, word)[0] > 0.5 * PAGE[0];
                 let parts = ["head", "ask", last].map(in_second);
                 assert!(parts == [true; 3] || parts == [false; 3], "{last} after {before} lines: {parts:?}");
                 moved |= in_second("ask");
@@ -292,6 +294,12 @@ mod tests {
         let value =
             |tag: &str| tag.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()?.parse().ok());
         tags.filter_map(value).collect()
+    }
+
+    /// Where the text that begins with a word stands.
+    fn place(page: &str, word: &str) -> [f64; 2] {
+        let until = &page[..page.find(&format!(">{word}")).unwrap()];
+        ["x", "y"].map(|name| attributes(until, "text", name).pop().unwrap())
     }
 
     #[test]

@@ -27,6 +27,13 @@ impl Style {
         Self { colour, ..Self::default() }
     }
 
+    /// With another width \[pt\].
+    #[must_use]
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
     /// With dashes.
     #[must_use]
     pub fn dash(mut self, dash: Dash) -> Self {
@@ -36,21 +43,21 @@ impl Style {
 
     /// A thin grey line for marks.
     pub fn quiet() -> Self {
-        Self { colour: Colour::QUIET, width: 0.6, dash: Dash::Solid, marker: None }
+        Self::solid(Colour::QUIET).width(0.6)
     }
 
     /// The style of curve `index` of several: colour, dashes and marker all differ, so that they can be told apart in grey.
     pub fn nth(index: usize) -> Self {
-        let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
         let shape = [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross];
         let hollow = (index / shape.len()) % 2 == 1;
-        let marker = Marker { shape: shape[index % shape.len()], hollow, ..Marker::default() };
-        Self {
-            colour: Colour::CYCLE[index % Colour::CYCLE.len()],
-            width: 1.0,
-            dash: dash[index % dash.len()],
-            marker: Some(marker),
-        }
+        let marker = Marker { hollow, ..Marker::solid(shape[index % shape.len()]) };
+        Self { marker: Some(marker), ..Self::unmarked(index) }
+    }
+
+    /// As [`Self::nth`], without markers: of curves with many points.
+    pub fn unmarked(index: usize) -> Self {
+        let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+        Self::solid(Colour::CYCLE[index % Colour::CYCLE.len()]).dash(dash[index % dash.len()])
     }
 }
 

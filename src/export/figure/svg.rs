@@ -1,7 +1,8 @@
 //! An SVG as it grows: lines, areas, text and pictures, in points from the upper left corner.
 
 use super::colour::Colour;
-use super::style::{Dash, Marker, Shape};
+use super::error::Pixels;
+use super::style::{Dash, Marker, Shape, Style};
 use super::text::{SMALL, Script, pieces, plain, width};
 use std::fmt::Write as _;
 
@@ -39,26 +40,10 @@ impl Rect {
     }
 }
 
-/// A picture under the drawing: rows of red, green, blue from the top.
-#[derive(Clone, Debug)]
+/// A picture under the drawing.
 pub(super) struct Picture {
     pub(super) rect: Rect,
-    pub(super) size: [usize; 2],
-    pub(super) rgb: Vec<u8>,
-}
-
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pen {
-    pub(super) colour: Colour,
-    pub(super) width: f64,
-    pub(super) dash: Dash,
-}
-
-impl Pen {
-    pub(super) fn solid(colour: Colour, width: f64) -> Self {
-        Self { colour, width, dash: Dash::Solid }
-    }
+    pub(super) pixels: Pixels,
 }
 
 /// Where and how text stands.
@@ -120,10 +105,12 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    fn stroke(&mut self, pen: &Pen) {
-        let _ = write!(self.body, r#" stroke="{}" stroke-width="{}""#, pen.colour.hex(), coordinate(pen.width));
-        let w = pen.width.max(0.4);
-        let dashes: &[f64] = match pen.dash {
+    /// Ends an element with how its line is drawn.
+    fn stroke(&mut self, style: &Style) {
+        let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
+        let _ = write!(self.body, r#" stroke="{}" stroke-width="{}""#, style.colour.hex(), coordinate(width));
+        let w = width.max(0.4);
+        let dashes: &[f64] = match style.dash {
             Dash::Solid => &[],
             Dash::Dashed => &[4.5, 2.2],
             Dash::Dotted => &[1.0, 1.8],
@@ -133,18 +120,18 @@ impl Svg {
             let list: Vec<String> = dashes.iter().map(|part| coordinate(part * w)).collect();
             let _ = write!(self.body, r#" stroke-dasharray="{}""#, list.join(" "));
         }
+        self.body.push_str("/>\n");
     }
 
     /// A line through points.
-    pub(super) fn polyline(&mut self, points: &[[f64; 2]], pen: &Pen) {
+    pub(super) fn polyline(&mut self, points: &[[f64; 2]], style: &Style) {
         if points.len() < 2 {
             return;
         }
         self.body.push_str(r#"<polyline fill="none" stroke-linejoin="round" points=""#);
         self.points(points);
         self.body.push('"');
-        self.stroke(pen);
-        self.body.push_str("/>\n");
+        self.stroke(style);
     }
 
     fn points(&mut self, points: &[[f64; 2]]) {
@@ -168,8 +155,8 @@ impl Svg {
         self.body.push_str("/>\n");
     }
 
-    /// A rectangle with an outline, a filling, or both.
-    pub(super) fn rect(&mut self, rect: &Rect, pen: Option<&Pen>, fill: Option<(Colour, f64)>) {
+    /// A rectangle with an outline, and a filling or none.
+    pub(super) fn rect(&mut self, rect: &Rect, style: &Style, fill: Option<(Colour, f64)>) {
         let [x, y, w, h] = [rect.x, rect.y, rect.width.max(0.0), rect.height.max(0.0)].map(coordinate);
         let _ = write!(self.body, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}""#);
         match fill {
@@ -178,14 +165,11 @@ impl Svg {
             }
             None => self.body.push_str(r#" fill="none""#),
         }
-        if let Some(pen) = pen {
-            self.stroke(pen);
-        }
-        self.body.push_str("/>\n");
+        self.stroke(style);
     }
 
     /// Ticks and the like: many short lines in one path.
-    pub(super) fn segments(&mut self, segments: &[[f64; 4]], pen: &Pen) {
+    pub(super) fn segments(&mut self, segments: &[[f64; 4]], style: &Style) {
         if segments.is_empty() {
             return;
         }
@@ -195,8 +179,7 @@ impl Svg {
             let _ = write!(self.body, "M{x0} {y0}L{x1} {y1}");
         }
         self.body.push('"');
-        self.stroke(pen);
-        self.body.push_str("/>\n");
+        self.stroke(style);
     }
 
     /// A marker's sign.
@@ -211,12 +194,12 @@ impl Svg {
             Shape::Cross => {
                 let a = 0.9 * r;
                 let strokes = [[x - a, y - a, x + a, y + a], [x - a, y + a, x + a, y - a]];
-                return self.segments(&strokes, &Pen::solid(colour, 0.9));
+                return self.segments(&strokes, &Style::solid(colour).width(0.9));
             }
         };
         let (fill, outline) = match marker.hollow {
-            true => (Colour::WHITE, Pen::solid(colour, 0.8)),
-            false => (colour, Pen::solid(Colour::WHITE, 0.3)),
+            true => (Colour::WHITE, Style::solid(colour).width(0.8)),
+            false => (colour, Style::solid(Colour::WHITE).width(0.3)),
         };
         if shape.is_empty() {
             let [x, y, r] = [x, y, r].map(coordinate);
@@ -228,7 +211,6 @@ impl Svg {
             let _ = write!(self.body, r#"" fill="{}""#, fill.hex());
         }
         self.stroke(&outline);
-        self.body.push_str("/>\n");
     }
 
     /// Words whose baseline is at a point.

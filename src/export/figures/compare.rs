@@ -1,7 +1,7 @@
 //! Figures of several runs: curves laid over each other, maps side by side with one scale of colours. All are at the same
 //! phase of the cycle, and axes cover the whole cycle of every run.
 
-use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span};
+use super::motor::{all_teeth, crest_in_the_middle, one_tooth, pressure_span};
 use super::plate;
 use super::series::{
     along, along_where_not_zero, over_cycle, phase as phase_of, pressure_map, rest, span, tooth_map, with_margin,
@@ -31,11 +31,6 @@ pub type MotorRun<'a> = DrawnRun<'a, Motor>;
 /// A plate's run.
 pub type PlateRun<'a> = DrawnRun<'a, Plate>;
 
-/// The style of run `index` of several: without markers, as curves have many points.
-pub fn style(index: usize) -> Style {
-    Style { marker: None, ..Style::nth(index) }
-}
-
 /// Whose numbers a caption is about, if there are several.
 fn of_every<S>(runs: &[DrawnRun<'_, S>]) -> &'static str {
     if runs.len() > 1 { " of every run" } else { "" }
@@ -59,7 +54,7 @@ pub fn motors(runs: &[MotorRun<'_>], performances: &[Performance]) -> Vec<(&'sta
 }
 
 /// The frame of a recording that is nearest to a phase of the cycle, 0 to 1.
-pub fn nearest_frame(recording: &Recording, phase: f64) -> usize {
+fn nearest_frame(recording: &Recording, phase: f64) -> usize {
     (phase * recording.frames as f64).round() as usize % recording.frames.max(1)
 }
 
@@ -91,20 +86,18 @@ fn wave_axis(runs: &[MotorRun<'_>]) -> (Axis, impl Fn(&Recording) -> f64) {
 
 /// Surfaces, contact pressure and film pressure along one wavelength at a phase of the cycle, all runs in each panel.
 pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
-    let mut figure = Figure::new(format!("t/T = {phase:.3}"));
-    figure.panels = vec![
+    let panels = vec![
         surfaces(runs, phase).height(40.0),
         pressures(runs, phase, "(b) contact pressure", |recording| &recording.contact).height(30.0),
         pressures(runs, phase, "(c) film pressure, gauge", |recording| &recording.film).height(30.0),
     ];
-    figure.share_x = true;
-    figure.width = Width::Millimetres(150.0);
-    figure.caption = format!(
+    let caption = format!(
         "Rotor (thick) and tooth tops (thin) (a), contact pressure (b) and gauge pressure of the air film (c), both averaged over the \
          contact width, along one wavelength at t/T = {phase:.3}{}.",
         of_every(runs)
     );
-    figure
+    let width = Width::Millimetres(150.0);
+    Figure { panels, share_x: true, width, caption, ..Figure::new(format!("t/T = {phase:.3}")) }
 }
 
 fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
@@ -120,12 +113,12 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     let tops = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);
         let tops = along(run.recording, frame, metre(run.recording), |i| run.recording.stator[i] * scale);
-        Line::new("", tops, Style { width: 0.6, ..run.style })
+        Line::new("", tops, run.style.width(0.6))
     });
     let rotors = runs.iter().map(|run| {
         let rotor = Lines::at(run.recording, nearest_frame(run.recording, phase) as f64).underside(run.recording);
         let rotor = rotor.into_iter().map(|[x, height]| [x * metre(run.recording), height * scale]);
-        Line::new(run.name, rotor, Style { width: 1.3, ..run.style })
+        Line::new(run.name, rotor, run.style.width(1.3))
     });
     let y = Axis::new("displacement", unit).fixed(low * scale, high * scale);
     Panel::new("(a) surfaces", x, y).layers(tops).layers(rotors).legend(Legend::Above)
@@ -203,18 +196,17 @@ fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64
 
 /// The film's pressure under all teeth of every run, with one scale of colours.
 pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
-    let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
-    let mut figure = Figure::new(format!("pressure of the air film, t/T = {phase:.3}"));
-    figure.panels.extend(runs.iter().map(|run| {
-        let map = all_teeth_on(run.recording, nearest_frame(run.recording, phase), &unit, scale, span);
+    let (span, _) = common_pressure(runs.iter().map(|run| run.recording));
+    let panels = runs.iter().map(|run| {
+        let map = all_teeth(run.recording, nearest_frame(run.recording, phase), span);
         Panel { title: run.name.to_owned(), height: 11.0, ..map }
-    }));
-    figure.width = Width::Page;
-    figure.caption = format!(
+    });
+    let caption = format!(
         "Absolute pressure of the air film under all teeth at t/T = {phase:.3}{}; one scale of colours covers the whole cycle.",
         of_every(runs)
     );
-    figure
+    let title = format!("pressure of the air film, t/T = {phase:.3}");
+    Figure { panels: panels.collect(), width: Width::Page, caption, ..Figure::new(title) }
 }
 
 /// The film's pressure under the tooth in the middle of every run, with one scale of colours.
@@ -223,20 +215,21 @@ pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
         runs.iter().map(|run| tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
     let [low, high] = extent(maps.flatten());
     let (unit, scale) = pressure_unit(high);
-    let mut figure = Figure::new("under the tooth in the middle");
-    for run in runs {
+    let panels = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);
         let range = Range::Fixed(low * scale, high * scale);
-        let map = one_tooth(run.recording, frame, range, (unit.clone(), scale));
-        figure.panels.push(Panel { title: run.name.to_owned(), ..map });
-    }
-    figure.columns = runs.len().clamp(1, 2);
-    figure.width = Width::Page;
-    figure.caption = format!(
+        Panel { title: run.name.to_owned(), ..one_tooth(run.recording, frame, range, (unit.clone(), scale)) }
+    });
+    let caption = format!(
         "Absolute pressure of the air film under the tooth in the middle, with lines of equal pressure, at t/T = {phase:.3}{}.",
         if runs.len() > 1 { "; one scale of colours for all" } else { "" }
     );
-    figure
+    in_pairs("under the tooth in the middle", panels.collect(), caption)
+}
+
+/// Panels in rows of two over the width of a page.
+fn in_pairs(title: &str, panels: Vec<Panel>, caption: String) -> Figure {
+    Figure { columns: panels.len().clamp(1, 2), panels, width: Width::Page, caption, ..Figure::new(title) }
 }
 
 /// Surfaces, pressures and maps at a phase of the cycle, for moving pictures.
@@ -271,9 +264,9 @@ fn plate_axis(runs: &[PlateRun<'_>]) -> (Axis, fn(&Plate) -> f64) {
 }
 
 fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
-    let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
-    let margin = 0.06 * (high - low);
-    let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let [low, high] = with_margin(span, 0.06);
+    let y = Axis::new("absolute pressure", unit).fixed(low * scale, high * scale);
     let (axis, length) = plate_axis(runs);
     let lines = runs.iter().map(|run| {
         let frame = nearest_frame(run.recording, phase);
@@ -332,22 +325,19 @@ pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
 /// Pressure along every plate and over the cycle, with one scale of colours.
 pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
-    let mut figure = Figure::new("pressure along the plate and over the cycle");
-    for run in runs {
+    let panels = runs.iter().map(|run| {
         // Each map is of one plate.
         let (axis, length) = plate_axis(std::slice::from_ref(run));
         let grid = plate::over_length_and_cycle(run.recording, scale, |x| x / length(run.scene));
         let map = pressure_map(grid, &unit, Range::Fixed(low * scale, high * scale));
         let panel = Panel::new(run.name, axis, Axis::new("t/T", "").fixed(0.0, 1.0));
-        figure.panels.push(panel.layer(map).height(40.0));
-    }
-    figure.columns = runs.len().clamp(1, 2);
-    figure.width = Width::Page;
-    figure.caption = format!(
+        panel.layer(map).height(40.0)
+    });
+    let caption = format!(
         "Absolute pressure along the middle of {} and over one cycle.",
         if runs.len() > 1 { "every plate, with one scale of colours for all," } else { "the plate" }
     );
-    figure
+    in_pairs("pressure along the plate and over the cycle", panels.collect(), caption)
 }
 
 /// Profiles and loops at a phase of the cycle, for moving pictures.
@@ -363,8 +353,6 @@ pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
         let at = [gap / run.scene.mean_gap, load / run.scene.area() * unit];
         Some(Points::new("", [at], run.style.colour, marker))
     });
-    let mut figure = Figure::new("").panel(profile.height(46.0)).panel(round.layers(now).height(46.0));
-    figure.columns = 2;
-    figure.width = Width::Millimetres(170.0);
-    figure
+    let panels = vec![profile.height(46.0), round.layers(now).height(46.0)];
+    Figure { panels, columns: 2, width: Width::Millimetres(170.0), ..Figure::default() }
 }

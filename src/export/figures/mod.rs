@@ -11,7 +11,7 @@
 //! | plate | `loop` | mean pressure against the gap |
 //! | plate | `map` | pressure over the plate at its greatest; of a strip, along it and over the cycle |
 //! | plate | `exact` | spring and damping over the squeeze number, load over the cycle, beside what is known exactly |
-//! | several motors | `waves`, `loads`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
+//! | several motors | `waves`, `loads`, `torque`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
 //! | several plates | `profiles`, `loads`, `loops`, `maps` | the same |
 //! | both | `convergence` | change in every round, if the rounds were kept |
 
@@ -67,17 +67,12 @@ pub fn of(
         figures.push(("convergence", convergence(history)));
     }
     figures.extend(curves.map(|curves| ("torque", torque::torque(curves))));
-    figures.into_iter().map(|(name, figure)| (name, dressed(problem, solution, figure))).collect()
-}
-
-/// With the scene's name above, and where its numbers come from below.
-fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
-    figure.title = match figure.title.as_str() {
-        "" => show_text(&problem.name),
-        title => format!("{}: {title}", show_text(&problem.name)),
-    };
-    figure.provenance = Provenance::of(problem, solution);
-    figure
+    // The scene's name above, and where the numbers come from below.
+    for (_, figure) in &mut figures {
+        figure.title = format!("{}: {}", show_text(&problem.name), figure.title);
+        figure.provenance = Provenance::of(problem, solution);
+    }
+    figures
 }
 
 /// The change in every round of every grid, and what it had to fall below.
@@ -91,7 +86,6 @@ pub fn convergence(history: &[Progress]) -> Figure {
             tolerances.push(round.tolerance);
         }
     }
-    let all = history.iter().map(|round| round.residual).chain(tolerances.iter().copied());
     let allowed = tolerances.iter().map(|tolerance| {
         let mut mark = Mark::horizontal(*tolerance, if *tolerance == tolerances[0] { "allowed" } else { "" });
         mark.style.dash = Dash::Dashed;
@@ -103,8 +97,27 @@ pub fn convergence(history: &[Progress]) -> Figure {
     });
     let y = Axis::new("relative change in a round", "").log().including(tolerances.clone());
     let panel = Panel::new("", Axis::new("round", "").whole(), y).layers(allowed).layers(changes);
-    let last = all.fold(f64::INFINITY, f64::min);
+    let least = history.iter().map(|round| round.residual).fold(f64::INFINITY, f64::min);
     Figure::new("convergence").panel(panel).caption(format!(
-        "Relative change in every round of the outer iteration on each of {grids} grids; the least was {last:.1e}."
+        "Relative change in every round of the outer iteration on each of {grids} grids; the least was {least:.1e}."
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_change_is_that_of_a_round_although_less_was_allowed() {
+        let round = |iteration, residual| Progress {
+            level: 0,
+            levels: 1,
+            iteration,
+            residual,
+            tolerance: 1e-6,
+            film_load: 0.0,
+        };
+        let caption = convergence(&[round(1, 2e-2), round(2, 3e-4)]).caption;
+        assert!(caption.ends_with("the least was 3.0e-4."), "{caption}");
+    }
 }

@@ -25,25 +25,23 @@ pub fn crest_in_the_middle(recording: &Recording) -> usize {
 
 /// Surfaces, contact pressure and film pressure along one wavelength at a frame, as the paper's Fig. 4.
 pub fn wave(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut figure = Figure::new(format!("t/T = {:.3}", phase(recording, frame)));
-    let unit =
-        |values: &[f64]| pressure_unit(span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1]);
-    let ((contact_unit, scale), (film_unit, film_scale)) = (unit(&recording.contact), unit(&recording.film));
-    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &contact_unit, scale };
-    let film = Loads { values: &recording.film, unit: &film_unit, scale: film_scale, ..contact };
-    figure.panels = vec![
+    let pressure = |title: &str, loads: &[f64], colour: Colour| {
+        let (y, scale) = pressure_axis(motor, loads.iter());
+        let (area, curve) = area_and_curve(recording, frame, (loads, scale), "", Style::solid(colour));
+        Panel::new(title, x_axis(recording), y).layer(area).layer(rest(0.0, "")).layer(curve).height(26.0)
+    };
+    let panels = vec![
         surfaces(motor, recording, frame).height(38.0),
-        contact.panel("(b) contact pressure", Colour::CONTACT).height(26.0),
-        film.panel("(c) film pressure, gauge", Colour::FILM).height(26.0),
+        pressure("(b) contact pressure", &recording.contact, Colour::CONTACT),
+        pressure("(c) film pressure, gauge", &recording.film, Colour::FILM),
     ];
-    figure.share_x = true;
-    figure.caption = format!(
+    let phase = phase(recording, frame);
+    let caption = format!(
         "Normal displacement of stator teeth and rotor (a), contact pressure (b) and gauge pressure of the air film (c), both \
-         averaged over the contact width, along one wavelength at t/T = {:.3}. The wave travels towards −x, the rotor is \
-         driven towards +x.",
-        phase(recording, frame)
+         averaged over the contact width, along one wavelength at t/T = {phase:.3}. The wave travels towards −x, the rotor is \
+         driven towards +x."
     );
-    figure
+    Figure { panels, share_x: true, caption, ..Figure::new(format!("t/T = {phase:.3}")) }
 }
 
 fn x_axis(recording: &Recording) -> Axis {
@@ -71,60 +69,47 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let above = rotor.iter().map(|[x, y]| [*x, *y, f64::INFINITY]);
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
-    let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
+    let thick = Style::solid(Colour::CONTACT).width(2.4);
     // Wherever in the cycle: the legend is the same at every instant.
     let touched = recording.contact.iter().any(|load| touches(*load));
     Panel::new("(a) surfaces", x_axis(recording), y)
         .layer(above)
         .layer(body)
-        .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
-        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }))
+        .layer(Line::new("stator", outline, Style::solid(Colour::STATOR).width(0.8)))
+        .layer(Line::new("rotor", rotor, Style::solid(Colour::BLACK).width(1.2)))
         .layers(touched.then(|| Line::new("in contact", touching, thick)))
         .legend(Legend::Above)
 }
 
-/// A line load of all teeth as a pressure.
-#[derive(Clone, Copy)]
-struct Loads<'a> {
-    motor: &'a Motor,
-    recording: &'a Recording,
-    frame: usize,
-    values: &'a [f64],
-    unit: &'a str,
-    scale: f64,
+/// An axis for line loads as pressures, and what a load is on it.
+fn pressure_axis<'a>(motor: &Motor, loads: impl Iterator<Item = &'a f64> + Clone) -> (Axis, f64) {
+    let greatest = span(loads.clone().map(|load| (load / motor.contact_width).abs()), 0.0)[1];
+    let (unit, scale) = pressure_unit(greatest);
+    let scale = scale / motor.contact_width;
+    let [low, high] = with_margin(span(loads.map(|load| load * scale), 0.0), 0.06);
+    (Axis::new("pressure", unit).fixed(low, high), scale)
 }
 
-impl Loads<'_> {
-    /// One curve for each tooth, with a pale area below.
-    fn layers(&self, name: &str, colour: Colour, dash: Dash) -> (Band, Line) {
-        let per_width = self.scale / self.motor.contact_width;
-        let curve = along_where_not_zero(self.recording, self.frame, 1e3, |i| self.values[i] * per_width);
-        let area: Vec<[f64; 3]> = curve.iter().map(|[x, pressure]| [*x, 0.0, *pressure]).collect();
-        (Band::new("", area, colour), Line::new(name, curve, Style::solid(colour).dash(dash)))
-    }
-
-    fn axis(&self, also: &[f64]) -> Axis {
-        let per_width = self.scale / self.motor.contact_width;
-        let all = self.values.iter().chain(also).map(|load| load * per_width);
-        let [low, high] = with_margin(span(all, 0.0), 0.06);
-        Axis::new("pressure", self.unit).fixed(low, high)
-    }
-
-    fn panel(&self, title: &str, colour: Colour) -> Panel {
-        let (area, curve) = self.layers("", colour, Dash::Solid);
-        Panel::new(title, x_axis(self.recording), self.axis(&[])).layer(area).layer(rest(0.0, "")).layer(curve)
-    }
+/// A line load, `scale` times, as one curve for each tooth, with a pale area below.
+fn area_and_curve(
+    recording: &Recording,
+    frame: usize,
+    (loads, scale): (&[f64], f64),
+    name: &str,
+    style: Style,
+) -> (Band, Line) {
+    let curve = along_where_not_zero(recording, frame, 1e3, |i| loads[i] * scale);
+    let area = curve.iter().map(|[x, pressure]| [*x, 0.0, *pressure]);
+    (Band::new("", area, style.colour), Line::new(name, curve, style))
 }
 
 /// Contact pressure and film pressure in one panel.
 pub fn pressures(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
-    let all = recording.contact.iter().chain(&recording.film).map(|load| (load / motor.contact_width).abs());
-    let (unit, scale) = pressure_unit(span(all, 0.0)[1]);
-    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &unit, scale };
-    let film = Loads { values: &recording.film, ..contact };
-    let (contact_area, contact_line) = contact.layers("contact", Colour::CONTACT, Dash::Dashed);
-    let (film_area, film_line) = film.layers("air film, gauge", Colour::FILM, Dash::Solid);
-    let y = contact.axis(&recording.film);
+    let (y, scale) = pressure_axis(motor, recording.contact.iter().chain(&recording.film));
+    let of = |loads: &[f64], name: &str, style: Style| area_and_curve(recording, frame, (loads, scale), name, style);
+    let dashed = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
+    let (contact_area, contact_line) = of(&recording.contact, "contact", dashed);
+    let (film_area, film_line) = of(&recording.film, "air film, gauge", Style::solid(Colour::FILM));
     Panel::new("(b) pressure on the teeth", x_axis(recording), y)
         .layer(contact_area)
         .layer(film_area)
@@ -140,7 +125,7 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
     let curve = |name: &str, series: &[f64], style: Style| Line::new(name, over_cycle(series, scale), style);
     let load = Panel::new(
         "(a) load on one wavelength",
-        Axis::new("", ""),
+        Axis::new("", "").fixed(0.0, 1.0),
         Axis::new("load", &unit).including([0.0, motor.load * scale]),
     )
     .layer(Mark::horizontal(motor.load * scale, "axial load"))
@@ -156,27 +141,20 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
         Axis::new("touching", "").fixed(0.0, most + 0.5).whole(),
     )
     .layer(Line::new("", steps, Style::solid(Colour::BLACK)));
-    let mut figure = Figure::new("loads over the cycle").panel(load.height(38.0)).panel(teeth.height(16.0));
-    figure.panels[0].x.range = Range::Fixed(0.0, 1.0);
-    figure.share_x = true;
+    let panels = vec![load.height(38.0), teeth.height(16.0)];
     let (unit, seconds) = prefixed(recording.period, "s");
-    figure.caption = format!(
+    let caption = format!(
         "Contact load and load of the air film on one wavelength over one cycle of {} {unit}; together they carry the axial load, the thin \
          line. Below, how many of the {} teeth touch the rotor.",
         significant(recording.period * seconds, 4),
         recording.teeth
     );
-    figure
+    Figure { panels, share_x: true, caption, ..Figure::new("loads over the cycle") }
 }
 
-/// The film's pressure under all teeth, absolute.
-pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
-    let (unit, scale) = pressure_unit(pressure_span(recording)[1]);
-    all_teeth_on(recording, frame, &unit, scale, pressure_span(recording))
-}
-
-/// As [`all_teeth`], in `unit`, of which a pascal is `scale`, with colours that cover `span` \[Pa\].
-pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scale: f64, span: [f64; 2]) -> Panel {
+/// The film's pressure under all teeth, absolute, with colours that cover `span` \[Pa\].
+pub(super) fn all_teeth(recording: &Recording, frame: usize, span: [f64; 2]) -> Panel {
+    let (unit, scale) = pressure_unit(span[1]);
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
     // Of teeth without a groove between them, one ends where the next begins.
@@ -198,7 +176,7 @@ pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scal
         }
     }
     let grid = Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values };
-    let map = pressure_map(grid, unit, Range::Fixed(span[0] * scale, span[1] * scale));
+    let map = pressure_map(grid, &unit, Range::Fixed(span[0] * scale, span[1] * scale));
     Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
 }
 
@@ -208,15 +186,14 @@ pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
 
 /// Surfaces, pressures and the film's map at a frame, for moving pictures.
 pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut map = all_teeth(recording, frame);
+    let mut map = all_teeth(recording, frame, pressure_span(recording));
     map.title = "(c) air film from above".to_owned();
-    let mut figure = Figure::new("")
-        .panel(surfaces(motor, recording, frame).height(30.0))
-        .panel(pressures(motor, recording, frame).height(24.0))
-        .panel(map.height(9.0));
-    figure.width = Width::Millimetres(130.0);
-    figure.share_x = true;
-    figure
+    let panels = vec![
+        surfaces(motor, recording, frame).height(30.0),
+        pressures(motor, recording, frame).height(24.0),
+        map.height(9.0),
+    ];
+    Figure { panels, width: Width::Millimetres(130.0), share_x: true, ..Figure::default() }
 }
 
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
@@ -228,21 +205,20 @@ pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit
 
 /// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
 pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut all = all_teeth(recording, frame).height(14.0);
+    let span = pressure_span(recording);
+    let mut all = all_teeth(recording, frame, span).height(14.0);
     all.title = "(a) all teeth".to_owned();
-    let one = one_tooth(recording, frame, Range::Auto, pressure_unit(pressure_span(recording)[1]));
+    let one = one_tooth(recording, frame, Range::Auto, pressure_unit(span[1]));
     let one = Panel { title: "(b) the tooth in the middle".to_owned(), ..one };
-    let mut figure =
-        Figure::new(format!("pressure of the air film, t/T = {:.3}", phase(recording, frame))).panel(all).panel(one);
-    figure.width = Width::Page;
-    figure.caption = format!(
-        "Absolute pressure of the air film at t/T = {:.3}, under all {} teeth of one wavelength (a) and under the tooth on which the \
+    let phase = phase(recording, frame);
+    let caption = format!(
+        "Absolute pressure of the air film at t/T = {phase:.3}, under all {} teeth of one wavelength (a) and under the tooth on which the \
          crest is (b); colours of (a) cover the whole cycle. Teeth are {} mm wide along x.",
-        phase(recording, frame),
         recording.teeth,
         significant(motor.tooth_width * 1e3, 4)
     );
-    figure
+    let title = format!("pressure of the air film, t/T = {phase:.3}");
+    Figure { panels: vec![all, one], width: Width::Page, caption, ..Figure::new(title) }
 }
 
 #[cfg(test)]
@@ -251,21 +227,21 @@ mod tests {
     use crate::export::figure::Layer;
     use crate::recording::LineLoads;
 
-    /// Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts.
+    /// Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts in kPa.
     fn two_teeth(pitch: f64) -> Recording {
         Recording {
             lines: LineLoads { frames: 4, teeth: 2, stored_teeth: 1, pitch, ..LineLoads::default() },
             map_x: vec![-0.5e-3, 0.5e-3],
             map_y: vec![0.0, 1e-4],
             half_width: true,
-            pressure: (0..16).map(f64::from).collect(),
+            pressure: (0..16).map(|count| f64::from(count) * 1e3).collect(),
             ..Recording::default()
         }
     }
 
     #[test]
     fn teeth_without_grooves_are_one_map() {
-        let panel = all_teeth_on(&two_teeth(1e-3), 1, "hPa", 0.01, [0.0, 20.0]);
+        let panel = all_teeth(&two_teeth(1e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         assert_eq!((map.grid.x.as_slice(), map.grid.values.len()), ([-0.5, 0.5, 1.5].as_slice(), 9));
         assert!(map.grid.values.iter().all(|value| value.is_finite()));
@@ -273,7 +249,7 @@ mod tests {
 
     #[test]
     fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
-        let panel = all_teeth_on(&two_teeth(2e-3), 1, "hPa", 0.01, [0.0, 20.0]);
+        let panel = all_teeth(&two_teeth(2e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         let near = |found: &[f64], expected: &[f64]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(
@@ -282,8 +258,8 @@ mod tests {
             map.grid
         );
         let values = &map.grid.values;
-        assert!(near(&values[..6], &[0.05, 0.04, 0.05, 0.07, 0.06, 0.07]) && values[6..9].iter().all(|v| v.is_nan()));
-        assert!(values.len() == 15 && near(&values[9..], &[0.13, 0.12, 0.13, 0.15, 0.14, 0.15]), "{values:?}");
-        assert_eq!(map.range, Range::Fixed(0.0, 0.2));
+        assert!(near(&values[..6], &[5.0, 4.0, 5.0, 7.0, 6.0, 7.0]) && values[6..9].iter().all(|v| v.is_nan()));
+        assert!(values.len() == 15 && near(&values[9..], &[13.0, 12.0, 13.0, 15.0, 14.0, 15.0]), "{values:?}");
+        assert_eq!((map.unit.as_str(), &map.range), ("kPa", &Range::Fixed(0.0, 20.0)));
     }
 }

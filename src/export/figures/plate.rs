@@ -1,6 +1,6 @@
 //! Figures of a plate.
 
-use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane};
+use super::series::{mirrored, over_cycle, phase, pressure_map, rest, span, whole_plane, with_margin};
 use super::unit::{prefixed, pressure_unit};
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Range, Shape, Style, Width,
@@ -14,7 +14,7 @@ pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
     let (unit, scale) = pressure_unit(span(recording.pressure.iter().copied(), ambient)[1]);
     let quarters = ["t = 0", "T/4", "T/2", "3T/4"].into_iter().enumerate().map(|(quarter, name)| {
         let points = along_the_middle(recording, quarter * recording.frames / 4, scale, |x| x * 1e3);
-        Line::new(name, points, Style { marker: None, ..Style::nth(quarter) })
+        Line::new(name, points, Style::unmarked(quarter))
     });
     let panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
         .layer(rest(ambient * scale, "ambient"))
@@ -130,12 +130,12 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
         ));
     }
     let ambient = plate.gas.ambient_pressure;
-    let [low, high] = span(recording.pressure.iter().copied(), ambient);
-    let (unit, scale) = pressure_unit(high);
-    let margin = 0.06 * (high - low);
+    let range = span(recording.pressure.iter().copied(), ambient);
+    let (unit, scale) = pressure_unit(range[1]);
+    let [low, high] = with_margin(range, 0.06);
     let points = along_the_middle(recording, frame, scale, |x| x * 1e3);
     let area = points.iter().map(|[x, p]| [*x, ambient * scale, *p]);
-    let y = Axis::new(pressure_at_the_middle(plate), unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let y = Axis::new(pressure_at_the_middle(plate), unit).fixed(low * scale, high * scale);
     let pressure = Panel::new("(c) pressure", Axis::new("x", "mm").fixed(-half, half), y)
         .layer(Band::new("", area, Colour::FILM))
         .layer(rest(ambient * scale, ""))
@@ -145,11 +145,8 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     let mut load = loads(plate, recording).panels.remove(0);
     load.title = "(d) over the cycle".to_owned();
     load = load.layer(Mark::vertical(phase(recording, frame), ""));
-    let mut figure = Figure::new("");
-    figure.panels = vec![surfaces, round, pressure, load].into_iter().map(|panel| panel.height(32.0)).collect();
-    figure.columns = 2;
-    figure.width = Width::Millimetres(150.0);
-    figure
+    let panels = [surfaces, round, pressure, load].map(|panel| panel.height(32.0)).into();
+    Figure { panels, columns: 2, width: Width::Millimetres(150.0), ..Figure::default() }
 }
 
 /// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
@@ -169,12 +166,10 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     };
     let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, Range::Auto) };
     let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(map).height(60.0);
-    let mut figure = Figure::new(title).panel(panel);
-    figure.width = Width::Millimetres(110.0);
-    figure.caption = if strip {
+    let caption = if strip {
         format!("Absolute pressure of the film along the {along} and over one cycle.")
     } else {
         "Absolute pressure of the film over the plate, at the instant at which it is greatest.".to_owned()
     };
-    figure
+    Figure { width: Width::Millimetres(110.0), caption, ..Figure::new(title) }.panel(panel)
 }

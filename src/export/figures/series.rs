@@ -1,13 +1,11 @@
 //! Series, maps and nodes of a recording as what figures draw.
 
-use crate::export::figure::{Colour, Grid, Map, Mark, Range, Style};
+use crate::export::figure::{Grid, Map, Mark, Range, Style, extent};
 use crate::recording::Recording;
 
-/// Least and greatest of the finite values, these two included.
+/// Least and greatest of the finite values and of another one.
 pub(super) fn span(values: impl Iterator<Item = f64>, including: f64) -> [f64; 2] {
-    values
-        .filter(|value| value.is_finite())
-        .fold([including, including], |[low, high], value| [low.min(value), high.max(value)])
+    extent(values.filter(|value| value.is_finite()).chain([including]))
 }
 
 /// A range with a margin at both ends; an end at zero stays there.
@@ -18,9 +16,7 @@ pub(super) fn with_margin([low, high]: [f64; 2], part: f64) -> [f64; 2] {
 
 /// A thin line at zero or ambient.
 pub(super) fn rest(at: f64, label: &str) -> Mark {
-    let mut mark = Mark::horizontal(at, label);
-    mark.style = Style { colour: Colour::QUIET, width: 0.4, ..Style::quiet() };
-    mark
+    Mark { style: Style::quiet().width(0.4), ..Mark::horizontal(at, label) }
 }
 
 /// Phase of a frame, t/T.

@@ -5,10 +5,7 @@ pub(super) fn prefixed(greatest: f64, unit: &str) -> (String, f64) {
     let size = greatest.abs();
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
     let fits = |(factor, _): &&(f64, &str)| size >= 0.9995 * factor;
-    let (factor, prefix) = match prefixes.iter().find(fits) {
-        Some(found) => *found,
-        None => (1.0, ""),
-    };
+    let (factor, prefix) = prefixes.iter().find(fits).copied().unwrap_or((1.0, ""));
     (format!("{prefix}{unit}"), 1.0 / factor)
 }
 

@@ -205,8 +205,8 @@ fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
     let place = |[x, y]: [f64; 2]| frame.min + POINT * vec2(x as f32, y as f32);
     let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
     for (name, corner, leader) in figure::names(panel, ends, points(frame.size()), |text| points(galley(text).size())) {
-        if let Some([x, y, to_x, to_y]) = leader {
-            painter.line_segment([place([x, y]), place([to_x, to_y])], thin);
+        if let Some(leader) = leader {
+            painter.line_segment(leader.map(place), thin);
         }
         painter.galley(place(corner), galley(&name), colour);
     }
@@ -379,7 +379,7 @@ mod tests {
             .layers(named.map(|(at, name)| figure::Text::new(at, name)));
         let size = |text: &str| [4.0 * text.len() as f64, 7.5];
         let names = figure::names(&panel, [[0.0, 2.0]; 2], [300.0, 150.0], size);
-        let rect = |(name, [x, y], _): &(String, [f64; 2], Option<[f64; 4]>)| {
+        let rect = |(name, [x, y], _): &(String, [f64; 2], Option<[[f64; 2]; 2]>)| {
             let [width, height] = size(name).map(|length| length as f32);
             Rect::from_min_size(egui::pos2(*x as f32, *y as f32), vec2(width, height))
         };
