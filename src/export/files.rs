@@ -1,7 +1,7 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{Movie, Options, cycle, frames, video_frames, write_video};
+use super::animation::{self, Movie, Options};
 use super::compare::{self, all_figures, movies, report};
 pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
@@ -243,32 +243,15 @@ pub fn animation(
     options: &Options,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
-    // A wrong extension is told before the work, not after it.
-    let format = super::animation::Format::of(path)?;
-    let all = animated_frames(solved.solution, options, format);
-    let (problem, solution) = (titled(solved), solved.solution);
-    control.counted(all, |done| match format {
-        super::animation::Format::Mp4 => {
-            write_video(path, &problem, solution, options, done, control.cancel)?;
-            Ok(vec![path.to_owned()])
-        }
-        _ => Ok(cycle(&problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
-    })
-}
-
-/// How many frames [`animation`] draws.
-pub fn animated_frames(solution: &Solution, options: &Options, format: super::animation::Format) -> usize {
-    match format {
-        super::animation::Format::Mp4 => video_frames(&solution.recording, options),
-        _ => frames(&solution.recording, options.frames),
-    }
+    let all = animation::count(&solved.solution.recording, options, animation::Format::of(path)?);
+    control.counted(all, |done| animation::write(path, &titled(solved), solved.solution, options, done, control.cancel))
 }
 
 /// A movie as GIF. `path`: of the file, for a fault.
 pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
     let mut gif = Vec::new();
     match movie.gif(&mut gif, cancel) {
-        Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
+        Err(_) if cancel.is_cancelled() => Err(ExportError::Cancelled),
         Err(source) => Err(WriteError { path: path.to_owned(), source }.into()),
         Ok(()) => Ok(gif),
     }
