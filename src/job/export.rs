@@ -216,7 +216,7 @@ mod tests {
         let posed = posed("floating-disc");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, 0.5);
-        let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
+        let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
         assert!(made_twice("run", &|| Content::Run(Box::new(run.clone()))) > 8);
         let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(Arc::new(run.solution)))];
         assert!(made_twice("report.html", &|| Content::Report(runs.to_vec())) == 1);

@@ -163,8 +163,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
         return advance(shared);
     };
     (running.at, running.history) = ((fidelity, now), Vec::new());
-    let Request { scene, problem, budget, .. } = &running.request;
-    let work = Step { posed: Posed { scene: scene.clone(), problem: problem.clone() }, fidelity, budget: *budget };
+    let work = Step { posed: running.request.posed.clone(), fidelity, budget: running.request.budget };
     let theirs = Rc::downgrade(shared);
     let told = move |told| {
         if let Some(shared) = theirs.upgrade() {
@@ -195,8 +194,7 @@ fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Sent<Progress, <Step as
         }
         Sent::End(Ok(Some(timed))) => {
             let history = std::mem::take(&mut running.history);
-            let Request { scene, problem, .. } = &running.request;
-            let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
+            let run = SolvedScene::of(number, running.request.posed.clone(), fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
         // A worker is ended when it is cancelled.

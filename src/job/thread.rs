@@ -142,15 +142,14 @@ fn refine(
         }
         let mut history = Vec::new();
         let warm = warm.entry(fidelity).or_default();
-        let found = solved(&request.problem, (fidelity, request.budget), now, warm, cancel, |progress| {
+        let found = solved(&request.posed.problem, (fidelity, request.budget), now, warm, cancel, |progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
         match found {
             Ok(None) => return,
             Ok(Some(timed)) => {
-                let Request { scene, problem, .. } = request;
-                let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
+                let run = SolvedScene::of(number, request.posed.clone(), fidelity, timed, history);
                 tell(Event::Solved(Arc::new(run)));
             }
             Err(message) => {
@@ -164,13 +163,12 @@ fn refine(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{Problem, Scenario};
-    use crate::scene::presets;
+    use crate::job::work::tests::posed;
+    use crate::problem::Scenario;
     use std::time::Duration;
 
     fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
-        let scene = presets::find(preset).unwrap();
-        Request { problem: Problem::try_from(&scene).unwrap(), scene, fidelities: fidelities.to_vec(), budget: None }
+        Request { posed: posed(preset), fidelities: fidelities.to_vec(), budget: None }
     }
 
     fn until_done(solver: &Solver, number: u64) -> Vec<Event> {
@@ -215,7 +213,7 @@ mod tests {
         let mut solver = Solver::start(Instant::now, || ()).unwrap();
         let mut broken = request("fundamental", &[Fidelity::Draft]);
         // A problem that no scene can make: the solver divides by the number of teeth.
-        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
+        if let Scenario::Motor(motor) = &mut broken.posed.problem.scenario {
             motor.teeth = 0;
         }
         let number = solver.submit(broken);

@@ -131,7 +131,7 @@ pub(super) mod tests {
         let posed = posed("fundamental");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, 0.5);
-        let run = SolvedScene::of(1, posed.scene.clone(), &posed.problem, Fidelity::Draft, timed, Vec::new());
+        let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
         both(TorqueWork(Arc::new(run)));
         both(PinWork { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
         let face = tempfile::NamedTempFile::new().unwrap();
