@@ -21,6 +21,14 @@ pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Result<Option<Self::Output>, String>;
 }
 
+/// What comes from where a work is done.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) enum Sent<M, R> {
+    Message(M),
+    /// After it nothing comes.
+    End(Result<Option<R>, String>),
+}
+
 /// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
 pub trait Wake: Fn(bool) + Send + Sync + 'static {}
 
