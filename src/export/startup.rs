@@ -10,7 +10,6 @@ use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::{Accuracy, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
-use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -43,21 +42,6 @@ pub struct CycleRow {
     pub remaining: Option<f64>,
 }
 
-/// The numbers under the names that they have elsewhere, but for `load_ratio`; what its scene does not have is null.
-impl Serialize for CycleRow {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut row = to.serialize_map(None)?;
-        row.serialize_entry("cycle", &self.cycle)?;
-        row.serialize_entry("time_us", &self.time_us)?;
-        for number in numbers() {
-            row.serialize_entry(number.name().trim_start_matches("mean_"), &self.numbers.get(number))?;
-        }
-        row.serialize_entry("change", &self.change)?;
-        row.serialize_entry("remaining", &self.remaining)?;
-        row.end()
-    }
-}
-
 impl CycleRow {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
@@ -68,6 +52,17 @@ impl CycleRow {
             change: cycle.change,
             remaining: finite(cycle.remaining),
         }
+    }
+
+    /// As an object: `name` of each number, but `load_ratio`; what its scene does not have is null.
+    fn object(&self, name: impl Fn(Quantity) -> String) -> Value {
+        let mut row = json!({ "cycle": self.cycle, "time_us": self.time_us });
+        for number in numbers() {
+            row[name(number).trim_start_matches("mean_")] = self.numbers.get(number).into();
+        }
+        row["change"] = self.change.into();
+        row["remaining"] = self.remaining.into();
+        row
     }
 
     /// How much of the way is done, 0 to 1, as ln of what remains.
@@ -106,7 +101,7 @@ pub fn object(
         "coupling_iterations": ended.stats.coupling_iterations,
         "unsettled_steps": ended.stats.unsettled_steps,
         "wall_s": wall_s,
-        "rows": rows,
+        "rows": rows.iter().map(|row| row.object(|number| number.name().to_owned())).collect::<Vec<_>>(),
         "validity": validity(problem, ended),
         "warnings": warnings(ended),
     })
@@ -152,16 +147,10 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
 pub fn write_csv(problem: &Problem, rows: &[CycleRow], out: &mut dyn Write) -> io::Result<()> {
-    let mut text = Vec::new();
-    csv::rows(rows, &mut text)?;
-    let text = String::from_utf8(text).map_err(io::Error::other)?;
-    let (head, body) = text.split_once('\n').unwrap_or((&text, ""));
-    let strip = force_unit(problem) == "N/m";
+    let own: Vec<Quantity> = Quantity::of(problem).collect();
     let column =
-        |name: &str| if strip && name.starts_with("film_load") { format!("{name}_per_m") } else { name.to_owned() };
-    let head: Vec<String> = head.split(',').map(column).collect();
-    write!(out, "{}\n{body}", head.join(","))?;
-    out.flush()
+        |number: Quantity| if own.contains(&number) { number.column(problem) } else { number.name().to_owned() };
+    csv::rows(rows.iter().map(|row| row.object(column)), out)
 }
 
 /// The line at what the periodic solve gives.

@@ -274,13 +274,13 @@ fn with_points(panel: Panel, name: &str, points: Vec<[f64; 2]>, colour: Colour, 
 
 /// Published points inside the range that is swept.
 fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
-    let inside = |point: &Published| {
+    let inside = move |point: &Published| {
         sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
             let [least, most] = extent(axis.values.iter().copied());
             (least..=most).contains(value)
         })
     };
-    sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
+    sweep.published().into_iter().filter(inside)
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
