@@ -42,7 +42,7 @@ impl Shared {
 #[derive(Debug)]
 pub struct Solver {
     shared: Arc<Shared>,
-    events: Option<Receiver<Event>>,
+    events: Receiver<Event>,
     worker: Option<JoinHandle<()>>,
     next: u64,
 }
@@ -55,13 +55,12 @@ impl Solver {
         let theirs = Arc::clone(&shared);
         let worker = std::thread::Builder::new().name("squeezefilm-solver".to_owned()).spawn(move || {
             let tell = |event: Event| {
-                let sent = sender.send(event).is_ok();
+                drop(sender.send(event));
                 wake();
-                sent
             };
             work(&theirs, now, &tell);
         })?;
-        Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
+        Ok(Self { shared, events, worker: Some(worker), next: 0 })
     }
 
     /// Solves `request` instead of whatever is running or waiting. Returns its number.
@@ -81,7 +80,7 @@ impl Solver {
 
     /// The events since the last call, in order.
     pub fn drain(&self) -> impl Iterator<Item = Event> {
-        self.events.iter().flat_map(Receiver::try_iter)
+        self.events.try_iter()
     }
 }
 
@@ -93,7 +92,6 @@ impl Drop for Solver {
             slot.clear();
             self.shared.changed.notify_all();
         }
-        self.events = None;
         if let Some(worker) = self.worker.take() {
             // After a panic outside a solve nothing is left to report.
             let _ = worker.join();
@@ -101,7 +99,7 @@ impl Drop for Solver {
     }
 }
 
-fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
+fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event)) {
     // Each solve starts from the last one of its fidelity, because a slider moves in small steps.
     let mut warm = HashMap::new();
     loop {
@@ -121,9 +119,7 @@ fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
         };
         refine(number, &request, &mut warm, &cancel, now, tell);
         shared.lock().running = None;
-        if !tell(Event::Done { number }) {
-            return;
-        }
+        tell(Event::Done { number });
     }
 }
 
@@ -134,7 +130,7 @@ fn refine(
     warm: &mut HashMap<Fidelity, Warm>,
     cancel: &Cancel,
     now: fn() -> Instant,
-    tell: &dyn Fn(Event) -> bool,
+    tell: &dyn Fn(Event),
 ) {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
