@@ -262,9 +262,7 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
     if !cfg!(feature = "render") {
         return Ok(Vec::new());
     }
-    let options = Options::default();
-    let all = compare::frames(runs, options.frames);
-    let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
+    let drawn = control.counted(compare::frames(runs), |done| movies(runs, done, control.cancel))?;
     let named = |(name, movie): (&str, Movie)| {
         let bytes = gif(&movie, &folder.join(format!("{name}.gif")), control.cancel)?;
         Ok((name.to_owned(), bytes))
