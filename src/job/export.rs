@@ -139,7 +139,9 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
             fit::FitResult::Fit(measured, fitted) => files::fitted(&out, &posed.problem, &name, fitted, measured)?,
             fit::FitResult::Optimum(found) => files::optimum(&out, &posed.problem, &name, found)?,
         },
-        Content::TradeoffTable(tradeoff) => files::alone(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?,
+        Content::TradeoffTable(tradeoff) => {
+            files::alone(path, |out| csv::rows_of_ours(tradeoff::settings(&tradeoff), out))?
+        }
         Content::TradeoffFigure(name, tradeoff, chosen) => figure(&tradeoff::figure(&name, &tradeoff, &chosen))?,
         Content::Answers(records) => {
             let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
