@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
     let count = count(&solution.recording, &options, format);
     let bar = Bar::points(count, 0);
-    let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
+    let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[] };
     let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);

@@ -60,8 +60,6 @@ pub struct Solved<'a> {
     pub solution: &'a Solution,
     /// The rounds, if they were kept.
     pub history: &'a [Progress],
-    /// Torque over speed, of a motor.
-    pub torque: Option<&'a TorqueCurves>,
 }
 
 /// Where results are written, and how.
@@ -162,10 +160,10 @@ pub fn solve(
     files.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     files.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
     files.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
-    if let Some(curves) = solved.torque {
+    if let Some(curves) = &summary.torque {
         files.add("torque.csv", |out| torque::write_csv(curves, out))?;
     }
-    add_figures(&mut files, solved, control)?;
+    add_figures(&mut files, solved, summary.torque.as_ref(), control)?;
     if folder.vtk {
         let (names, series) = vtk::series(&solution.recording);
         for (frame, name) in names.iter().enumerate() {
@@ -178,14 +176,15 @@ pub fn solve(
     Ok(files.commit()?)
 }
 
-/// The figures of a solve alone.
+/// The figures of a solve alone; `torque`: over speed, of a motor.
 pub fn solve_figures(
     folder: &Folder<'_>,
     solved: &Solved<'_>,
+    torque: Option<&TorqueCurves>,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let mut files = Files::new(folder)?;
-    add_figures(&mut files, solved, control)?;
+    add_figures(&mut files, solved, torque, control)?;
     control.check()?;
     Ok(files.commit()?)
 }
@@ -198,14 +197,19 @@ fn titled(solved: &Solved<'_>) -> Problem {
 }
 
 /// Adds the figures of a solve, drawn several at a time.
-fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>) -> Result<(), ExportError> {
+fn add_figures(
+    files: &mut Files<'_>,
+    solved: &Solved<'_>,
+    torque: Option<&TorqueCurves>,
+    control: &Control<'_>,
+) -> Result<(), ExportError> {
     let mut formats = files.folder.formats.clone();
     formats.sort_unstable();
     formats.dedup();
     if formats.is_empty() {
         return Ok(());
     }
-    let figures = figures::of(&titled(solved), solved.solution, solved.history, solved.torque);
+    let figures = figures::of(&titled(solved), solved.solution, solved.history, torque);
     let asked: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(asked.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {

@@ -110,15 +110,15 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Run(run) => {
             let mut summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
             summary.add_torque(torque(&run, control));
-            files::solve(&out, &solved(&run, summary.torque.as_ref()), &summary, control)?
+            files::solve(&out, &solved(&run), &summary, control)?
         }
         Content::Figures(run) => {
             // If torque cannot be computed, the other figures are still worth having.
             let torque = torque(&run, control).ok().flatten();
-            files::solve_figures(&folder(path, Format::WRITTEN), &solved(&run, torque.as_ref()), control)?
+            files::solve_figures(&folder(path, Format::WRITTEN), &solved(&run), torque.as_ref(), control)?
         }
-        Content::Fields(run) => files::fields(path, &solved(&run, None))?,
-        Content::Animation(run) => files::animation(path, &solved(&run, None), &Options::default(), control)?,
+        Content::Fields(run) => files::fields(path, &solved(&run))?,
+        Content::Animation(run) => files::animation(path, &solved(&run), &Options::default(), control)?,
         Content::Report(runs) => files::html(path, &runs, &coarsest(&runs), control)?,
         Content::Comparison(runs, all) => files::comparison(&out, &runs, &coarsest(&runs), all, control)?,
         Content::Sweep(sweep, rows) => files::swept(&out, &sweep, &rows, primary(&sweep))?,
@@ -154,9 +154,9 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
     })
 }
 
-fn solved<'a>(run: &'a SolvedScene, torque: Option<&'a TorqueCurves>) -> Solved<'a> {
+fn solved(run: &SolvedScene) -> Solved<'_> {
     let SolvedScene { scene, problem, solution, history, .. } = run;
-    Solved { scene, problem, solution, history, torque }
+    Solved { scene, problem, solution, history }
 }
 
 fn torque(run: &SolvedScene, control: &Control<'_>) -> Result<Option<TorqueCurves>, MotorError> {
