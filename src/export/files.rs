@@ -380,7 +380,7 @@ pub fn startup(
     let rows: Vec<_> = cycles.iter().map(|cycle| startup::CycleRow::of(problem, cycle)).collect();
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| startup::write_csv(problem, &rows, out))?;
-    files.json("startup.json", &startup::object((scene, problem), settings, ended, &rows, wall_s))?;
+    files.json("startup.json", &startup::object(problem, settings, ended, &rows, wall_s))?;
     let loads = cycles.iter().map(|cycle| cycle.recording.film_load.as_slice());
     let mut drawn = startup::figure(problem, &rows, startup::steady(problem, ended), loads);
     drawn.provenance.fidelity = settings.fidelity.to_string();
@@ -402,7 +402,7 @@ pub fn fall(
 ) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| csv::rows(cycles.iter().map(fall::row), out))?;
-    files.json("startup.json", &fall::object((scene, problem), fidelity, ended, cycles, wall_s))?;
+    files.json("startup.json", &fall::object(problem, fidelity, ended, cycles, wall_s))?;
     let mut drawn = fall::figure(problem, cycles, fall::floats(ended));
     drawn.provenance.fidelity = fidelity.to_string();
     files.figure("startup", &drawn)?;

@@ -2,12 +2,12 @@
 
 use super::csv;
 use super::estimates::finite;
+use super::json::kind;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Marker, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
-use crate::scene::Scene;
 use crate::solution::{Accuracy, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
 use serde_json::{Value, json};
@@ -75,17 +75,11 @@ impl CycleRow {
 
 /// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
 /// known is null.
-pub fn object(
-    (scene, problem): (&Scene, &Problem),
-    settings: &Settings,
-    ended: &Startup,
-    rows: &[CycleRow],
-    wall_s: f64,
-) -> Value {
+pub fn object(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[CycleRow], wall_s: f64) -> Value {
     let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
     json!({
-        "preset": scene.name,
-        "scene": scene.scene(),
+        "preset": problem.name,
+        "scene": kind(problem),
         "fidelity": settings.fidelity.to_string(),
         "force_unit": force_unit(problem),
         "converged": ended.status == Status::Converged,
