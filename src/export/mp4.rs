@@ -22,8 +22,8 @@ const HEADER: usize = 8;
 /// A video has whole cycles, and lasts at least this \[s\].
 const LONG_ENOUGH: f64 = 12.0;
 
-/// Writes a cycle of `count` pictures of a size, each called for by its number, as often as [`LONG_ENOUGH`] asks, with a comment unless
-/// it is empty. `done` is called after each picture.
+/// Writes a cycle of `count` pictures of a size, each called for by its number, as often as [`LONG_ENOUGH`] asks, with a comment.
+/// `done` is called after each picture.
 pub(super) fn write(
     (size, count, seconds): ([u32; 2], usize, f64),
     picture: &Picture<'_>,
@@ -70,9 +70,7 @@ fn mux(packets: &[Vec<u8>], step: [u32; 2], cycles: u32, comment: &str, out: &mu
     }
     let boxes = muxer.finalize().map_err(io::Error::other)?;
     let mut moov = boxes.moov_box().clone();
-    if !comment.is_empty() {
-        moov.unknown_boxes.push(about(comment)?);
-    }
+    moov.unknown_boxes.push(about(comment)?);
     let compatible_brands = vec![Brand::ISOM, Brand::ISO6, Brand::AV01, Brand::MP41];
     let ftyp = FtypBox { major_brand: Brand::ISOM, minor_version: 0x200, compatible_brands };
     let head = [bytes(ftyp)?, bytes(moov)?].concat();
