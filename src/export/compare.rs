@@ -465,7 +465,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
     let mut table = Table::default().heads(heads);
     for (quantity, name, texts) in result_texts(runs) {
         let kind = match quantity {
-            Some(Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio) => Kind::Strong,
+            Some(quantity) if Quantity::HEADLINES.contains(&quantity) => Kind::Strong,
             Some(_) => Kind::Number,
             None => Kind::Words,
         };

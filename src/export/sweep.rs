@@ -203,8 +203,7 @@ const MOST_MAPS: usize = 12;
 /// The main quantity of a sweep: α of a motor, the mean gap of a plate that floats, the load ratio of any other plate.
 pub fn primary(sweep: &Sweep) -> Quantity {
     let there = sweep.quantities();
-    let first = [Quantity::Alpha, Quantity::MeanGap].into_iter().find(|quantity| there.contains(quantity));
-    first.unwrap_or(Quantity::LoadRatio)
+    Quantity::HEADLINES.into_iter().find(|quantity| there.contains(quantity)).unwrap_or(Quantity::LoadRatio)
 }
 
 fn figure_axis(axis: &SweepAxis) -> Axis {
