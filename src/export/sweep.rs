@@ -374,13 +374,9 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = |point: usize, numbers: Numbers| SweepRow {
-            point,
-            values: plane.values(point),
-            status: RunStatus::Converged,
-            stopped_by: Some(StoppedBy::Accuracy),
-            numbers,
-            outside: Vec::new(),
+        let row = |point: usize, numbers: Numbers| {
+            let values = plane.values(point);
+            SweepRow { point, values, numbers, ..rows(&plane).swap_remove(0) }
         };
         let drawn = figure(&plane, &[row(1, numbers)], primary(&plane));
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
