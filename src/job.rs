@@ -44,10 +44,10 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::{Solution, Status, settled};
 use crate::solve::{Settings, solve_from};
-use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 use std::time::Duration;
+use work::Posed;
 
 /// A scene and its solution at one fidelity. It is shared and does not change.
 #[derive(Clone, Debug)]
@@ -101,10 +101,8 @@ pub enum Event {
 /// A problem to solve, at each of the fidelities in turn.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// The scene, carried into the results.
-    pub scene: Scene,
-    /// The problem that it poses, checked.
-    pub problem: Problem,
+    /// The scene, carried into the results, and its problem.
+    pub posed: Posed,
     /// Fidelities, coarse to fine.
     pub fidelities: Vec<Fidelity>,
     /// The time limit of each solve, if there is one. After it, the best result so far is taken.
@@ -124,18 +122,16 @@ impl Serialize for SolvedScene {
 
 impl<'de> Deserialize<'de> for SolvedScene {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let (number, scene, fidelity, timed, history) = <(_, Scene, _, _, _)>::deserialize(from)?;
-        let problem = Problem::try_from(&scene).map_err(D::Error::custom)?;
-        Ok(Self::of(number, scene, &problem, fidelity, timed, history))
+        let (number, posed, fidelity, timed, history) = <(_, _, _, _, _)>::deserialize(from)?;
+        Ok(Self::of(number, posed, fidelity, timed, history))
     }
 }
 
 impl SolvedScene {
-    /// The result of request `number` at one fidelity, with the residual of each round. `scene` poses `problem`.
+    /// The result of request `number` at one fidelity, with the residual of each round.
     fn of(
         number: u64,
-        scene: Scene,
-        problem: &Problem,
+        Posed { scene, problem }: Posed,
         fidelity: Fidelity,
         (solution, wall_s): Timed,
         history: Vec<Progress>,
@@ -143,9 +139,9 @@ impl SolvedScene {
         Self {
             number,
             scene,
-            problem: settled(problem, &solution.outcome).into_owned(),
+            problem: settled(&problem, &solution.outcome).into_owned(),
             fidelity,
-            validity: outside(problem, &solution),
+            validity: outside(&problem, &solution),
             solution,
             wall_s,
             history,

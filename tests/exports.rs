@@ -5,7 +5,7 @@ mod program;
 
 use npyz::NpyFile;
 use program::{done, err, json, out, squeezefilm};
-use roxmltree::{Document, ParsingOptions};
+use roxmltree::{Document, Node, ParsingOptions};
 use serde_json::Value;
 use squeezefilm::analysis::compare::runs;
 use squeezefilm::analysis::quantity::Quantity;
@@ -42,34 +42,27 @@ fn page(html: &str) -> Document<'_> {
     page
 }
 
-fn count(page: &Document<'_>, name: &str) -> usize {
-    page.descendants().filter(|node| node.tag_name().name() == name).count()
+fn named<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.descendants().filter(move |node| node.tag_name().name() == name)
+}
+
+fn count(page: &Document<'_>, name: &'static str) -> usize {
+    named(page.root(), name).count()
 }
 
 /// The words of an element.
-fn words(node: roxmltree::Node<'_, '_>) -> String {
+fn words(node: Node<'_, '_>) -> String {
     node.descendants().filter_map(|node| if node.is_text() { node.text() } else { None }).collect()
 }
 
 fn tables(page: &Document<'_>) -> Vec<Vec<Vec<String>>> {
-    let inside = |node: roxmltree::Node<'_, '_>, name: &str| {
-        node.descendants().filter(|node| node.tag_name().name() == name).map(|node| node.id()).collect::<Vec<_>>()
-    };
-    let rows = |table| {
-        inside(table, "tr")
-            .into_iter()
-            .map(|row| {
-                let row = page.get_node(row).unwrap();
-                row.children().filter(|cell| cell.is_element()).map(words).collect()
-            })
-            .collect()
-    };
-    page.descendants().filter(|node| node.tag_name().name() == "table").map(rows).collect()
+    let row = |row: Node<'_, '_>| row.children().filter(Node::is_element).map(words).collect();
+    named(page.root(), "table").map(|table| named(table, "tr").map(row).collect()).collect()
 }
 
-/// Arrays of an archive, numbers alone, with their shapes: the zip by the zip crate, the arrays by npyz.
-fn arrays(path: &Path) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
-    let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
+/// Arrays of the archive in a folder, numbers alone, with their shapes: the zip by the zip crate, the arrays by npyz.
+fn arrays(folder: &Path) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+    let mut archive = zip::ZipArchive::new(fs::File::open(folder.join("fields.npz")).unwrap()).unwrap();
     let mut arrays = BTreeMap::new();
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).unwrap();
@@ -93,7 +86,7 @@ fn an_npz_reads_back_to_what_was_solved() {
     let arguments = ["solve", "fundamental", "--fidelity", "draft", "--figures", "none", "--json", "--out", path];
     let summary = json(&done(&arguments));
     let first = fs::read(folder.path().join("fields.npz")).unwrap();
-    let arrays = arrays(&folder.path().join("fields.npz"));
+    let arrays = arrays(folder.path());
     let (shape, film) = &arrays["film_n_per_m"];
     let [frames, teeth, nodes] = shape[..] else { panic!("{shape:?}") };
     assert_eq!((frames, teeth), (summary["stats"]["steps_per_cycle"].as_u64().unwrap(), 9));
@@ -115,22 +108,17 @@ fn an_npz_reads_back_to_what_was_solved() {
 }
 
 #[test]
-fn an_npz_of_a_strip_has_no_teeth() {
+fn an_npz_of_a_strip_has_no_teeth_and_one_of_one_mesh_no_errors() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     done(&["solve", "plate-crossover", "--fidelity", "draft", "--figures", "none", "--out", path]);
-    let arrays = arrays(&folder.path().join("fields.npz"));
-    assert_eq!(arrays["film_n_per_m2"].0.len(), 2);
-    assert!(arrays.contains_key("film_load_n_per_m") && !arrays.contains_key("contact_n_per_m"));
-}
+    let strip = arrays(folder.path());
+    assert_eq!(strip["film_n_per_m2"].0.len(), 2);
+    assert!(strip.contains_key("film_load_n_per_m") && !strip.contains_key("contact_n_per_m"));
 
-#[test]
-fn an_npz_of_one_mesh_has_no_errors() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().to_str().unwrap();
     let numerics = ["--set", "numerics.contact_nodes=60", "--set", "numerics.steps_per_cycle=60"];
     done(&[&["solve", "fundamental", "--method", "paper", "--figures", "none", "--out", path][..], &numerics].concat());
-    let arrays = arrays(&folder.path().join("fields.npz"));
+    let arrays = arrays(folder.path());
     let errors: Vec<_> = arrays.iter().filter(|(name, _)| name.contains("_error")).collect();
     assert!(
         errors.len() == 4
@@ -232,7 +220,7 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let page = page(&html);
     assert_eq!((count(&page, "svg"), count(&page, "img")), (5, 1));
     // Each curve of each run is in the figure of the waves: tops, rotor, and one in either panel of pressures.
-    let figure = page.descendants().find(|node| node.tag_name().name() == "svg").unwrap();
+    let figure = named(page.root(), "svg").next().unwrap();
     let areas = figure.descendants().filter(|node| node.attribute("data-area").is_some()).count();
     assert_eq!(areas, 3);
     let tables = tables(&page);
@@ -242,7 +230,7 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let film = results.iter().find(|row| row[0].starts_with("film load")).unwrap();
     assert!(film[1].contains(" ± ") && film[3].ends_with(" %"), "{film:?}");
     // The animation in the page is the file beside it.
-    let gif = page.descendants().find(|node| node.tag_name().name() == "img").unwrap().attribute("src").unwrap();
+    let gif = named(page.root(), "img").next().unwrap().attribute("src").unwrap();
     use base64::Engine as _;
     let bytes = base64::engine::general_purpose::STANDARD.decode(gif.split_once(',').unwrap().1).unwrap();
     assert_eq!(bytes, fs::read(folder.path().join("cycle.gif")).unwrap());

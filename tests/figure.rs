@@ -3,7 +3,7 @@
 
 use roxmltree::{Document, Node};
 use squeezefilm::control::Cancel;
-use squeezefilm::export::animation::{self, Movie};
+use squeezefilm::export::animation::{self, Format, Movie};
 use squeezefilm::export::figure::{
     self, Axis, Band, Categories, Colour, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel, Points,
     Provenance, Range, Shading, Shape, Style, Text, Width,
@@ -367,34 +367,17 @@ fn the_wave_shows_the_recording() {
     assert!(stator.iter().any(|p| (p[0] - x).abs() < 1e-3 && (p[1] - top).abs() < 1e-3), "{x} {top}");
 }
 
-fn moving_dot(count: usize) -> Movie {
-    let figure = |frame: usize| {
-        let line = Line::new("", [[0.0, 0.0], [1.0, frame as f64]], Style::default());
-        let panel = Panel::new("", Axis::new("x", "").fixed(0.0, 1.0), Axis::new("y", "").fixed(0.0, 5.0)).layer(line);
-        Figure::new("moving").panel(panel)
-    };
-    let options = animation::Options { width: 200, seconds: 1.0, frames: count };
-    let done = AtomicUsize::new(0);
-    let movie = Movie::of(
-        count,
-        &options,
-        &figure,
-        &|| {
-            done.fetch_add(1, Ordering::Relaxed);
-        },
-        &Cancel::new(),
-    )
-    .unwrap();
-    assert_eq!(done.into_inner(), count);
-    movie
-}
-
 #[test]
 fn a_gif_has_all_frames_and_they_move() {
     let (problem, solution) = solved("fundamental", &[]);
     let options = animation::Options { width: 300, seconds: 2.0, frames: 12 };
-    let movie = animation::cycle(&problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
-    let count = movie.count();
+    let drawn = AtomicUsize::new(0);
+    let done = || {
+        drawn.fetch_add(1, Ordering::Relaxed);
+    };
+    let movie = animation::cycle(&problem, &solution, &options, &done, &Cancel::new()).unwrap();
+    let count = animation::count(&solution.recording, &options, Format::Gif);
+    assert_eq!(drawn.into_inner(), count);
     assert!((6..=12).contains(&count) && solution.recording.frames.is_multiple_of(count), "{count}");
     let mut bytes = Vec::new();
     movie.gif(&mut bytes, &Cancel::new()).unwrap();
@@ -413,7 +396,8 @@ fn a_gif_has_all_frames_and_they_move() {
     assert_eq!((frames.len(), delay), (count, 200));
     // 255 colours for all frames are near those of the first, wherever in it.
     let folder = tempfile::tempdir().unwrap();
-    let exact = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
+    let path = folder.path().join("frames");
+    let exact = animation::write(&path, &problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
     let exact = decoded(&fs::read(&exact[0]).unwrap()).1;
     let pixels = frames[0].chunks_exact(4).zip(exact.chunks_exact(exact.len() / (frames[0].len() / 4)));
     let mut away: Vec<u8> =
@@ -435,13 +419,17 @@ fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
     use re_rav1d::dav1d::{Decoder, Error, PlanarImageComponent, pixel};
     let (problem, solution) = solved("fundamental", &[]);
     let options = animation::Options { width: 301, seconds: 6.0, frames: 6 };
-    let movie = animation::cycle(&problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.mp4");
-    let encoded = std::cell::Cell::new(0);
-    movie.write(&path, &|| encoded.set(encoded.get() + 1), &Cancel::new()).unwrap();
-    assert_eq!(encoded.get(), movie.count());
-    let frames = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
+    let encoded = AtomicUsize::new(0);
+    let done = || {
+        encoded.fetch_add(1, Ordering::Relaxed);
+    };
+    animation::write(&path, &problem, &solution, &options, &done, &Cancel::new()).unwrap();
+    let frames = folder.path().join("frames");
+    let frames = animation::write(&frames, &problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
+    let count = frames.len();
+    assert_eq!(encoded.into_inner(), count);
     let frames: Vec<_> = frames.iter().map(|path| decoded(&fs::read(path).unwrap())).collect();
     let (across, down) = (frames[0].0.width as usize, frames[0].0.height as usize);
     let (width, height) = (across.next_multiple_of(2), down.next_multiple_of(2));
@@ -454,7 +442,6 @@ fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
     assert_eq!((file.tracks().len(), track.width as usize, track.height as usize), (1, width, height));
     assert_eq!(track.duration, 12 * track.timescale, "twice six seconds");
     assert_eq!(track.codec_string(&file).unwrap(), "av01.0.00M.08", "main profile, level 2.0, 8 bits");
-    let count = movie.count();
     assert_eq!(track.samples.len(), 2 * count);
     for (i, sample) in track.samples.iter().enumerate() {
         assert_eq!(sample.is_sync, i % count == 0, "sample {i}");
@@ -531,15 +518,16 @@ fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
 #[test]
 fn an_mp4_of_one_frame_lasts_as_long_and_one_cancelled_half_way_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let movie = moving_dot(1);
+    let (problem, solution) = solved("fundamental", &[]);
     let path = folder.path().join("a.mp4");
-    movie.write(&path, &|| (), &Cancel::new()).unwrap();
+    let options = |frames: usize| animation::Options { width: 200, seconds: 1.0, frames };
+    animation::write(&path, &problem, &solution, &options(1), &|| (), &Cancel::new()).unwrap();
     let file = re_mp4::Mp4::read_bytes(&fs::read(&path).unwrap()).unwrap();
     let track = file.tracks().values().next().unwrap();
     assert_eq!((track.samples.len(), track.duration), (12, 12 * track.timescale));
     assert!(track.samples.iter().all(|sample| sample.is_sync));
     let cancel = Cancel::new();
-    let again = moving_dot(3).write(&path, &|| cancel.cancel(), &cancel);
+    let again = animation::write(&path, &problem, &solution, &options(3), &|| cancel.cancel(), &cancel);
     assert!(matches!(again, Err(ExportError::Cancelled)));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     assert_eq!(re_mp4::Mp4::read_bytes(&fs::read(&path).unwrap()).unwrap().tracks().len(), 1, "the older one is left");
@@ -548,18 +536,24 @@ fn an_mp4_of_one_frame_lasts_as_long_and_one_cancelled_half_way_leaves_nothing()
 #[test]
 fn an_apng_and_a_folder_have_all_frames() {
     let folder = tempfile::tempdir().unwrap();
-    let movie = moving_dot(4);
-    let path = folder.path().join("a.png");
-    movie.write(&path, &|| (), &Cancel::new()).unwrap();
-    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap())).read_info().unwrap();
+    let (problem, solution) = solved("fundamental", &[]);
+    let options = animation::Options { width: 200, seconds: 1.0, frames: 4 };
+    let write = |name: &str| {
+        let path = folder.path().join(name);
+        animation::write(&path, &problem, &solution, &options, &|| (), &Cancel::new()).unwrap()
+    };
+    let count = animation::count(&solution.recording, &options, Format::Apng);
+    assert!(count > 1, "{count}");
+    let apng = fs::File::open(&write("a.png")[0]).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(apng)).read_info().unwrap();
     let control = *reader.info().animation_control().unwrap();
-    assert_eq!((control.num_frames, control.num_plays), (4, 0));
+    assert_eq!((control.num_frames as usize, control.num_plays), (count, 0));
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    for _ in 0..4 {
+    for _ in 0..count {
         reader.next_frame(&mut pixels).unwrap();
     }
-    let written = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
-    assert_eq!(written.len(), 4);
+    let written = write("frames");
+    assert_eq!(written.len(), count);
     let all: Vec<Vec<u8>> = written.iter().map(|path| decoded(&fs::read(path).unwrap()).1).collect();
     assert!(all.windows(2).all(|pair| pair[0] != pair[1]));
 }
@@ -567,20 +561,30 @@ fn an_apng_and_a_folder_have_all_frames() {
 #[test]
 fn a_cancelled_animation_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let cancel = Cancel::new();
-    let movie = moving_dot(3);
-    cancel.cancel();
+    let (problem, solution) = solved("fundamental", &[]);
+    let options = animation::Options { width: 200, seconds: 1.0, frames: 3 };
+    let count = animation::count(&solution.recording, &options, Format::Gif);
     for name in ["a.gif", "a.png", "a.mp4", "frames"] {
-        let error = movie.write(&folder.path().join(name), &|| (), &cancel).unwrap_err();
-        assert!(matches!(error, ExportError::Cancelled), "{name}: {error}");
+        // Before it begins, and when all frames are drawn.
+        for enough in [0, count] {
+            let (cancel, drawn) = (Cancel::new(), AtomicUsize::new(0));
+            if enough == 0 {
+                cancel.cancel();
+            }
+            let done = || {
+                if drawn.fetch_add(1, Ordering::Relaxed) + 1 == enough {
+                    cancel.cancel();
+                }
+            };
+            let path = folder.path().join(name);
+            let error = animation::write(&path, &problem, &solution, &options, &done, &cancel).unwrap_err();
+            assert!(matches!(error, ExportError::Cancelled), "{name}: {error}");
+        }
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    let options = animation::Options::default();
-    let drawn = Movie::of(3, &options, &|_| Figure::default(), &|| (), &cancel);
-    assert!(matches!(drawn, Err(ExportError::Cancelled)));
-    assert!(matches!(movie.write(Path::new("a.avi"), &|| (), &cancel), Err(ExportError::Extension { .. })));
-    assert!(matches!(
-        Movie::of(0, &options, &|_| Figure::default(), &|| (), &Cancel::new()),
-        Err(ExportError::NoCycle)
-    ));
+    let path = Path::new("a.avi");
+    let refused = animation::write(path, &problem, &solution, &options, &|| (), &Cancel::new());
+    assert!(matches!(refused, Err(ExportError::Extension { .. })));
+    let empty = Movie::of(0, &options, &|_| Figure::default(), &|| (), &Cancel::new());
+    assert!(matches!(empty, Err(ExportError::NoCycle)));
 }

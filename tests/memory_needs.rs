@@ -207,7 +207,7 @@ fn the_size_of_the_files_is_known_before_they_are_written() {
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         let summary = Summary::new(&problem, &solution, 0.0, &[]);
         let scene = presets::find(preset).unwrap();
-        let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
+        let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[] };
         let folder = tempfile::tempdir().unwrap();
         let control = Control { cancel: &Cancel::new(), drawn: &|_, _| () };
         let out = Folder { path: folder.path(), command: &[], formats: Vec::new(), vtk };

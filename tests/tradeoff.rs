@@ -43,7 +43,9 @@ fn table_and_files_of_a_plate_agree() {
     let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     assert_eq!(records.len(), settings.len());
     for (record, setting) in records.iter().zip(settings) {
-        assert_eq!(&record[column("setting")], setting["setting"].as_str().unwrap());
+        for name in ["setting", "options"] {
+            assert_eq!(&record[column(name)], setting[name].as_str().unwrap());
+        }
         assert_eq!(record[column("film_steps")].parse::<u64>().unwrap(), setting["film_steps"].as_u64().unwrap());
         assert!((record[column("error")].parse::<f64>().unwrap() / number(setting, "error") - 1.0).abs() < 1e-12);
     }

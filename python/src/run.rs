@@ -170,7 +170,6 @@ impl Run {
                 problem: &inner.problem,
                 solution: &inner.solution,
                 history: &inner.history,
-                torque: summary.torque.as_ref(),
             };
             let folder = Folder { path: Path::new(&folder), command: &[], formats, vtk: !vtk.is_empty() };
             files::solve(&folder, &solved, summary, &Control { cancel, drawn: &|_, _| () })

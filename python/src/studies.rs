@@ -137,7 +137,7 @@ pub(crate) fn startup(
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let problem = checked(scene)?;
-    let (scene, fidelity) = (scene.0.clone(), how.own("a start-up is")?.fidelity);
+    let fidelity = how.own("a start-up is")?.fidelity;
     let cycles = within("cycles", cycles, 1..=100_000)? as usize;
     let tolerance = within("tolerance", tolerance, 1e-8..=0.1)?;
     let settings = transient::Settings { fidelity, cycles, tolerance, ..Default::default() };
@@ -151,7 +151,7 @@ pub(crate) fn startup(
         let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
         if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
             let wall_s = began.elapsed().as_secs_f64();
-            let object = fallen::object((&scene, &problem), fidelity, &ended, &seen, wall_s);
+            let object = fallen::object(&problem, fidelity, &ended, &seen, wall_s);
             return Ok(json::document(&object, &[]));
         }
         let mut rows = Vec::new();
@@ -163,7 +163,7 @@ pub(crate) fn startup(
         let ended = transient::startup(&problem, &settings, &mut each, cancel);
         let ended = ended.map_err(|error| error_of(error.is_bad_input(), error))?;
         let wall_s = began.elapsed().as_secs_f64();
-        let object = export::object((&scene, &problem), &settings, &ended, &rows, wall_s);
+        let object = export::object(&problem, &settings, &ended, &rows, wall_s);
         Ok(json::document(&object, &[]))
     })?
 }

@@ -142,6 +142,9 @@ numbers! {
 use Quantity::*;
 
 impl Quantity {
+    /// What says most of a result: the first of them that there is.
+    pub const HEADLINES: [Self; 3] = [Alpha, MeanGap, LoadRatio];
+
     /// Those that a scene of this problem has.
     pub fn of(problem: &Problem) -> impl Iterator<Item = Self> {
         let belongs = match problem.scenario {

@@ -7,7 +7,7 @@ use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::{check_file, check_writable};
 use crate::digits::counted;
-use crate::export::animation::{Format, Options, frame_name};
+use crate::export::animation::{Format, Options, count, frame_name};
 use crate::export::files::{self, Control, Solved};
 use crate::problem::Problem;
 use crate::solution::{Status, settled};
@@ -78,9 +78,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     solution.warnings.iter().for_each(|warning| terminal::warning(warning));
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
-    let count = files::animated_frames(&solution, &options, format);
+    let count = count(&solution.recording, &options, format);
     let bar = Bar::points(count, 0);
-    let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
+    let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[] };
     let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);

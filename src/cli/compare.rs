@@ -8,7 +8,6 @@ use super::terminal;
 use crate::analysis::compare::{ComparedRun, runs};
 use crate::analysis::decision::effort;
 use crate::digits::{counted, duration};
-use crate::export::animation::Options;
 use crate::export::compare::{frames, mark, object, parameter_rows, result_texts};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
@@ -72,7 +71,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
     terminal::note(&format!("{} in {}", counted(runs.len(), "preset", "presets"), duration(wall_s)));
     if let Some(folder) = &folder {
-        let bar = Bar::points(frames(&runs, Options::default().frames), 0);
+        let bar = Bar::points(frames(&runs), 0);
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
         let paths = files::comparison(folder, &runs, &settings, arguments.all, &control)?;
         drop(bar);

@@ -41,7 +41,7 @@ pub(super) fn run(
     });
     let Some(ended) = ended? else { return Ok(None) };
     let (floats, validity) = (floats(&ended), validity(problem, &ended, &seen));
-    let object = object((scene, problem), fidelity, &ended, &seen, wall_s);
+    let object = object(problem, fidelity, &ended, &seen, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &seen, &ended, (cycles, tolerance), floats, &validity);
     terminal::result(json, || json::document(&object, command), || human);

@@ -8,7 +8,7 @@ use super::terminal;
 use crate::analysis::reproduce::{Both, ReproducedRow, Reproduction, number_of_solves, reproduce};
 use crate::control::Cancel;
 use crate::digits::duration;
-use crate::export::animation::{Options, cycle, frames};
+use crate::export::animation::{Format, Options, count, cycle};
 use crate::export::files::{self, ExportError, Files, Folder};
 use crate::export::reproduce::{figures, object, report, row_object};
 use crate::export::{csv, json};
@@ -73,7 +73,7 @@ fn write(folder: &Folder<'_>, all: &Reproduction, cancel: &Cancel) -> Result<Vec
         all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
     {
         let options = Options { width: 860, ..Options::default() };
-        let bar = Bar::points(frames(&solution.recording, options.frames), 0);
+        let bar = Bar::points(count(&solution.recording, &options, Format::Gif), 0);
         let movie = cycle(&both.problem, solution, &options, &|| bar.point_done("frames"), cancel)?;
         gif = Some(files::gif(&movie, &folder.path.join("cycle.gif"), cancel)?);
     }

@@ -157,7 +157,7 @@ fn one(
     }
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
-        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: result.torque.as_ref() };
+        let solved = Solved { scene, problem, solution: &solution, history: &history };
         if let Some(text) = announced(folder.path, files::expected_size(folder, problem, &solution.recording)) {
             terminal::note(&text);
         }

@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let rows: Vec<CycleRow> = seen.iter().map(|cycle| CycleRow::of(&problem, cycle)).collect();
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
-    let object = object((&scene, &problem), &settings, &ended, &rows, wall_s);
+    let object = object(&problem, &settings, &ended, &rows, wall_s);
     warnings(&ended).iter().for_each(|warning| terminal::warning(warning));
     let human = text((&scene, &problem), &rows, (&ended, &validity), steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);

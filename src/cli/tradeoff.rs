@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = &folder {
         let mut files = Files::new(folder)?;
-        files.add("tradeoff.csv", |out| csv::rows(settings(&tradeoff), out))?;
+        files.add("tradeoff.csv", |out| csv::rows_of_ours(settings(&tradeoff), out))?;
         files.json("tradeoff.json", &object)?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         files.figure("tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;

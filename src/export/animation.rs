@@ -3,14 +3,14 @@
 //! Every frame is a [`Figure`], drawn as for print; its axes have to stay where they are from frame to frame. A GIF has one
 //! palette for all frames, so that nothing flickers: the commonest colours as they are, the rest by neural quantisation
 //! (Dekker 1994). From frame to frame only what has changed is stored, in both formats. An MP4 holds AV1, encoded in Rust
-//! alone; since players do not repeat by themselves, it has the cycle several times. Each of the three says where its
-//! numbers come from, as a comment.
+//! alone; where the solve has too few time steps to look like motion, it has frames between them, and since players do not
+//! repeat by themselves, it has the cycle several times. Each of the three says where its numbers come from, as a comment.
 
 use super::error::ExportError;
-use super::figure::{Figure, Pixels, Provenance, pixels, png_bytes};
+use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
-use super::mp4_cycle;
-pub use super::mp4_cycle::LONG_ENOUGH;
+#[cfg(feature = "video")]
+use super::mp4;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::digits::rounded;
@@ -48,7 +48,7 @@ pub struct Movie {
     width: u32,
     height: u32,
     seconds: f64,
-    /// Where the numbers come from; may be empty.
+    /// Where the numbers come from.
     source: String,
     /// Red, green, blue, row by row from the top.
     frames: Vec<Vec<u8>>,
@@ -95,9 +95,36 @@ pub fn cycle(
     Movie::of(count, options, &figure_of(problem, solution, recording, options), done, cancel)
 }
 
-/// Writes the cycle of a solve as an MP4 with at least [`SMOOTH`] frames a second on screen: where the solve has too few time
-/// steps, between them. Each frame is drawn when it is encoded, and `done` called after it. The file has its name only when it is complete.
-pub fn write_video(
+/// Writes the cycle of a solve in the format of its path. A file has its name only when it is complete. `done` is called after each
+/// frame, from several threads. Returns the paths of what was written.
+pub fn write(
+    path: &Path,
+    problem: &Problem,
+    solution: &Solution,
+    options: &Options,
+    done: &(dyn Fn() + Sync),
+    cancel: &Cancel,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let movie = || cycle(problem, solution, options, done, cancel);
+    let stopped = |error| stopped(error, cancel);
+    match Format::of(path)? {
+        Format::Gif => {
+            let movie = movie()?;
+            write_file(path, |out| movie.gif(out, cancel)).map_err(stopped)?;
+        }
+        Format::Apng => {
+            let movie = movie()?;
+            write_file(path, |out| movie.apng(out, cancel)).map_err(stopped)?;
+        }
+        Format::Mp4 => write_video(path, problem, solution, options, done, cancel)?,
+        Format::Folder => return movie()?.folder(path, cancel),
+    }
+    Ok(vec![path.to_owned()])
+}
+
+/// Writes an MP4. Each frame is drawn when it is encoded.
+#[cfg(feature = "video")]
+fn write_video(
     path: &Path,
     problem: &Problem,
     solution: &Solution,
@@ -105,26 +132,35 @@ pub fn write_video(
     done: &dyn Fn(),
     cancel: &Cancel,
 ) -> Result<(), ExportError> {
-    let count = video_frames(&solution.recording, options);
+    let count = count(&solution.recording, options, Format::Mp4);
+    if count == 0 {
+        return Err(ExportError::NoCycle);
+    }
     let mut recording = Cow::Borrowed(&solution.recording);
     if count != frames(&recording, options.frames) {
         recording = Cow::Owned(recording.resampled(count));
     }
-    if count == 0 {
-        return Err(ExportError::NoCycle);
-    }
     let options = Options { frames: count, ..*options };
     let figure = figure_of(problem, solution, &recording, &options);
-    let draw = |frame: usize| {
-        let figure = figure(frame);
-        pixels(&figure, f64::from(options.width.max(1)) / figure.width.points())
-    };
-    let first = draw(0)?;
-    let shown = ([first.width, first.height], count, on_screen(options.seconds));
-    let picture = |frame: usize| Ok(Cow::Owned(draw(frame).map_err(io::Error::other)?.rgb));
+    let first = drawn(&figure(0), &options)?;
+    let shown = ([first.width, first.height], count, options.seconds);
+    let picture = |frame: usize| Ok(Cow::Owned(drawn(&figure(frame), &options).map_err(io::Error::other)?.rgb));
     let source = Provenance::of(problem, solution).line();
-    write_file(path, |out| mp4_cycle::write(shown, &picture, &source, out, done, cancel))
+    write_file(path, |out| mp4::write(shown, &picture, &source, out, done, cancel))
         .map_err(|error| stopped(error, cancel))
+}
+
+#[cfg(not(feature = "video"))]
+fn write_video(
+    path: &Path,
+    _: &Problem,
+    _: &Solution,
+    _: &Options,
+    _: &dyn Fn(),
+    _: &Cancel,
+) -> Result<(), ExportError> {
+    let source = io::Error::other("this program was built without video, and cannot write MP4");
+    Err(WriteError { path: path.to_owned(), source }.into())
 }
 
 /// The file of a frame in a folder, from 1 on.
@@ -132,14 +168,17 @@ pub fn frame_name(number: usize) -> String {
     format!("frame-{number:04}.png")
 }
 
-/// How many frames [`write_video`] writes: if the options ask for fewer than the usual number, as many as [`frames`].
-pub fn video_frames(recording: &Recording, options: &Options) -> usize {
-    let (count, enough) = (frames(recording, options.frames), (SMOOTH * options.seconds).ceil() as usize);
-    if count == 0 || options.frames < Options::default().frames { count } else { count.max(enough) }
+/// How many frames [`write`] makes. If the options ask for fewer than the usual number, an MP4 has no more than the other formats.
+pub fn count(recording: &Recording, options: &Options, format: Format) -> usize {
+    let count = frames(recording, options.frames);
+    if format != Format::Mp4 || count == 0 || options.frames < Options::default().frames {
+        return count;
+    }
+    count.max((SMOOTH * options.seconds).ceil() as usize)
 }
 
 /// Frames a second that look like motion.
-pub const SMOOTH: f64 = 24.0;
+const SMOOTH: f64 = 24.0;
 
 /// The frames of a cycle as figures.
 fn figure_of<'a>(
@@ -151,21 +190,20 @@ fn figure_of<'a>(
     let count = frames(recording, options.frames);
     let slower = slow_motion(recording, options.seconds);
     move |frame: usize| {
-        let frame = frame * recording.frames / count.max(1);
+        let frame = frame * recording.frames / count;
         let mut figure = match &problem.scenario {
             Scenario::Motor(motor) => figures::motor::moving(motor, recording, frame),
             Scenario::Plate(plate) => figures::plate::moving(plate, recording, frame),
         };
-        let phase = frame as f64 / recording.frames.max(1) as f64;
+        let phase = frame as f64 / recording.frames as f64;
         figure.title = format!("{} · t/T = {phase:.2} · {slower}", show_text(&problem.name));
         figure.provenance = Provenance::of(problem, solution);
         figure
     }
 }
 
-/// How long a cycle is on screen \[s\].
-fn on_screen(seconds: f64) -> f64 {
-    if seconds.is_finite() { seconds.clamp(0.02, 600.0) } else { 4.0 }
+fn drawn(figure: &Figure, options: &Options) -> Result<Pixels, FigureError> {
+    pixels(figure, f64::from(options.width) / figure.width.points())
 }
 
 /// Why a file was not written.
@@ -174,18 +212,14 @@ fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
 }
 
 /// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
-pub fn frames(recording: &Recording, most: usize) -> usize {
+fn frames(recording: &Recording, most: usize) -> usize {
     figures::compare::common_frames(std::iter::once(recording), most)
 }
 
 /// `slowed down 91 000 times`
 fn slow_motion(recording: &Recording, seconds: f64) -> String {
-    let factor = seconds / recording.period;
-    if !(factor.is_finite() && factor > 0.0) {
-        return String::new();
-    }
     // Two digits are enough to know what one sees.
-    match rounded(factor, 2) {
+    match rounded(seconds / recording.period, 2) {
         times @ ..1e4 => format!("slowed down {times:.0} times"),
         times @ ..1e6 => format!("slowed down {:.0} 000 times", times / 1e3),
         times => format!("slowed down {times:.1e} times"),
@@ -211,9 +245,7 @@ impl Movie {
             if cancel.is_cancelled() {
                 return Err(ExportError::Cancelled);
             }
-            let figure = figure(frame);
-            let scale = f64::from(options.width.max(1)) / figure.width.points();
-            let pixels = pixels(&figure, scale)?;
+            let pixels = drawn(&figure(frame), options)?;
             done();
             Ok(pixels)
         };
@@ -222,38 +254,22 @@ impl Movie {
         if let Some(frame) = drawn.iter().position(|pixels| (pixels.width, pixels.height) != (width, height)) {
             return Err(ExportError::Size { frame });
         }
-        let seconds = on_screen(options.seconds);
-        let source = figure(0).provenance.line();
+        let (seconds, source) = (options.seconds, figure(0).provenance.line());
         Ok(Self { width, height, seconds, source, frames: drawn.into_iter().map(|pixels| pixels.rgb).collect() })
     }
 
-    /// How many frames there are.
-    pub fn count(&self) -> usize {
-        self.frames.len()
-    }
-
-    /// Writes the movie in the format of its path. A file has its name only when it is complete. Of an MP4
-    /// `done` is called after each frame that is encoded.
-    pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, ExportError> {
-        let stopped = |error| stopped(error, cancel);
-        match Format::of(path)? {
-            Format::Gif => write_file(path, |out| self.gif(out, cancel)).map_err(stopped)?,
-            Format::Apng => write_file(path, |out| self.apng(out, cancel)).map_err(stopped)?,
-            Format::Mp4 => write_file(path, |out| self.mp4(out, done, cancel)).map_err(stopped)?,
-            Format::Folder => {
-                let mut staged = Staged::new(path)?;
-                for (i, rgb) in self.frames.iter().enumerate() {
-                    let pixels = Pixels { width: self.width, height: self.height, rgb: rgb.clone() };
-                    let write = |out: &mut dyn Write| {
-                        check(cancel)?;
-                        out.write_all(&png_bytes(&pixels, None, &[]).map_err(io::Error::other)?)
-                    };
-                    staged.add(frame_name(i + 1), write).map_err(stopped)?;
-                }
-                return Ok(staged.commit()?);
-            }
+    /// Writes a PNG for each frame into a folder.
+    fn folder(&self, path: &Path, cancel: &Cancel) -> Result<Vec<PathBuf>, ExportError> {
+        let mut staged = Staged::new(path)?;
+        for (i, rgb) in self.frames.iter().enumerate() {
+            let pixels = Pixels { width: self.width, height: self.height, rgb: rgb.clone() };
+            let write = |out: &mut dyn Write| {
+                check(cancel)?;
+                out.write_all(&png_bytes(&pixels, None, &[]).map_err(io::Error::other)?)
+            };
+            staged.add(frame_name(i + 1), write).map_err(|error| stopped(error, cancel))?;
         }
-        Ok(vec![path.to_owned()])
+        Ok(staged.commit()?)
     }
 
     /// Writes a GIF that repeats for ever.
@@ -262,10 +278,8 @@ impl Movie {
         let mut palette = Palette::new(&self.frames);
         let mut encoder = gif::Encoder::new(out, width, height, &palette.bytes()).map_err(io::Error::other)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(io::Error::other)?;
-        if !self.source.is_empty() {
-            let blocks: Vec<&[u8]> = self.source.as_bytes().chunks(255).collect();
-            encoder.write_raw_extension(gif::Extension::Comment.into(), &blocks).map_err(io::Error::other)?;
-        }
+        let comment: Vec<&[u8]> = self.source.as_bytes().chunks(255).collect();
+        encoder.write_raw_extension(gif::Extension::Comment.into(), &comment).map_err(io::Error::other)?;
         for (i, rgb) in self.frames.iter().enumerate() {
             check(cancel)?;
             let before = i.checked_sub(1).map(|i| self.frames[i].as_slice());
@@ -296,21 +310,19 @@ impl Movie {
 
     /// How long a frame stays, in hundredths of a second: together they last as long as they should.
     fn delay(&self, frame: usize) -> u16 {
-        let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.count() as f64).round();
+        let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.frames.len() as f64).round();
         (until(frame + 1) - until(frame)).clamp(2.0, 60_000.0) as u16
     }
 
     /// Writes an animated PNG that repeats for ever.
-    pub fn apng(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
-        let count = u32::try_from(self.count()).map_err(io::Error::other)?;
+    fn apng(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
+        let count = u32::try_from(self.frames.len()).map_err(io::Error::other)?;
         let mut encoder = png::Encoder::new(out, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_animated(count, 0)?;
         encoder.set_frame_delay((1000.0 * self.seconds / f64::from(count)).round().clamp(1.0, 6e4) as u16, 1000)?;
-        if !self.source.is_empty() {
-            encoder.add_itxt_chunk("Source".to_owned(), self.source.clone())?;
-        }
+        encoder.add_itxt_chunk("Source".to_owned(), self.source.clone())?;
         let mut writer = encoder.write_header()?;
         for (i, rgb) in self.frames.iter().enumerate() {
             check(cancel)?;
@@ -329,12 +341,6 @@ impl Movie {
         }
         writer.finish()?;
         Ok(())
-    }
-
-    /// Writes an MP4 that has the cycle as often as [`LONG_ENOUGH`] asks. `done` is called after each frame.
-    pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
-        let shown = ([self.width, self.height], self.count(), self.seconds);
-        mp4_cycle::write(shown, &|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
     }
 
     /// Left, top, right and bottom of what differs from the frame before: at least one pixel.
@@ -438,7 +444,6 @@ mod tests {
         assert_eq!(said(1e-3, 0.2512), "slowed down 250 times");
         assert_eq!(said(1.0 / 30e3, 3.03), "slowed down 91 000 times");
         assert_eq!(said(1e-9, 4.0), "slowed down 4.0e9 times");
-        assert_eq!(said(0.0, 4.0), "");
     }
 
     #[test]
@@ -452,7 +457,8 @@ mod tests {
             pixels.flat_map(colour).collect()
         };
         let frames: Vec<Vec<u8>> = (0..4).map(frame).collect();
-        let movie = Movie { width: width as u32, height: height as u32, seconds: 1.0, source: String::new(), frames };
+        let movie =
+            Movie { width: width as u32, height: height as u32, seconds: 1.0, source: "a test".to_owned(), frames };
         let mut bytes = Vec::new();
         movie.gif(&mut bytes, &Cancel::new()).unwrap();
         let mut options = gif::DecodeOptions::new();
@@ -470,10 +476,5 @@ mod tests {
             assert!(shown.iter().zip(drawn).all(|(a, b)| a.abs_diff(*b) <= 8), "{shown:?} {drawn:?}");
         }
         assert!(decoder.read_next_frame().unwrap().is_none());
-    }
-
-    #[test]
-    fn a_cycle_is_on_screen_as_long_as_was_asked() {
-        assert_eq!([2.5, 0.0, 1e9, f64::NAN].map(on_screen), [2.5, 0.02, 600.0, 4.0]);
     }
 }

@@ -208,19 +208,18 @@ pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
 /// `done` is called after each frame, from several threads.
 pub fn movies(
     runs: &[ComparedRun],
-    options: &Options,
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
 ) -> Result<Vec<(&'static str, Movie)>, ExportError> {
     let (motors, plates) = motors_and_plates(runs);
-    let provenance = provenance(runs);
+    let (provenance, options) = (provenance(runs), Options::default());
     let movie = |recordings: Vec<&Recording>, draw: &(dyn Fn(f64) -> Figure + Sync)| {
         let count = figures::common_frames(recordings.into_iter(), options.frames);
         let figure = |frame: usize| {
             let phase = frame as f64 / count as f64;
             Figure { title: format!("t/T = {phase:.2}"), provenance: provenance.clone(), ..draw(phase) }
         };
-        Movie::of(count, options, &figure, done, cancel)
+        Movie::of(count, &options, &figure, done, cancel)
     };
     let mut movies = Vec::new();
     if !motors.is_empty() {
@@ -236,8 +235,9 @@ pub fn movies(
 }
 
 /// How many frames [`movies`] draws.
-pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
+pub fn frames(runs: &[ComparedRun]) -> usize {
     let (motors, plates) = motors_and_plates(runs);
+    let most = Options::default().frames;
     figures::common_frames(motors.iter().map(|run| run.recording), most)
         + figures::common_frames(plates.iter().map(|run| run.recording), most)
 }
@@ -465,7 +465,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
     let mut table = Table::default().heads(heads);
     for (quantity, name, texts) in result_texts(runs) {
         let kind = match quantity {
-            Some(Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio) => Kind::Strong,
+            Some(quantity) if Quantity::HEADLINES.contains(&quantity) => Kind::Strong,
             Some(_) => Kind::Number,
             None => Kind::Words,
         };

@@ -27,13 +27,14 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
         Scenario::Plate(plate) => (None, plate.width.is_none()),
     };
     let film = if per_metre { "film_n_per_m2" } else { "film_n_per_m" };
+    let [position, size] = if recording.radial { ["radius_m", "area_m2"] } else { ["x_m", "length_m"] };
     match motor {
         Some(_) => table.header(&[
             "time_s",
             "phase",
             "tooth",
-            "x_m",
-            "length_m",
+            position,
+            size,
             "stator_nm",
             "film_thickness_nm",
             "gap_nm",
@@ -41,10 +42,7 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
             "contact_n_per_m",
             film,
         ])?,
-        None if recording.radial => {
-            table.header(&["time_s", "phase", "radius_m", "area_m2", "film_thickness_nm", film])?;
-        }
-        None => table.header(&["time_s", "phase", "x_m", "length_m", "film_thickness_nm", film])?,
+        None => table.header(&["time_s", "phase", position, size, "film_thickness_nm", film])?,
     }
     for frame in 0..recording.frames {
         let (time, phase) = (recording.time(frame), frame as f64 / recording.frames as f64);

@@ -1,5 +1,6 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use super::json::kind;
 use super::startup::periodic;
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
@@ -7,7 +8,6 @@ use crate::export::figure::{Axis, Band, Colour, Figure, Line, Panel, Provenance,
 use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
-use crate::scene::Scene;
 use crate::solution::Status;
 use serde_json::{Value, json};
 
@@ -25,17 +25,11 @@ pub fn row(cycle: &Cycle) -> Value {
 
 /// The object of `--json`: a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
 /// known is null.
-pub fn object(
-    (scene, problem): (&Scene, &Problem),
-    fidelity: Fidelity,
-    ended: &Fall,
-    cycles: &[Cycle],
-    wall_s: f64,
-) -> Value {
+pub fn object(problem: &Problem, fidelity: Fidelity, ended: &Fall, cycles: &[Cycle], wall_s: f64) -> Value {
     let floats = floats(ended);
     json!({
-        "preset": scene.name,
-        "scene": scene.scene(),
+        "preset": problem.name,
+        "scene": kind(problem),
         "fidelity": fidelity.to_string(),
         "converged": ended.status == Status::Converged,
         "mean_gap_um": floats.map(|found| found.value),

@@ -1,7 +1,7 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{Movie, Options, cycle, frames, video_frames, write_video};
+use super::animation::{self, Movie, Options};
 use super::compare::{self, all_figures, movies, report};
 pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
@@ -60,8 +60,6 @@ pub struct Solved<'a> {
     pub solution: &'a Solution,
     /// The rounds, if they were kept.
     pub history: &'a [Progress],
-    /// Torque over speed, of a motor.
-    pub torque: Option<&'a TorqueCurves>,
 }
 
 /// Where results are written, and how.
@@ -162,10 +160,10 @@ pub fn solve(
     files.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     files.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
     files.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
-    if let Some(curves) = solved.torque {
+    if let Some(curves) = &summary.torque {
         files.add("torque.csv", |out| torque::write_csv(curves, out))?;
     }
-    add_figures(&mut files, solved, control)?;
+    add_figures(&mut files, solved, summary.torque.as_ref(), control)?;
     if folder.vtk {
         let (names, series) = vtk::series(&solution.recording);
         for (frame, name) in names.iter().enumerate() {
@@ -178,14 +176,15 @@ pub fn solve(
     Ok(files.commit()?)
 }
 
-/// The figures of a solve alone.
+/// The figures of a solve alone; `torque`: over speed, of a motor.
 pub fn solve_figures(
     folder: &Folder<'_>,
     solved: &Solved<'_>,
+    torque: Option<&TorqueCurves>,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let mut files = Files::new(folder)?;
-    add_figures(&mut files, solved, control)?;
+    add_figures(&mut files, solved, torque, control)?;
     control.check()?;
     Ok(files.commit()?)
 }
@@ -198,14 +197,19 @@ fn titled(solved: &Solved<'_>) -> Problem {
 }
 
 /// Adds the figures of a solve, drawn several at a time.
-fn add_figures(files: &mut Files<'_>, solved: &Solved<'_>, control: &Control<'_>) -> Result<(), ExportError> {
+fn add_figures(
+    files: &mut Files<'_>,
+    solved: &Solved<'_>,
+    torque: Option<&TorqueCurves>,
+    control: &Control<'_>,
+) -> Result<(), ExportError> {
     let mut formats = files.folder.formats.clone();
     formats.sort_unstable();
     formats.dedup();
     if formats.is_empty() {
         return Ok(());
     }
-    let figures = figures::of(&titled(solved), solved.solution, solved.history, solved.torque);
+    let figures = figures::of(&titled(solved), solved.solution, solved.history, torque);
     let asked: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(asked.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {
@@ -243,32 +247,15 @@ pub fn animation(
     options: &Options,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
-    // A wrong extension is told before the work, not after it.
-    let format = super::animation::Format::of(path)?;
-    let all = animated_frames(solved.solution, options, format);
-    let (problem, solution) = (titled(solved), solved.solution);
-    control.counted(all, |done| match format {
-        super::animation::Format::Mp4 => {
-            write_video(path, &problem, solution, options, done, control.cancel)?;
-            Ok(vec![path.to_owned()])
-        }
-        _ => Ok(cycle(&problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
-    })
-}
-
-/// How many frames [`animation`] draws.
-pub fn animated_frames(solution: &Solution, options: &Options, format: super::animation::Format) -> usize {
-    match format {
-        super::animation::Format::Mp4 => video_frames(&solution.recording, options),
-        _ => frames(&solution.recording, options.frames),
-    }
+    let all = animation::count(&solved.solution.recording, options, animation::Format::of(path)?);
+    control.counted(all, |done| animation::write(path, &titled(solved), solved.solution, options, done, control.cancel))
 }
 
 /// A movie as GIF. `path`: of the file, for a fault.
 pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
     let mut gif = Vec::new();
     match movie.gif(&mut gif, cancel) {
-        Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
+        Err(_) if cancel.is_cancelled() => Err(ExportError::Cancelled),
         Err(source) => Err(WriteError { path: path.to_owned(), source }.into()),
         Ok(()) => Ok(gif),
     }
@@ -279,9 +266,7 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
     if !cfg!(feature = "render") {
         return Ok(Vec::new());
     }
-    let options = Options::default();
-    let all = compare::frames(runs, options.frames);
-    let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
+    let drawn = control.counted(compare::frames(runs), |done| movies(runs, done, control.cancel))?;
     let named = |(name, movie): (&str, Movie)| {
         let bytes = gif(&movie, &folder.join(format!("{name}.gif")), control.cancel)?;
         Ok((name.to_owned(), bytes))
@@ -395,7 +380,7 @@ pub fn startup(
     let rows: Vec<_> = cycles.iter().map(|cycle| startup::CycleRow::of(problem, cycle)).collect();
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| startup::write_csv(problem, &rows, out))?;
-    files.json("startup.json", &startup::object((scene, problem), settings, ended, &rows, wall_s))?;
+    files.json("startup.json", &startup::object(problem, settings, ended, &rows, wall_s))?;
     let loads = cycles.iter().map(|cycle| cycle.recording.film_load.as_slice());
     let mut drawn = startup::figure(problem, &rows, startup::steady(problem, ended), loads);
     drawn.provenance.fidelity = settings.fidelity.to_string();
@@ -417,7 +402,7 @@ pub fn fall(
 ) -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| csv::rows(cycles.iter().map(fall::row), out))?;
-    files.json("startup.json", &fall::object((scene, problem), fidelity, ended, cycles, wall_s))?;
+    files.json("startup.json", &fall::object(problem, fidelity, ended, cycles, wall_s))?;
     let mut drawn = fall::figure(problem, cycles, fall::floats(ended));
     drawn.provenance.fidelity = fidelity.to_string();
     files.figure("startup", &drawn)?;

@@ -17,8 +17,8 @@ pub struct Page {
     title: String,
     head: String,
     body: String,
-    contents: Vec<(String, String)>,
-    open: bool,
+    /// Titles of the sections.
+    contents: Vec<String>,
 }
 
 /// Where a cell's words stand, and how they look.
@@ -103,17 +103,15 @@ impl Page {
     /// Begins a section, which is listed in the contents.
     pub fn section(&mut self, title: &str) {
         self.close();
-        self.open = true;
-        let id = format!("s{}", self.contents.len() + 1);
-        let _ = writeln!(self.body, "<section id=\"{id}\">\n<h2>{}</h2>", escaped(title));
-        self.contents.push((id, title.to_owned()));
+        self.contents.push(title.to_owned());
+        let _ = writeln!(self.body, "<section id=\"s{}\">\n<h2>{}</h2>", self.contents.len(), escaped(title));
     }
 
+    /// Ends the section that has begun, if any.
     fn close(&mut self) {
-        if self.open {
+        if !self.contents.is_empty() {
             self.body.push_str("</section>\n");
         }
-        self.open = false;
     }
 
     /// A heading within a section.
@@ -242,8 +240,8 @@ impl Page {
         let mut contents = String::new();
         if self.contents.len() > 2 {
             contents.push_str("<nav>\n<ol>\n");
-            for (id, title) in &self.contents {
-                let _ = writeln!(contents, "<li><a href=\"#{id}\">{}</a></li>", escaped(title));
+            for (title, number) in self.contents.iter().zip(1..) {
+                let _ = writeln!(contents, "<li><a href=\"#s{number}\">{}</a></li>", escaped(title));
             }
             contents.push_str("</ol>\n</nav>\n");
         }

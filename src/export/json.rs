@@ -103,10 +103,7 @@ impl Serialize for Summary {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("schema", &SCHEMA)?;
         map.serialize_entry("preset", &self.problem.name)?;
-        map.serialize_entry(
-            "scene",
-            if matches!(self.problem.scenario, Scenario::Motor(_)) { "motor" } else { "plate" },
-        )?;
+        map.serialize_entry("scene", kind(&self.problem))?;
         map.serialize_entry("converged", &(self.status == Status::Converged))?;
         map.serialize_entry("status", status_name(&self.status))?;
         map.serialize_entry("residual", &self.numbers.get(Quantity::Residual))?;
@@ -136,6 +133,11 @@ impl Serialize for Summary {
         map.serialize_entry("command", &self.command)?;
         map.end()
     }
+}
+
+/// The kind of scene, as its file names it.
+pub(super) fn kind(problem: &Problem) -> &'static str {
+    if matches!(problem.scenario, Scenario::Motor(_)) { "motor" } else { "plate" }
 }
 
 /// Mean gap \[m\] at which trapped gas that does not slip would carry a small load: a √(1.25 p_a A/F).

@@ -15,7 +15,6 @@ pub mod html;
 pub mod json;
 #[cfg(feature = "video")]
 mod mp4;
-mod mp4_cycle;
 pub mod npz;
 pub mod reproduce;
 pub mod saved;

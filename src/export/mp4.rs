@@ -3,12 +3,14 @@
 //! A player does not repeat by itself, so the packets of a cycle stand in the file several times. What is known of the pictures is a
 //! comment as Apple's programs write it, which nearly all readers know.
 
+use crate::control::Cancel;
 use shiguredo_mp4::bitstream::av1::{
     Av1ObuParseContext, Av1ObuType, Av1SampleEntryConfig, build_av01_box_from_config_obus, parse_obus,
 };
 use shiguredo_mp4::boxes::{Brand, FreeBox, FtypBox, SampleEntry, UnknownBox};
 use shiguredo_mp4::mux::{Mp4FileMuxer, Mp4FileMuxerOptions, Sample, estimate_maximum_moov_box_size};
 use shiguredo_mp4::{BoxSize, BoxType, Encode, TrackKind};
+use squeezefilm_video::{Picture, encode};
 use std::io::{self, Write};
 use std::num::NonZeroU32;
 
@@ -17,34 +19,48 @@ const ABOUT: usize = 256;
 /// A box begins with its length and its name \[bytes\].
 const HEADER: usize = 8;
 
-/// How a video is shown.
-pub(super) struct Timing {
-    /// Units of time in a second.
-    pub(super) timescale: u32,
-    /// Units that a frame stays.
-    pub(super) step: u32,
-    /// How often the cycle is repeated.
-    pub(super) cycles: u32,
+/// A video has whole cycles, and lasts at least this \[s\].
+const LONG_ENOUGH: f64 = 12.0;
+
+/// Writes a cycle of `count` pictures of a size, each called for by its number, as often as [`LONG_ENOUGH`] asks, with a comment.
+/// `done` is called after each picture.
+pub(super) fn write(
+    (size, count, seconds): ([u32; 2], usize, f64),
+    picture: &Picture<'_>,
+    comment: &str,
+    out: &mut dyn Write,
+    done: &dyn Fn(),
+    cancel: &Cancel,
+) -> io::Result<()> {
+    // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+    let step = (1000.0 * seconds).round() as u32;
+    let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
+    let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
+    let packets = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
+    if cancel.is_cancelled() {
+        return Err(io::ErrorKind::Interrupted.into());
+    }
+    mux(&packets, [step, timescale], cycles, comment, out)
 }
 
-/// Writes the packets of a cycle, with a comment unless it is empty.
-pub(super) fn write(packets: &[Vec<u8>], timing: &Timing, comment: &str, out: &mut dyn Write) -> io::Result<()> {
+/// Writes the packets of a cycle `cycles` times, each for `step` \[s\], a fraction.
+fn mux(packets: &[Vec<u8>], step: [u32; 2], cycles: u32, comment: &str, out: &mut dyn Write) -> io::Result<()> {
     let samples = packets.iter().map(|packet| sample(packet)).collect::<io::Result<Vec<Vec<u8>>>>()?;
     let mut entry = Some(entry(samples.first().map_or(&[], Vec::as_slice))?);
-    let timescale = NonZeroU32::new(timing.timescale).ok_or_else(|| io::Error::other("there is no unit of time"))?;
-    let cycles = || (0..timing.cycles).flat_map(|_| samples.iter().enumerate());
-    let index = estimate_maximum_moov_box_size(&[cycles().count()]);
+    let timescale = NonZeroU32::new(step[1]).ok_or_else(|| io::Error::other("there is no unit of time"))?;
+    let all = || (0..cycles).flat_map(|_| samples.iter().enumerate());
+    let index = estimate_maximum_moov_box_size(&[all().count()]);
     let reserved_moov_box_size = index + comment.len() + ABOUT;
     let options = Mp4FileMuxerOptions { reserved_moov_box_size, ..Mp4FileMuxerOptions::default() };
     let mut muxer = Mp4FileMuxer::with_options(options).map_err(io::Error::other)?;
     let mut data_offset = muxer.initial_boxes_bytes().len() as u64;
-    for (i, sample) in cycles() {
+    for (i, sample) in all() {
         let of_it = Sample {
             track_kind: TrackKind::Video,
             sample_entry: entry.take(),
             keyframe: i == 0,
             timescale,
-            duration: timing.step,
+            duration: step[0],
             composition_time_offset: None,
             data_offset,
             data_size: sample.len(),
@@ -54,9 +70,7 @@ pub(super) fn write(packets: &[Vec<u8>], timing: &Timing, comment: &str, out: &m
     }
     let boxes = muxer.finalize().map_err(io::Error::other)?;
     let mut moov = boxes.moov_box().clone();
-    if !comment.is_empty() {
-        moov.unknown_boxes.push(about(comment)?);
-    }
+    moov.unknown_boxes.push(about(comment)?);
     let compatible_brands = vec![Brand::ISOM, Brand::ISO6, Brand::AV01, Brand::MP41];
     let ftyp = FtypBox { major_brand: Brand::ISOM, minor_version: 0x200, compatible_brands };
     let head = [bytes(ftyp)?, bytes(moov)?].concat();
@@ -65,7 +79,7 @@ pub(super) fn write(packets: &[Vec<u8>], timing: &Timing, comment: &str, out: &m
     let free = (begin as usize).checked_sub(head.len() + HEADER);
     let payload = vec![0; free.ok_or_else(|| io::Error::other("the index of the video is too long"))?];
     [head, bytes(FreeBox { payload })?, data.to_vec()].iter().try_for_each(|part| out.write_all(part))?;
-    cycles().try_for_each(|(_, sample)| out.write_all(sample))
+    all().try_for_each(|(_, sample)| out.write_all(sample))
 }
 
 /// A packet without delimiters, which a container has no use for.
@@ -115,9 +129,8 @@ mod tests {
         let frame = [vec![0x32, 0x82, 0x01], vec![7; 130]].concat();
         let packet = [[0x12, 0x00, 0x0a, 0x03, 1, 2, 3].as_slice(), &frame].concat();
         assert_eq!(sample(&packet).unwrap(), packet[2..]);
-        let timing = Timing { timescale: 1, step: 1, cycles: 1 };
         for broken in [&packet[..20], &[0x12], &[0x0a, 0xff, 0xff], &[0x12, 0], &frame] {
-            write(&[broken.to_vec()], &timing, "", &mut Vec::new()).unwrap_err();
+            mux(&[broken.to_vec()], [1, 1], 1, "", &mut Vec::new()).unwrap_err();
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Sensitivities and uncertainties as JSON and as CSV, with the same names, and as figures.
 
 use super::csv::number;
-use super::estimates::finite;
+use super::estimates::{self, finite};
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::Column;
 use crate::digits::significant;
@@ -29,18 +29,16 @@ fn draws(MonteCarlo { seed, asked, draws, failures, redrawn }: &MonteCarlo) -> V
 
 /// How the draws of a result are distributed.
 fn spread(spread: Spread) -> Value {
-    json!({
+    let mut object = json!({
         "count": spread.count,
         "mean": spread.mean,
         "mean_error": spread.mean_error(),
         "standard_deviation": spread.deviation,
-        "quantile_5": spread.quantiles[0].value,
-        "quantile_5_error": spread.quantiles[0].error,
-        "quantile_50": spread.quantiles[1].value,
-        "quantile_50_error": spread.quantiles[1].error,
-        "quantile_95": spread.quantiles[2].value,
-        "quantile_95_error": spread.quantiles[2].error,
-    })
+    });
+    for (name, quantile) in ["quantile_5", "quantile_50", "quantile_95"].into_iter().zip(spread.quantiles) {
+        estimates::add(&mut object, name, "", Some(quantile));
+    }
+    object
 }
 
 impl SensitivityStudy<'_> {

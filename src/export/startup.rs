@@ -2,15 +2,14 @@
 
 use super::csv;
 use super::estimates::finite;
+use super::json::kind;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::validity::{Excess, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Marker, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
-use crate::scene::Scene;
 use crate::solution::{Accuracy, PlateResult, Status};
 use crate::startup::{Cycle, Settings, Startup};
-use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -43,21 +42,6 @@ pub struct CycleRow {
     pub remaining: Option<f64>,
 }
 
-/// The numbers under the names that they have elsewhere, but for `load_ratio`; what its scene does not have is null.
-impl Serialize for CycleRow {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut row = to.serialize_map(None)?;
-        row.serialize_entry("cycle", &self.cycle)?;
-        row.serialize_entry("time_us", &self.time_us)?;
-        for number in numbers() {
-            row.serialize_entry(number.name().trim_start_matches("mean_"), &self.numbers.get(number))?;
-        }
-        row.serialize_entry("change", &self.change)?;
-        row.serialize_entry("remaining", &self.remaining)?;
-        row.end()
-    }
-}
-
 impl CycleRow {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
@@ -70,6 +54,17 @@ impl CycleRow {
         }
     }
 
+    /// As an object: `name` of each number, but `load_ratio`; what its scene does not have is null.
+    fn object(&self, name: impl Fn(Quantity) -> String) -> Value {
+        let mut row = json!({ "cycle": self.cycle, "time_us": self.time_us });
+        for number in numbers() {
+            row[name(number).trim_start_matches("mean_")] = self.numbers.get(number).into();
+        }
+        row["change"] = self.change.into();
+        row["remaining"] = self.remaining.into();
+        row
+    }
+
     /// How much of the way is done, 0 to 1, as ln of what remains.
     pub fn share(&self, settings: &Settings) -> f64 {
         let by_cycles = self.cycle as f64 / settings.cycles as f64;
@@ -80,17 +75,11 @@ impl CycleRow {
 
 /// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
 /// known is null.
-pub fn object(
-    (scene, problem): (&Scene, &Problem),
-    settings: &Settings,
-    ended: &Startup,
-    rows: &[CycleRow],
-    wall_s: f64,
-) -> Value {
+pub fn object(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[CycleRow], wall_s: f64) -> Value {
     let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
     json!({
-        "preset": scene.name,
-        "scene": scene.scene(),
+        "preset": problem.name,
+        "scene": kind(problem),
         "fidelity": settings.fidelity.to_string(),
         "force_unit": force_unit(problem),
         "converged": ended.status == Status::Converged,
@@ -106,7 +95,7 @@ pub fn object(
         "coupling_iterations": ended.stats.coupling_iterations,
         "unsettled_steps": ended.stats.unsettled_steps,
         "wall_s": wall_s,
-        "rows": rows,
+        "rows": rows.iter().map(|row| row.object(|number| number.name().to_owned())).collect::<Vec<_>>(),
         "validity": validity(problem, ended),
         "warnings": warnings(ended),
     })
@@ -152,16 +141,10 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
 pub fn write_csv(problem: &Problem, rows: &[CycleRow], out: &mut dyn Write) -> io::Result<()> {
-    let mut text = Vec::new();
-    csv::rows(rows, &mut text)?;
-    let text = String::from_utf8(text).map_err(io::Error::other)?;
-    let (head, body) = text.split_once('\n').unwrap_or((&text, ""));
-    let strip = force_unit(problem) == "N/m";
+    let own: Vec<Quantity> = Quantity::of(problem).collect();
     let column =
-        |name: &str| if strip && name.starts_with("film_load") { format!("{name}_per_m") } else { name.to_owned() };
-    let head: Vec<String> = head.split(',').map(column).collect();
-    write!(out, "{}\n{body}", head.join(","))?;
-    out.flush()
+        |number: Quantity| if own.contains(&number) { number.column(problem) } else { number.name().to_owned() };
+    csv::rows(rows.iter().map(|row| row.object(column)), out)
 }
 
 /// The line at what the periodic solve gives.

@@ -203,8 +203,7 @@ const MOST_MAPS: usize = 12;
 /// The main quantity of a sweep: α of a motor, the mean gap of a plate that floats, the load ratio of any other plate.
 pub fn primary(sweep: &Sweep) -> Quantity {
     let there = sweep.quantities();
-    let first = [Quantity::Alpha, Quantity::MeanGap].into_iter().find(|quantity| there.contains(quantity));
-    first.unwrap_or(Quantity::LoadRatio)
+    Quantity::HEADLINES.into_iter().find(|quantity| there.contains(quantity)).unwrap_or(Quantity::LoadRatio)
 }
 
 fn figure_axis(axis: &SweepAxis) -> Axis {
@@ -274,13 +273,13 @@ fn with_points(panel: Panel, name: &str, points: Vec<[f64; 2]>, colour: Colour, 
 
 /// Published points inside the range that is swept.
 fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
-    let inside = |point: &Published| {
+    let inside = move |point: &Published| {
         sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
             let [least, most] = extent(axis.values.iter().copied());
             (least..=most).contains(value)
         })
     };
-    sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
+    sweep.published().into_iter().filter(inside)
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
@@ -375,13 +374,9 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = |point: usize, numbers: Numbers| SweepRow {
-            point,
-            values: plane.values(point),
-            status: RunStatus::Converged,
-            stopped_by: Some(StoppedBy::Accuracy),
-            numbers,
-            outside: Vec::new(),
+        let row = |point: usize, numbers: Numbers| {
+            let values = plane.values(point);
+            SweepRow { point, values, numbers, ..rows(&plane).swap_remove(0) }
         };
         let drawn = figure(&plane, &[row(1, numbers)], primary(&plane));
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };

@@ -18,6 +18,7 @@ use crate::export::{csv, sensitivity, tradeoff};
 use crate::fall::{self, Fall};
 use crate::fidelity::Fidelity;
 use crate::lessons::record::{self, Record};
+use crate::motor::MotorError;
 use crate::solve::Settings;
 use crate::startup::{self, Startup};
 use serde::{Deserialize, Serialize};
@@ -26,51 +27,6 @@ use std::sync::Arc;
 
 /// Formats of the figures beside data: those of the command line without `--figures`.
 pub const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
-
-/// Which files of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OfRun {
-    /// All, in a folder.
-    Data,
-    /// Its figures, in a folder.
-    Figures,
-    /// Its fields, as an archive.
-    Fields,
-    /// Its cycle as an animation.
-    Animation,
-}
-
-/// Which files of several runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OfRuns {
-    /// A report.
-    Report,
-    /// The files of a comparison, in a folder.
-    Comparison {
-        /// Whether parameters that do not differ are listed, too.
-        all: bool,
-    },
-}
-
-/// Which files of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OfSweep {
-    /// All, in a folder.
-    Data,
-    /// Its table.
-    Table,
-    /// A figure of this result.
-    Figure(Quantity),
-}
-
-/// Which file of the measurement of error against time.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum OfTradeoff {
-    /// The table.
-    Table,
-    /// The figure, with these settings marked.
-    Figure(Vec<usize>),
-}
 
 /// A picture of the window.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -84,12 +40,24 @@ pub struct Picture {
 /// The content of the files.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Content {
-    /// One run.
-    Run(OfRun, Box<SolvedScene>),
-    /// Several runs.
-    Runs(OfRuns, Vec<ComparedRun>),
-    /// A sweep, and its rows.
-    Sweep(OfSweep, Arc<Sweep>, Vec<SweepRow>),
+    /// All of a run, in a folder.
+    Run(Box<SolvedScene>),
+    /// The figures of a run, in a folder.
+    Figures(Box<SolvedScene>),
+    /// The fields of a run, as an archive.
+    Fields(Box<SolvedScene>),
+    /// The cycle of a run as an animation.
+    Animation(Box<SolvedScene>),
+    /// A report of one run or several.
+    Report(Vec<ComparedRun>),
+    /// The files of a comparison, in a folder; whether parameters that do not differ are listed, too.
+    Comparison(Vec<ComparedRun>, bool),
+    /// All of a sweep and its rows, in a folder.
+    Sweep(Arc<Sweep>, Vec<SweepRow>),
+    /// The table of a sweep.
+    SweepTable(Arc<Sweep>, Vec<SweepRow>),
+    /// The figure of a result of a sweep.
+    SweepFigure(Arc<Sweep>, Vec<SweepRow>, Quantity),
     /// Sensitivities, the uncertainties of keys, and random scenes.
     Sensitivity(Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>),
     /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
@@ -98,8 +66,10 @@ pub enum Content {
     Startup(Box<Posed>, startup::Settings, Box<Startup>, Vec<startup::Cycle>),
     /// A plate that was dropped: its scene, the fidelity, how it ended, and its cycles.
     Fall(Box<Posed>, Fidelity, Fall, Vec<fall::Cycle>),
-    /// Error against time of the scene of this name.
-    Tradeoff(OfTradeoff, String, Tradeoff),
+    /// The table of error against time.
+    TradeoffTable(Tradeoff),
+    /// The figure of error against time of the scene of this name, with these settings marked.
+    TradeoffFigure(String, Tradeoff, Vec<usize>),
     /// The record of what a student did.
     Answers(Vec<Record>),
     /// A picture of the window.
@@ -137,14 +107,23 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
     let figure = |drawn: &Figure| figure::write(drawn, path).map(|()| vec![path.to_owned()]);
     let out = folder(path, BESIDE_DATA);
     Ok(match content {
-        Content::Run(what, run) => of_run(what, path, &run, control)?,
-        Content::Runs(OfRuns::Report, runs) => files::html(path, &runs, &coarsest(&runs), control)?,
-        Content::Runs(OfRuns::Comparison { all }, runs) => {
-            files::comparison(&out, &runs, &coarsest(&runs), all, control)?
+        Content::Run(run) => {
+            let mut summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
+            summary.add_torque(torque(&run, control));
+            files::solve(&out, &solved(&run), &summary, control)?
         }
-        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(&out, &sweep, &rows, primary(&sweep))?,
-        Content::Sweep(OfSweep::Table, sweep, rows) => files::alone(path, |out| write_csv(&sweep, &rows, out))?,
-        Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => figure(&swept::figure(&sweep, &rows, quantity))?,
+        Content::Figures(run) => {
+            // If torque cannot be computed, the other figures are still worth having.
+            let torque = torque(&run, control).ok().flatten();
+            files::solve_figures(&folder(path, Format::WRITTEN), &solved(&run), torque.as_ref(), control)?
+        }
+        Content::Fields(run) => files::fields(path, &solved(&run))?,
+        Content::Animation(run) => files::animation(path, &solved(&run), &Options::default(), control)?,
+        Content::Report(runs) => files::html(path, &runs, &coarsest(&runs), control)?,
+        Content::Comparison(runs, all) => files::comparison(&out, &runs, &coarsest(&runs), all, control)?,
+        Content::Sweep(sweep, rows) => files::swept(&out, &sweep, &rows, primary(&sweep))?,
+        Content::SweepTable(sweep, rows) => files::alone(path, |out| write_csv(&sweep, &rows, out))?,
+        Content::SweepFigure(sweep, rows, quantity) => figure(&swept::figure(&sweep, &rows, quantity))?,
         Content::Sensitivity(sensitivity, uncertainties, carlo) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
             let found = sensitivity::SensitivityStudy { sensitivity: &sensitivity, uncertainties, carlo };
@@ -160,12 +139,10 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
             fit::FitResult::Fit(measured, fitted) => files::fitted(&out, &posed.problem, &name, fitted, measured)?,
             fit::FitResult::Optimum(found) => files::optimum(&out, &posed.problem, &name, found)?,
         },
-        Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
-            files::alone(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?
+        Content::TradeoffTable(tradeoff) => {
+            files::alone(path, |out| csv::rows_of_ours(tradeoff::settings(&tradeoff), out))?
         }
-        Content::Tradeoff(OfTradeoff::Figure(chosen), name, tradeoff) => {
-            figure(&tradeoff::figure(&name, &tradeoff, &chosen))?
-        }
+        Content::TradeoffFigure(name, tradeoff, chosen) => figure(&tradeoff::figure(&name, &tradeoff, &chosen))?,
         Content::Answers(records) => {
             let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
             files::alone(path, |out| match lines {
@@ -177,26 +154,13 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
     })
 }
 
-fn of_run(what: OfRun, path: &Path, run: &SolvedScene, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
-    let SolvedScene { scene, problem, fidelity, solution, wall_s, history, .. } = run;
-    let solved = Solved { scene, problem, solution, history, torque: None };
-    let merit = || TorqueCurves::of(problem, *fidelity, solution, control.cancel);
-    match what {
-        OfRun::Data => {
-            let mut summary = Summary::new(problem, solution, *wall_s, &[]);
-            summary.add_torque(merit());
-            let solved = Solved { torque: summary.torque.as_ref(), ..solved };
-            files::solve(&folder(path, BESIDE_DATA), &solved, &summary, control)
-        }
-        OfRun::Figures => {
-            // If torque cannot be computed, the other figures are still worth having.
-            let merit = merit().ok().flatten();
-            let solved = Solved { torque: merit.as_ref(), ..solved };
-            files::solve_figures(&folder(path, Format::WRITTEN), &solved, control)
-        }
-        OfRun::Fields => files::fields(path, &solved),
-        OfRun::Animation => files::animation(path, &solved, &Options::default(), control),
-    }
+fn solved(run: &SolvedScene) -> Solved<'_> {
+    let SolvedScene { scene, problem, solution, history, .. } = run;
+    Solved { scene, problem, solution, history }
+}
+
+fn torque(run: &SolvedScene, control: &Control<'_>) -> Result<Option<TorqueCurves>, MotorError> {
+    TorqueCurves::of(&run.problem, run.fidelity, &run.solution, control.cancel)
 }
 
 /// A folder for what the window writes, with figures in these formats.
@@ -254,10 +218,10 @@ mod tests {
         let posed = posed("floating-disc");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, 0.5);
-        let run = SolvedScene::of(1, posed.scene, &posed.problem, Fidelity::Draft, timed, Vec::new());
-        assert!(made_twice("run", &|| Content::Run(OfRun::Data, Box::new(run.clone()))) > 8);
+        let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
+        assert!(made_twice("run", &|| Content::Run(Box::new(run.clone()))) > 8);
         let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(Arc::new(run.solution)))];
-        assert!(made_twice("report.html", &|| Content::Runs(OfRuns::Report, runs.to_vec())) == 1);
+        assert!(made_twice("report.html", &|| Content::Report(runs.to_vec())) == 1);
     }
 
     #[test]
@@ -269,10 +233,10 @@ mod tests {
         let vary = "plate.amplitude_um=0.1:0.5:3".parse().unwrap();
         let swept = Arc::new(Sweep::new(&scene, &[vary], &draft()).unwrap());
         let rows = swept.run(&[], &cancel, &|_| ());
-        let sweep = |what: OfSweep| Content::Sweep(what, Arc::clone(&swept), rows.clone());
-        assert!(made_twice("sweep", &|| sweep(OfSweep::Data)) > 3);
-        made_twice("sweep.csv", &|| sweep(OfSweep::Table));
-        made_twice("sweep.svg", &|| sweep(OfSweep::Figure(Quantity::LoadRatio)));
+        let swept = || (Arc::clone(&swept), rows.clone());
+        assert!(made_twice("sweep", &|| Content::Sweep(swept().0, swept().1)) > 3);
+        made_twice("sweep.csv", &|| Content::SweepTable(swept().0, swept().1));
+        made_twice("sweep.svg", &|| Content::SweepFigure(swept().0, swept().1, Quantity::LoadRatio));
 
         let key = "plate.amplitude_um";
         let found = Sensitivity::of(&scene, &[key], &draft(), &cancel, &|_: usize| ()).unwrap().unwrap();
@@ -308,9 +272,8 @@ mod tests {
         let candidates = candidates(&problem).into_iter().take(2).collect();
         let effort = Effort { repeats: Some(1), ..Effort::default() };
         let tradeoff = Tradeoff::of(&measure(&problem, candidates, &effort, &|| 0.0, &cancel, &mut |_, _| ()));
-        let content = |what: OfTradeoff| Content::Tradeoff(what, scene.name.clone(), tradeoff.clone());
-        made_twice("tradeoff.csv", &|| content(OfTradeoff::Table));
-        made_twice("tradeoff.svg", &|| content(OfTradeoff::Figure(vec![0])));
+        made_twice("tradeoff.csv", &|| Content::TradeoffTable(tradeoff.clone()));
+        made_twice("tradeoff.svg", &|| Content::TradeoffFigure(scene.name.clone(), tradeoff.clone(), vec![0]));
 
         let (text, success) = ("a".to_owned(), Some(true));
         let [lesson, title, kind, verb, response, time] = [(); 6].map(|()| text.clone());

@@ -1,27 +1,13 @@
 //! The line between a page and a worker: the page sends work, the worker sends messages and the result.
 
-use super::work::Work;
+use super::work::{Sent, Work};
 use crate::platform::worker::{News, Worker};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::io;
 use std::rc::Rc;
 
 /// Idle workers that are kept, because starting one takes longer than most work.
 const SPARE: usize = 2;
-
-/// A message from a worker.
-#[derive(Debug)]
-pub(super) enum Sent<M, R> {
-    Message(M),
-    End(Result<Option<R>, String>),
-    /// The worker has failed, with this text, and has ended.
-    Failed(String),
-}
-
-const MESSAGE: u8 = 0;
-const END: u8 = 1;
 
 type Listener = Box<dyn FnMut(News)>;
 
@@ -60,17 +46,18 @@ impl Line {
         Ok(Self { worker, listener })
     }
 
-    /// Sends `work` to the worker. `told` is called with everything that the worker sends.
+    /// Sends `work` to the worker. `told` is called with everything that the worker sends, or with the text of its failure, after which it
+    /// has ended.
     pub(super) fn ask<W: Work>(
         &self,
         work: &W,
-        mut told: impl FnMut(Sent<W::Message, W::Output>) + 'static,
+        mut told: impl FnMut(Result<Sent<W::Message, W::Output>, String>) + 'static,
     ) -> io::Result<()> {
         *self.listener.borrow_mut() = Some(Box::new(move |news| {
             told(match news {
-                News::Failed(text) => Sent::Failed(text),
+                News::Failed(text) => Err(text),
                 News::Message(bytes) => {
-                    read(&bytes).unwrap_or_else(|| Sent::Failed("what the worker said cannot be read".to_owned()))
+                    postcard::from_bytes(&bytes).map_err(|_| "what the worker said cannot be read".to_owned())
                 }
             });
         }));
@@ -88,22 +75,4 @@ impl Line {
             }
         });
     }
-}
-
-fn read<M: DeserializeOwned, R: DeserializeOwned>(bytes: &[u8]) -> Option<Sent<M, R>> {
-    match bytes.split_first()? {
-        (&MESSAGE, rest) => postcard::from_bytes(rest).ok().map(Sent::Message),
-        (&END, rest) => postcard::from_bytes(rest).ok().map(Sent::End),
-        _ => None,
-    }
-}
-
-/// In a worker: the bytes of a message to the page.
-pub(super) fn message(what: &impl Serialize) -> Option<Vec<u8>> {
-    postcard::to_extend(what, vec![MESSAGE]).ok()
-}
-
-/// In a worker: the bytes of the result of a work.
-pub(super) fn end(what: &impl Serialize) -> Option<Vec<u8>> {
-    postcard::to_extend(what, vec![END]).ok()
 }

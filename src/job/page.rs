@@ -3,8 +3,8 @@
 //! A request that comes while the worker solves waits until that fidelity is solved, because a new worker takes time to start, and has no
 //! fields to start from. If this takes too long, the worker is ended, and a new one is started.
 
-use super::line::{Line, Sent};
-use super::work::{Posed, Work};
+use super::line::Line;
+use super::work::{Posed, Sent, Work};
 use super::{Event, Request, SolvedScene, Timed, failure, solved};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
@@ -163,8 +163,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
         return advance(shared);
     };
     (running.at, running.history) = ((fidelity, now), Vec::new());
-    let Request { scene, problem, budget, .. } = &running.request;
-    let work = Step { posed: Posed { scene: scene.clone(), problem: problem.clone() }, fidelity, budget: *budget };
+    let work = Step { posed: running.request.posed.clone(), fidelity, budget: running.request.budget };
     let theirs = Rc::downgrade(shared);
     let told = move |told| {
         if let Some(shared) = theirs.upgrade() {
@@ -183,29 +182,28 @@ fn step(shared: &Rc<RefCell<Shared>>) {
 }
 
 /// Handles a message of the worker about request `number`.
-fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Sent<Progress, <Step as Work>::Output>) {
+fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Result<Sent<Progress, Timed>, String>) {
     let mut this = shared.borrow_mut();
     let Some(running) = this.running.as_mut().filter(|running| running.number == number) else { return };
     let fidelity = running.at.0;
     let failed = |message| Event::Failed { number, message };
     match told {
-        Sent::Message(progress) => {
+        Ok(Sent::Message(progress)) => {
             running.history.push(progress);
             return this.tell(Event::Progress { number, fidelity, progress });
         }
-        Sent::End(Ok(Some(timed))) => {
+        Ok(Sent::End(Ok(Some(timed)))) => {
             let history = std::mem::take(&mut running.history);
-            let Request { scene, problem, .. } = &running.request;
-            let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
+            let run = SolvedScene::of(number, running.request.posed.clone(), fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
         // A worker is ended when it is cancelled.
-        Sent::End(Ok(None)) => running.left.clear(),
-        Sent::End(Err(message)) => {
+        Ok(Sent::End(Ok(None))) => running.left.clear(),
+        Ok(Sent::End(Err(message))) => {
             running.left.clear();
             this.tell(failed(message));
         }
-        Sent::Failed(panic) => {
+        Err(panic) => {
             running.left.clear();
             this.line = None;
             this.tell(failed(failure(fidelity, &panic)));

@@ -4,7 +4,6 @@ use super::drop::DropWork;
 use super::export::Files;
 use super::face::FaceWork;
 use super::fit::FitWork;
-use super::line::{end, message};
 use super::new_motor::NewMotorWork;
 use super::page::Step;
 use super::pin::PinWork;
@@ -14,7 +13,7 @@ use super::startup::StartupWork;
 use super::sweep::SweepWork;
 use super::torque::TorqueWork;
 use super::tradeoff::TradeoffWork;
-use super::work::Work;
+use super::work::{Sent, Work};
 use crate::control::Cancel;
 use crate::platform::worker::{reply, serve};
 
@@ -54,8 +53,11 @@ const WORKS: &[(&str, Serve)] = &[
 fn run<W: Work>(bytes: &[u8]) {
     match postcard::from_bytes::<W>(bytes) {
         Ok(work) => {
-            let found = work.run(&Cancel::new(), &|told| message(&told).iter().for_each(|bytes| reply(bytes)));
-            end(&found).iter().for_each(|bytes| reply(bytes));
+            let send = |sent: Sent<W::Message, W::Output>| {
+                postcard::to_stdvec(&sent).iter().for_each(|bytes| reply(bytes));
+            };
+            let found = work.run(&Cancel::new(), &|told| send(Sent::Message(told)));
+            send(Sent::End(found));
         }
         // The page receives the text as that of any panic.
         Err(error) => std::panic::panic_any(error.to_string()),

@@ -42,7 +42,7 @@ impl Shared {
 #[derive(Debug)]
 pub struct Solver {
     shared: Arc<Shared>,
-    events: Option<Receiver<Event>>,
+    events: Receiver<Event>,
     worker: Option<JoinHandle<()>>,
     next: u64,
 }
@@ -55,13 +55,12 @@ impl Solver {
         let theirs = Arc::clone(&shared);
         let worker = std::thread::Builder::new().name("squeezefilm-solver".to_owned()).spawn(move || {
             let tell = |event: Event| {
-                let sent = sender.send(event).is_ok();
+                drop(sender.send(event));
                 wake();
-                sent
             };
             work(&theirs, now, &tell);
         })?;
-        Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
+        Ok(Self { shared, events, worker: Some(worker), next: 0 })
     }
 
     /// Solves `request` instead of whatever is running or waiting. Returns its number.
@@ -81,7 +80,7 @@ impl Solver {
 
     /// The events since the last call, in order.
     pub fn drain(&self) -> impl Iterator<Item = Event> {
-        self.events.iter().flat_map(Receiver::try_iter)
+        self.events.try_iter()
     }
 }
 
@@ -93,7 +92,6 @@ impl Drop for Solver {
             slot.clear();
             self.shared.changed.notify_all();
         }
-        self.events = None;
         if let Some(worker) = self.worker.take() {
             // After a panic outside a solve nothing is left to report.
             let _ = worker.join();
@@ -101,7 +99,7 @@ impl Drop for Solver {
     }
 }
 
-fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
+fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event)) {
     // Each solve starts from the last one of its fidelity, because a slider moves in small steps.
     let mut warm = HashMap::new();
     loop {
@@ -121,9 +119,7 @@ fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
         };
         refine(number, &request, &mut warm, &cancel, now, tell);
         shared.lock().running = None;
-        if !tell(Event::Done { number }) {
-            return;
-        }
+        tell(Event::Done { number });
     }
 }
 
@@ -134,7 +130,7 @@ fn refine(
     warm: &mut HashMap<Fidelity, Warm>,
     cancel: &Cancel,
     now: fn() -> Instant,
-    tell: &dyn Fn(Event) -> bool,
+    tell: &dyn Fn(Event),
 ) {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
@@ -142,15 +138,14 @@ fn refine(
         }
         let mut history = Vec::new();
         let warm = warm.entry(fidelity).or_default();
-        let found = solved(&request.problem, (fidelity, request.budget), now, warm, cancel, |progress| {
+        let found = solved(&request.posed.problem, (fidelity, request.budget), now, warm, cancel, |progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
         match found {
             Ok(None) => return,
             Ok(Some(timed)) => {
-                let Request { scene, problem, .. } = request;
-                let run = SolvedScene::of(number, scene.clone(), problem, fidelity, timed, history);
+                let run = SolvedScene::of(number, request.posed.clone(), fidelity, timed, history);
                 tell(Event::Solved(Arc::new(run)));
             }
             Err(message) => {
@@ -164,13 +159,12 @@ fn refine(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{Problem, Scenario};
-    use crate::scene::presets;
+    use crate::job::work::tests::posed;
+    use crate::problem::Scenario;
     use std::time::Duration;
 
     fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
-        let scene = presets::find(preset).unwrap();
-        Request { problem: Problem::try_from(&scene).unwrap(), scene, fidelities: fidelities.to_vec(), budget: None }
+        Request { posed: posed(preset), fidelities: fidelities.to_vec(), budget: None }
     }
 
     fn until_done(solver: &Solver, number: u64) -> Vec<Event> {
@@ -215,7 +209,7 @@ mod tests {
         let mut solver = Solver::start(Instant::now, || ()).unwrap();
         let mut broken = request("fundamental", &[Fidelity::Draft]);
         // A problem that no scene can make: the solver divides by the number of teeth.
-        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
+        if let Scenario::Motor(motor) = &mut broken.posed.problem.scenario {
             motor.teeth = 0;
         }
         let number = solver.submit(broken);

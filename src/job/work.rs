@@ -21,6 +21,14 @@ pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Result<Option<Self::Output>, String>;
 }
 
+/// What comes from where a work is done.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) enum Sent<M, R> {
+    Message(M),
+    /// After it nothing comes.
+    End(Result<Option<R>, String>),
+}
+
 /// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
 pub trait Wake: Fn(bool) + Send + Sync + 'static {}
 
@@ -131,7 +139,7 @@ pub(super) mod tests {
         let posed = posed("fundamental");
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         let timed = (solution, 0.5);
-        let run = SolvedScene::of(1, posed.scene.clone(), &posed.problem, Fidelity::Draft, timed, Vec::new());
+        let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
         both(TorqueWork(Arc::new(run)));
         both(PinWork { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
         let face = tempfile::NamedTempFile::new().unwrap();

@@ -44,9 +44,9 @@ pub struct HoldState {
 }
 
 impl HoldState {
-    /// The `plate` of `scene` in hand, at rest, whose film `job` marches.
-    pub fn new(job: HeldPlate, scene: Scene, plate: Plate) -> Self {
-        let (now, _) = job.take();
+    /// The `plate` of `scene` in hand, at rest, whose film `job` marches; `first`: its first snapshot.
+    pub fn new((job, first): (HeldPlate, Snapshot), scene: Scene, plate: Plate) -> Self {
+        let now = Arc::new(first);
         let trail = VecDeque::from([Arc::clone(&now)]);
         Self {
             job,
@@ -66,10 +66,8 @@ impl HoldState {
 
     /// Takes the snapshots since the last call.
     pub fn drain(&mut self) {
-        let (now, taken) = self.job.take();
-        if now.number == self.now.number {
-            return;
-        }
+        let taken = self.job.take();
+        let Some(now) = taken.back().cloned() else { return };
         if now.failure.is_some() {
             (self.target, self.free) = (self.plate.mean_gap, None);
         }

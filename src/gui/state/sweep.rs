@@ -254,9 +254,8 @@ impl SweepState {
 
     /// The quantity to draw: the chosen one or a default, `among` those that there are.
     pub fn quantity(&self, among: &[Quantity]) -> Quantity {
-        let main = [Quantity::Alpha, Quantity::MeanGap, Quantity::LoadRatio].into_iter();
-        let wanted = self.quantity.into_iter().chain(main);
-        wanted.into_iter().find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
+        let mut wanted = self.quantity.into_iter().chain(Quantity::HEADLINES);
+        wanted.find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
     }
 
     /// Fits the form to `scene` and checks it, if either has changed.

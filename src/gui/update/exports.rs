@@ -1,12 +1,11 @@
 //! Exports: the same code and the same names as those of the command line, in the background.
 
 use super::updater::{REDRAW, Updater};
-use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose, complete};
 use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
-use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff};
+use crate::job::export::{Content, Files};
 use crate::job::work::Posed;
 use crate::startup::Settings;
 use std::path::Path;
@@ -51,61 +50,55 @@ impl Updater {
 
     /// Content of an export, with owned or shared copies of its data; `None` if there is nothing to export.
     fn content(&self, export: Export) -> Option<Content> {
-        let of_run = |what| Some(Content::Run(what, Box::new(self.named()?)));
-        let of_sweep = |what: fn(Quantity) -> OfSweep| {
-            let swept = self.state.sweep.swept.as_ref()?;
-            let quantity = self.state.sweep.quantity(&swept.sweep.quantities());
-            Some(Content::Sweep(what(quantity), Arc::clone(&swept.sweep), swept.rows.to_vec()))
-        };
-        let of_tradeoff = |what| {
-            let measured = self.state.tradeoff.as_ref()?;
-            Some(Content::Tradeoff(what, measured.scene.name.clone(), measured.tradeoff.clone()))
-        };
-        match export {
-            Export::Data => of_run(OfRun::Data),
-            Export::Figures => of_run(OfRun::Figures),
-            Export::Fields => of_run(OfRun::Fields),
-            Export::Animation => of_run(OfRun::Animation),
-            Export::Report => Some(Content::Runs(OfRuns::Report, vec![to_compare(&self.named()?)])),
-            Export::ComparisonReport => Some(Content::Runs(OfRuns::Report, self.state.pins.runs.to_vec())),
-            Export::Comparison => {
-                let all = self.state.pins.all_parameters;
-                Some(Content::Runs(OfRuns::Comparison { all }, self.state.pins.runs.to_vec()))
+        let run = || self.named().map(Box::new);
+        let swept = || self.state.sweep.swept.as_ref();
+        let sweep = || swept().map(|swept| Arc::clone(&swept.sweep));
+        let rows = || swept().map(|swept| swept.rows.to_vec());
+        Some(match export {
+            Export::Data => Content::Run(run()?),
+            Export::Figures => Content::Figures(run()?),
+            Export::Fields => Content::Fields(run()?),
+            Export::Animation => Content::Animation(run()?),
+            Export::Report => Content::Report(vec![to_compare(&self.named()?)]),
+            Export::ComparisonReport => Content::Report(self.state.pins.runs.to_vec()),
+            Export::Comparison => Content::Comparison(self.state.pins.runs.to_vec(), self.state.pins.all_parameters),
+            Export::Sweep => Content::Sweep(sweep()?, rows()?),
+            Export::SweepTable => Content::SweepTable(sweep()?, rows()?),
+            Export::SweepFigure => {
+                let sweep = sweep()?;
+                let quantity = self.state.sweep.quantity(&sweep.quantities());
+                Content::SweepFigure(sweep, rows()?, quantity)
             }
-            Export::Sweep => of_sweep(|_| OfSweep::Data),
-            Export::SweepTable => of_sweep(|_| OfSweep::Table),
-            Export::SweepFigure => of_sweep(OfSweep::Figure),
             Export::Sensitivity => {
                 let state = &self.state.sensitivity;
                 let (found, uncertainties) = (state.found.clone()?, state.uncertainties.clone()?);
-                Some(Content::Sensitivity(found, uncertainties, state.carlo.clone()))
+                Content::Sensitivity(found, uncertainties, state.carlo.clone())
             }
             Export::Fit => {
                 let (scene, found) = self.state.fit.found.as_ref()?;
                 let posed = Posed::try_from(found.scene().clone()).ok()?;
-                Some(Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found)))
+                Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found))
             }
             Export::Startup if self.state.document.scene().floats() => {
                 let dropped = self.state.dropped.as_ref()?;
                 let (posed, ended) = (Posed::try_from(dropped.scene.clone()).ok()?, dropped.ended.clone()?.ok()?);
-                Some(Content::Fall(Box::new(posed), dropped.fidelity, ended, dropped.cycles.clone()))
+                Content::Fall(Box::new(posed), dropped.fidelity, ended, dropped.cycles.clone())
             }
             Export::Startup => {
                 let startup = self.state.startup.as_ref()?;
                 let posed = Posed { scene: startup.scene.clone(), problem: startup.problem.clone() };
                 let settings = Settings { fidelity: startup.fidelity, ..Settings::default() };
                 let ended = Box::new(startup.ended.clone()?.ok()?);
-                Some(Content::Startup(Box::new(posed), settings, ended, startup.cycles.clone()))
+                Content::Startup(Box::new(posed), settings, ended, startup.cycles.clone())
             }
-            Export::Answers => Some(Content::Answers(self.state.lessons.records())),
-            Export::TradeoffTable => of_tradeoff(OfTradeoff::Table),
+            Export::Answers => Content::Answers(self.state.lessons.records()),
+            Export::TradeoffTable => Content::TradeoffTable(self.state.tradeoff.as_ref()?.tradeoff.clone()),
             Export::TradeoffFigure => {
-                let tradeoff = &self.state.tradeoff.as_ref()?.tradeoff;
+                let measured = self.state.tradeoff.as_ref()?;
                 let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
-                of_tradeoff(OfTradeoff::Figure(
-                    targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect(),
-                ))
+                let chosen = targets.into_iter().filter_map(|target| measured.tradeoff.choose(target)).collect();
+                Content::TradeoffFigure(measured.scene.name.clone(), measured.tradeoff.clone(), chosen)
             }
-        }
+        })
     }
 }

@@ -12,7 +12,6 @@ use crate::job::work::{Posed, Work};
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
-use crate::problem::Problem;
 use crate::scene::{Kind, Scene, Value};
 use eframe::egui;
 use std::path::Path;
@@ -87,12 +86,11 @@ impl Updater {
     /// Asks for the present scene at these fidelities, each within the budget.
     pub(super) fn solve(&mut self, fidelities: Vec<Fidelity>, budget: Option<Duration>) {
         let State { document, problem, activity, .. } = &mut self.state;
-        let posed = Problem::try_from(document.scene());
-        *problem = posed.as_ref().ok().cloned();
+        let posed = Posed::try_from(document.scene().clone());
+        *problem = posed.as_ref().ok().map(|posed| posed.problem.clone());
         match posed {
-            Ok(problem) => {
-                let scene = document.scene().clone();
-                activity.number = self.solver.submit(Request { scene, problem, fidelities, budget });
+            Ok(posed) => {
+                activity.number = self.solver.submit(Request { posed, fidelities, budget });
                 activity.failure = None;
             }
             Err(error) => activity.failure = Some(error.to_string()),

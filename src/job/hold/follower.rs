@@ -101,26 +101,19 @@ impl Follower {
         let toward = target.gap - hold.gap();
         let near = toward.abs() <= THERE * hold.gap();
         let gap = if near { target.gap } else { hold.gap() + toward * (1.0 - (-elapsed / HAND).exp()) };
-        let (mut failure, mut mean) = (None, None);
-        if target.reset {
+        let time = elapsed / target.slowed;
+        let moved = caught(|| match target.free {
+            _ if target.reset => Ok(None),
+            Some(vibrates) => hold.fall(time, vibrates).map(Some),
+            None => hold.advance(gap, time).map(|()| None),
+        });
+        let (mean, failure) = match moved {
+            Ok(Ok(mean)) => (mean, None),
+            Ok(Err(error)) => (None, Some(error.to_string())),
+            Err(panic) => (None, Some(format!("the film failed: {panic}"))),
+        };
+        if target.reset || failure.is_some() {
             hold.reset();
-        } else {
-            let time = elapsed / target.slowed;
-            let moved = caught(|| match target.free {
-                Some(vibrates) => hold.fall(time, vibrates).map(Some),
-                None => hold.advance(gap, time).map(|()| None),
-            });
-            failure = match moved {
-                Ok(Ok(read)) => {
-                    mean = read;
-                    None
-                }
-                Ok(Err(error)) => Some(error.to_string()),
-                Err(panic) => Some(format!("the film failed: {panic}")),
-            };
-            if failure.is_some() {
-                hold.reset();
-            }
         }
         self.number += 1;
         let snapshot = self.snapshot(failure);

@@ -22,16 +22,17 @@ impl std::fmt::Debug for HeldPlate {
 }
 
 impl HeldPlate {
-    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` asks for a redraw.
+    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film; with its first snapshot. `wake` asks
+    /// for a redraw.
     pub fn start(
         plate: Plate,
         slowed: f64,
         now: fn() -> Instant,
         wake: impl Fn() + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let target = Target::first(&plate, slowed);
-        let held = RefCell::new((Follower::new(&plate), target));
-        Ok(Self { plate, held, now, wake: Box::new(wake) })
+    ) -> std::io::Result<(Self, Snapshot)> {
+        let (follower, target) = (Follower::new(&plate), Target::first(&plate, slowed));
+        let first = follower.snapshot(None);
+        Ok((Self { plate, held: RefCell::new((follower, target)), now, wake: Box::new(wake) }, first))
     }
 
     pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
@@ -39,24 +40,23 @@ impl HeldPlate {
         (self.wake)();
     }
 
-    /// The newest snapshot, and all since the last call, oldest first.
-    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
+    /// The snapshots since the last call, oldest first.
+    pub fn take(&self) -> VecDeque<Arc<Snapshot>> {
         let (follower, target) = &mut *self.held.borrow_mut();
         if follower.rests(target) {
             follower.last = None;
-            return (Arc::new(follower.snapshot(None)), VecDeque::new());
+            return VecDeque::new();
         }
         (self.wake)();
         let began = (self.now)();
         if follower.last.is_some_and(|last| began.saturating_duration_since(last) < TICK / 2) {
-            return (Arc::new(follower.snapshot(None)), VecDeque::new());
+            return VecDeque::new();
         }
         let snapshot = follower.tick(target, began);
         target.reset = false;
         if snapshot.failure.is_some() {
             (target.gap, target.free) = (follower.hold.gap(), None);
         }
-        let snapshot = Arc::new(snapshot);
-        (Arc::clone(&snapshot), VecDeque::from([snapshot]))
+        VecDeque::from([Arc::new(snapshot)])
     }
 }

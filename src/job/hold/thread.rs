@@ -13,7 +13,7 @@ struct Shared {
     target: Mutex<Target>,
     closed: AtomicBool,
     changed: Condvar,
-    published: Mutex<(Arc<Snapshot>, VecDeque<Arc<Snapshot>>)>,
+    published: Mutex<VecDeque<Arc<Snapshot>>>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -30,26 +30,27 @@ pub struct HeldPlate {
 }
 
 impl HeldPlate {
-    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` is called from the thread after
-    /// each snapshot.
+    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film; with its first snapshot. `wake` is called
+    /// from the thread after each other one.
     pub fn start(
         plate: Plate,
         slowed: f64,
         now: fn() -> Instant,
         wake: impl Fn() + Send + 'static,
-    ) -> std::io::Result<Self> {
+    ) -> std::io::Result<(Self, Snapshot)> {
         let follower = Follower::new(&plate);
+        let first = follower.snapshot(None);
         let target = Target::first(&plate, slowed);
         let shared = Arc::new(Shared {
             target: Mutex::new(target),
             closed: AtomicBool::new(false),
             changed: Condvar::new(),
-            published: Mutex::new((Arc::new(follower.snapshot(None)), VecDeque::new())),
+            published: Mutex::default(),
         });
         let theirs = Arc::clone(&shared);
         let spawn = std::thread::Builder::new().name("squeezefilm-hold".to_owned());
         let worker = spawn.spawn(move || follow(&theirs, follower, now, &wake))?;
-        Ok(Self { plate, shared, worker: Some(worker) })
+        Ok((Self { plate, shared, worker: Some(worker) }, first))
     }
 
     pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
@@ -57,10 +58,9 @@ impl HeldPlate {
         self.shared.changed.notify_all();
     }
 
-    /// The newest snapshot, and all since the last call, oldest first.
-    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
-        let mut published = lock(&self.shared.published);
-        (Arc::clone(&published.0), std::mem::take(&mut published.1))
+    /// The snapshots since the last call, oldest first.
+    pub fn take(&self) -> VecDeque<Arc<Snapshot>> {
+        std::mem::take(&mut lock(&self.shared.published))
     }
 }
 
@@ -103,15 +103,13 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
         }
         {
             let mut published = lock(&shared.published);
-            published.0 = Arc::new(snapshot);
             if target.reset {
-                published.1.clear();
+                published.clear();
             }
-            if published.1.len() == SNAPSHOTS {
-                published.1.pop_front();
+            if published.len() == SNAPSHOTS {
+                published.pop_front();
             }
-            let newest = Arc::clone(&published.0);
-            published.1.push_back(newest);
+            published.push_back(Arc::new(snapshot));
         }
         wake();
         // Until the next tick, or the end.
@@ -127,6 +125,7 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
 mod tests {
     use super::super::follower::slowed;
     use super::*;
+    use crate::hold::Reading;
     use crate::problem::Problem;
     use crate::scene::Scene;
     use std::sync::atomic::AtomicUsize;
@@ -154,20 +153,21 @@ mod tests {
         let wake = move || {
             count.fetch_add(1, Ordering::Relaxed);
         };
-        let held = HeldPlate::start(plate.clone(), slowed(&plate, 0.1), Instant::now, wake).unwrap();
+        let (held, _) = HeldPlate::start(plate.clone(), slowed(&plate, 0.1), Instant::now, wake).unwrap();
         std::thread::sleep(Duration::from_millis(100));
         assert_eq!(woken.load(Ordering::Relaxed), 0, "nothing moves");
         held.move_to(0.6 * plate.mean_gap);
         until("it is there and at rest", || {
-            let (seen, samples) = held.take();
-            assert!(samples.len() <= SNAPSHOTS && seen.failure.is_none());
-            let (gap, force) = (seen.reading.gap, seen.reading.ratio);
-            (gap / plate.mean_gap - 0.6).abs() < 1e-3 && force.abs() < 1e-3
+            let samples = held.take();
+            assert!(samples.len() <= SNAPSHOTS && samples.iter().all(|seen| seen.failure.is_none()));
+            let at_rest =
+                |Reading { gap, ratio, .. }: Reading| (gap / plate.mean_gap - 0.6).abs() < 1e-3 && ratio.abs() < 1e-3;
+            samples.back().is_some_and(|seen| at_rest(seen.reading))
         });
         held.move_to(plate.mean_gap);
-        until("it is pulled", || held.take().0.reading.ratio < -0.05);
+        until("it is pulled", || held.take().iter().any(|seen| seen.reading.ratio < -0.05));
         held.reset();
-        until("it is reset", || held.take().0.reading.time == 0.0);
+        until("it is reset", || held.take().iter().any(|seen| seen.reading.time == 0.0));
         std::thread::sleep(Duration::from_millis(100));
         let before = woken.load(Ordering::Relaxed);
         std::thread::sleep(Duration::from_millis(200));
@@ -177,9 +177,9 @@ mod tests {
     #[test]
     fn it_ends_while_it_moves() {
         let plate = plate();
-        let held = HeldPlate::start(plate.clone(), slowed(&plate, 10.0), Instant::now, || ()).unwrap();
+        let (held, _) = HeldPlate::start(plate.clone(), slowed(&plate, 10.0), Instant::now, || ()).unwrap();
         held.move_to(2.0 * plate.mean_gap);
-        until("it moves", || held.take().0.number > 0);
+        until("it moves", || !held.take().is_empty());
         drop(held);
     }
 }

@@ -1,7 +1,7 @@
 //! Work of a page: in a worker.
 
-use crate::job::line::{Line, Sent};
-use crate::job::work::{News, Wake, Work};
+use crate::job::line::Line;
+use crate::job::work::{News, Sent, Wake, Work};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -22,12 +22,12 @@ impl<M: 'static, R: 'static> BackgroundTask<M, R> {
         let listen = move |news| {
             let mut told = theirs.borrow_mut();
             match news {
-                Sent::Message(message) => told.messages.push(message),
-                Sent::End(found) => {
+                Ok(Sent::Message(message)) => told.messages.push(message),
+                Ok(Sent::End(found)) => {
                     told.end = Some(found);
                     used.borrow_mut().take().into_iter().for_each(Line::give_back);
                 }
-                Sent::Failed(text) => {
+                Err(text) => {
                     told.end = Some(Err(format!("it failed: {text}")));
                     *used.borrow_mut() = None;
                 }

@@ -2,8 +2,8 @@
 
 use crate::analysis::attempt::caught;
 use crate::control::Cancel;
-use crate::job::work::{News, Wake, Work};
-use std::sync::mpsc::{Receiver, TryRecvError, channel, sync_channel};
+use crate::job::work::{News, Sent, Wake, Work};
+use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
 /// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop it is cancelled and joined.
@@ -11,19 +11,12 @@ use std::thread::{Builder, JoinHandle};
 pub struct BackgroundTask<M, R> {
     cancel: Cancel,
     /// `None` only during the drop, so that a thread that waits for its messages to be taken ends too.
-    events: Option<Receiver<Event<M, R>>>,
+    sent: Option<Receiver<Sent<M, R>>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// An item of the channel.
-#[derive(Debug)]
-enum Event<M, R> {
-    Message(M),
-    End(Result<Option<R>, String>),
-}
-
-/// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
-type Line<M, R> = Box<dyn Fn(Event<M, R>) + Send + Sync>;
+/// Sends to the owner. If nobody is left to receive it, the work is cancelled too.
+type Line<M, R> = Box<dyn Fn(Sent<M, R>) + Send + Sync>;
 
 impl<M: Send + 'static, R: Send + 'static> BackgroundTask<M, R> {
     /// Starts to do `work` on a thread of its own; an error is that no thread can be started.
@@ -39,39 +32,37 @@ impl<M: Send + 'static, R: Send + 'static> BackgroundTask<M, R> {
         wake: impl Wake,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> Result<Option<R>, String> + Send + 'static,
     ) -> std::io::Result<Self> {
-        let (send, events): (Line<M, R>, _) = match ahead {
+        let (send, sent): (Line<M, R>, _) = match ahead {
             Some(most) => {
-                let (sender, events) = sync_channel(most);
-                (Box::new(move |event| drop(sender.send(event))), events)
+                let (sender, sent) = sync_channel(most);
+                (Box::new(move |one| drop(sender.send(one))), sent)
             }
             None => {
-                let (sender, events) = channel();
-                (Box::new(move |event| drop(sender.send(event))), events)
+                let (sender, sent) = channel();
+                (Box::new(move |one| drop(sender.send(one))), sent)
             }
         };
         let cancel = Cancel::new();
         let theirs = cancel.clone();
         let thread = Builder::new().name(format!("squeezefilm-{name}")).spawn(move || {
             let tell = |message: M| {
-                send(Event::Message(message));
+                send(Sent::Message(message));
                 wake(false);
             };
             let end = caught(|| work(&theirs, &tell));
-            send(Event::End(end.unwrap_or_else(|panic| Err(format!("it failed: {panic}")))));
+            send(Sent::End(end.unwrap_or_else(|panic| Err(format!("it failed: {panic}")))));
             wake(true);
         })?;
-        Ok(Self { cancel, events: Some(events), thread: Some(thread) })
+        Ok(Self { cancel, sent: Some(sent), thread: Some(thread) })
     }
 
     /// Messages and result since the last call.
     pub fn drain(&self) -> News<M, R> {
         let mut news = News { messages: Vec::new(), end: None };
-        while let (Some(events), None) = (&self.events, &news.end) {
-            match events.try_recv() {
-                Ok(Event::Message(message)) => news.messages.push(message),
-                Ok(Event::End(end)) => news.end = Some(end),
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => news.end = Some(Err("its end was taken already".to_owned())),
+        for sent in self.sent.iter().flat_map(Receiver::try_iter) {
+            match sent {
+                Sent::Message(message) => news.messages.push(message),
+                Sent::End(end) => news.end = Some(end),
             }
         }
         news
@@ -88,7 +79,7 @@ impl<M, R> BackgroundTask<M, R> {
 impl<M, R> Drop for BackgroundTask<M, R> {
     fn drop(&mut self) {
         self.cancel.cancel();
-        self.events = None;
+        self.sent = None;
         if let Some(thread) = self.thread.take() {
             // A panic of the work was caught in the thread. After any other panic nothing is left to report.
             let _ = thread.join();

@@ -307,7 +307,7 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
     grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
         heads(ui, [beside; 2], cx);
         for row in &cx.state.pins.results {
-            let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
+            let main = Quantity::HEADLINES.contains(&row.quantity);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
             glossary::term(ui, strong(capitalised(&row.label())), row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
