@@ -47,7 +47,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let linked = arguments.preset.as_deref().filter(|preset| Link::is_link(preset));
-    let link = linked.map(Link::read).transpose().map_err(|fault| CliError::Input(fault.to_string()))?;
+    let link = linked.map(Link::read).transpose().map_err(CliError::Input)?;
     let opened = match &arguments.preset {
         Some(_) if link.is_some() && !arguments.scene.changes.is_empty() => {
             return Err(CliError::usage("a link says itself what is changed: leave --set away"));
