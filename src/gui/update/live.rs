@@ -115,13 +115,9 @@ impl Updater {
     }
 
     pub(super) fn start_up(&mut self, command: StartupCommand) {
-        let State { startup, dropped, view, .. } = &mut self.state;
+        let State { startup, view, .. } = &mut self.state;
         match (command, startup) {
             (StartupCommand::Start, _) => self.start_from_rest(),
-            (StartupCommand::Cancel, startup) => {
-                dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
-                startup.iter_mut().for_each(|startup| startup.work.cancel());
-            }
             (StartupCommand::Choose(number), Some(startup)) => startup.stay_at(number),
             (StartupCommand::Follow(follow), Some(startup)) => startup.follow(follow),
             (StartupCommand::Replay, Some(startup)) => {
