@@ -469,7 +469,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     assert!(progress.contains("prediction") && app.state().lessons.progress_text() == progress);
     let mut other = LessonState::new();
     assert!(other.restore("nonsense").is_err() && other.progress_text() == "{}");
-    assert!(app.state().lessons.running.is_none());
+    assert!(app.state().lessons.running.is_none() && app.state().document.is_dirty());
     assert_eq!(app.state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
     window.click_on("Lessons");
     window.get_by_label_contains("at step 3 of 6");
@@ -1184,9 +1184,10 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     solved(&mut window);
     window.type_into("Frequency in kHz", "0.5");
     let lent = window.known().document.scene().clone();
-    for path in [bad.clone(), folder.path().join("absent.toml")] {
-        drop_file(&mut window, &path);
+    for (path, why) in [(&bad, "film.min_spacing_nm = 3"), (&folder.path().join("absent.toml"), "absent.toml")] {
+        drop_file(&mut window, path);
         window.get_by_label("This did not work");
+        window.get_by_label_contains(why);
         window.click_on("Close");
         assert_eq!(step(&window).0, 1);
         assert_eq!(window.known().document.scene(), &lent);
