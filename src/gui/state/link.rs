@@ -4,6 +4,7 @@
 //! The keys are those of `--set`, and so are their values, but for `%`, `&`, `#` and what an address cannot hold, which are written as
 //! `%` and two digits. A link names no file.
 
+use super::document::Document;
 use super::view::Tab;
 use crate::scene::Scene;
 use crate::scene::presets::BUILT_IN;
@@ -15,10 +16,8 @@ use std::fmt::Write as _;
 pub enum Link {
     /// A scene.
     Scene {
-        /// The built-in preset.
-        preset: &'static str,
-        /// The preset with the changes applied.
-        scene: Box<Scene>,
+        /// A built-in preset, or a scene that nothing else has: the preset with the changes applied.
+        document: Box<Document>,
         /// The tab to show; `None` keeps the present one.
         tab: Option<Tab>,
     },
@@ -79,7 +78,8 @@ impl Link {
         let original = preset.scene().map_err(|error| error.to_string())?;
         let mut scene = original.with(&pairs).map_err(|error| error.to_string())?;
         scene.retitle(&original);
-        Ok(Self::Scene { preset: preset.name, scene: Box::new(scene), tab })
+        let document = if scene == original { Document::opened(scene, None) } else { Document::made(scene) };
+        Ok(Self::Scene { document: Box::new(document), tab })
     }
 
     /// A link to `scene`, based on the built-in preset that it differs from in the fewest keys.
@@ -130,17 +130,17 @@ const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_'
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> (&'static str, Scene, Option<Tab>) {
+    fn read(text: &str) -> (Scene, Option<Tab>) {
         match Link::read(text).unwrap() {
-            Link::Scene { preset, scene, tab } => (preset, *scene, tab),
+            Link::Scene { document, tab } => (document.scene().clone(), tab),
             lesson => panic!("{lesson:?}"),
         }
     }
 
     #[test]
     fn a_link_is_a_preset_its_changes_and_a_tab() {
-        let (preset, scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=150&tab=torque");
-        assert_eq!((preset, tab), ("fundamental", Some(Tab::Torque)));
+        let (scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=150&tab=torque");
+        assert_eq!(tab, Some(Tab::Torque));
         let mut expected = crate::scene::presets::find("fundamental").unwrap();
         expected.set("film.min_spacing_nm", "150").unwrap();
         assert!(scene.same_model(&expected));
@@ -154,7 +154,7 @@ mod tests {
         for preset in BUILT_IN {
             let original = preset.scene().unwrap();
             let link = Link::to(&original, Tab::Motion);
-            let (_, scene, tab) = read(&link);
+            let (scene, tab) = read(&link);
             assert!(scene.same_model(&original) && tab.is_none(), "{link}");
             for (key, value) in [
                 ("film.gas", "helium"),
@@ -172,7 +172,7 @@ mod tests {
                     continue;
                 }
                 let link = Link::to(&changed, Tab::Sweep);
-                let (_, scene, tab) = read(&link);
+                let (scene, tab) = read(&link);
                 assert!(scene.same_model(&changed) && scene.numerics() == changed.numerics(), "{link}");
                 assert_eq!(tab, Some(Tab::Sweep));
             }
