@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
             // What --set changed is not in the file.
             let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;
-            Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset))))
+            Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset)), false))
         }
         None if !arguments.scene.changes.is_empty() => {
             return Err(CliError::usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));
