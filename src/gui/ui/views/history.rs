@@ -2,10 +2,10 @@
 
 use super::inset::{Inset, chosen};
 use crate::analysis::quantity::{Numbers, Quantity};
+use crate::digits::raised;
 use crate::estimate::Estimate;
 use crate::export::startup::CycleRow;
 use crate::gui::command::StartupCommand;
-use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
