@@ -4,6 +4,7 @@ use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
 use crate::citation;
 use crate::gui::command::Command;
+use crate::gui::state::activity::Running;
 use crate::gui::state::background::Background;
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::gui::state::document::{Document, Next};
@@ -137,7 +138,7 @@ impl Updater {
         for event in self.solver.drain() {
             match event {
                 Event::Progress { number, fidelity, progress } if number == state.activity.number => {
-                    state.activity.advance(fidelity, &progress);
+                    state.activity.running = Some(Running { fidelity, round: progress });
                 }
                 // A result of an edit that is already history is still newer than what is shown.
                 Event::Solved(run) if state.run.as_ref().is_none_or(|shown| run.number >= shown.number) => {
