@@ -372,7 +372,7 @@ impl LessonState {
 
     /// Whether the step on screen belongs to `tab`.
     pub fn is_about(&self, tab: Tab) -> bool {
-        self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(self::tab) == Some(tab))
+        self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(Tab::named) == Some(tab))
     }
 
     /// Ends the lesson; whether there was one.
@@ -414,13 +414,7 @@ impl LessonState {
 
 /// The tab that a step shows: its own or, if it has none, that of the last step before it that has one.
 fn tab_at(lesson: &Lesson, step: usize) -> Option<Tab> {
-    lesson.steps.iter().take(step + 1).rev().find_map(|step| tab(step.tab.as_deref()?))
-}
-
-/// The tab of a name in a lesson.
-fn tab(name: &str) -> Option<Tab> {
-    let named = |tab: Tab| [true, false].iter().any(|plate| tab.label(*plate).eq_ignore_ascii_case(name));
-    Tab::ALL.iter().map(|(tab, _)| *tab).find(|tab| named(*tab))
+    lesson.steps.iter().take(step + 1).rev().find_map(|step| Tab::named(step.tab.as_deref()?))
 }
 
 /// Calls `read` with what lessons may name in the window.

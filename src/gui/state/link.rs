@@ -65,12 +65,10 @@ impl Link {
             let (key, value) =
                 part.split_once('=').ok_or_else(|| format!("{part:?} in a link: allowed is key=value"))?;
             if key == "tab" {
-                let named = Tab::ALL.iter().find(|(_, name)| name.to_lowercase() == value);
-                let (named, _) = named.ok_or_else(|| {
+                tab = Some(Tab::named(value).ok_or_else(|| {
                     let tabs = Tab::ALL.iter().map(|(_, name)| name.to_lowercase()).collect::<Vec<_>>().join(", ");
                     format!("tab={value} in a link: allowed is {tabs}")
-                })?;
-                tab = Some(*named);
+                })?);
             } else {
                 pairs.push((key.to_owned(), value.to_owned()));
             }
