@@ -7,6 +7,7 @@ use super::lesson_tabs::{OffTabs, OnScreen};
 use super::running_lesson::{REVEALED, RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
+use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::lessons::check::Reading;
@@ -271,7 +272,7 @@ impl LessonState {
             before: (view.tab, view.parameters, view.results),
             start: StartingPoint::of(scene),
             kept: None,
-            newest: None,
+            newest: Numbers::default(),
             tabs: OffTabs::default(),
             reveal: 0,
             enter: false,
