@@ -356,13 +356,8 @@ impl LessonState {
             work.shown |= !work.fulfilled;
         }
         let Some(task) = self.step().and_then(|(_, step)| step.task.as_ref()) else { return false };
-        let mut next = document.scene().clone();
-        let changes = &task.example.changes;
-        let pairs = changes.iter().map(|(key, value)| (key.as_str(), value.as_str()));
-        if changes.is_empty() || next.set_all(pairs).is_err() {
-            return false;
-        }
-        document.change(next, document.target())
+        let next = document.scene().with(&task.example.changes);
+        next.is_ok_and(|next| document.change(next, document.target()))
     }
 
     /// Actions beyond changes of keys in the example solution of the step's task.

@@ -94,7 +94,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     if let Some(Ok(ended)) = &startup.ended {
         cx.warn(ui, &ended.warnings);
     }
-    let (name, stale) = (startup.scene.headline(), startup.stale(cx.state.document.scene()));
+    let (name, stale) = (startup.posed.scene.headline(), startup.stale(cx.state.document.scene()));
     cx.alarm(ui, stale.then(|| format!("Of “{name}” before the scene changed; start again")));
     if let Some(row) = startup.points.get(startup.chosen.wrapping_sub(1)) {
         let text = format!("Shown is {}", views::history::words(row));
