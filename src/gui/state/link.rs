@@ -87,20 +87,12 @@ impl Link {
         let nearest = alike.min_by_key(|(_, original)| (scene.changed(original).count(), original.name != scene.name));
         let Some((name, original)) = nearest else { return "#".to_owned() };
         let mut text = format!("#{name}");
-        // A key that the scene has not, but the preset has, follows from others or is taken away.
-        let gone = original.parameters().filter(|parameter| {
-            parameter.absent.is_some()
-                && scene.has(parameter)
-                && scene.get(parameter.key).is_none()
-                && original.get(parameter.key).is_some()
-        });
-        for parameter in scene.changed(&original).filter(|parameter| scene.get(parameter.key).is_some()) {
-            if let Some(value) = scene.given_text(parameter) {
+        for parameter in scene.changed(&original) {
+            // A key that the scene has not follows from others or is taken away.
+            let none = || parameter.absent.map(|_| "none".to_owned());
+            if let Some(value) = scene.given_text(parameter).or_else(none) {
                 let _ = write!(text, "&{}={}", parameter.key, utf8_percent_encode(&value, CODED));
             }
-        }
-        for parameter in gone {
-            let _ = write!(text, "&{}=none", parameter.key);
         }
         if tab != Tab::default() {
             let _ = write!(text, "&tab={}", tab.label(false).to_lowercase());
