@@ -45,26 +45,8 @@ pub const PLACES: &[&str] = &[
     "lessons",
 ];
 
-/// Highlights of the present frame.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Highlights {
-    /// Parts of the window, and keys of parameters.
-    names: Vec<String>,
-    /// Whether highlighted parameters are scrolled to, and their group opened.
-    pub reveal: bool,
-    /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
-    pub enter: Option<String>,
-}
-
 /// The field for the number that a question asks for.
 pub const NUMBER: &str = "your number";
-
-impl Highlights {
-    /// Whether `name` is highlighted.
-    pub fn has(&self, name: &str) -> bool {
-        self.names.iter().any(|other| other == name)
-    }
-}
 
 /// Lessons, tour and glossary.
 #[derive(Debug, Default)]
@@ -82,8 +64,10 @@ pub struct LessonState {
     pub tour: Option<usize>,
     /// Search text of the glossary; `None` while it is closed.
     pub glossary: Option<String>,
-    /// Highlights of the present frame.
-    pub highlights: Highlights,
+    /// Whether highlighted parameters are scrolled to in this frame, and their group opened.
+    pub reveal: bool,
+    /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
+    pub enter: Option<String>,
 }
 
 impl LessonState {
@@ -380,31 +364,36 @@ impl LessonState {
         true
     }
 
-    /// Checks the present step against what is on screen, and sets the highlights. Returns whether another frame is needed soon: scrolling to
+    /// Whether the parameter or the part of the window of this name is highlighted: by the step on screen or, without a lesson, by the tour.
+    pub fn lights(&self, name: &str) -> bool {
+        let stop = self.tour.and_then(|stop| STOPS.get(stop)).filter(|_| self.running.is_none());
+        self.lit().chain(stop.map(|stop| stop.place)).any(|lit| lit == name)
+    }
+
+    /// What the step on screen highlights: keys of parameters, then parts of the window.
+    fn lit(&self) -> impl Iterator<Item = &str> {
+        let (light, look) = self.step().map_or((&[][..], &[][..]), |(_, step)| (&step.light[..], &step.look[..]));
+        light.iter().map(|parameter| parameter.key).chain(look.iter().map(String::as_str))
+    }
+
+    /// Checks the present step against what is on screen. Returns whether another frame is needed soon: scrolling to
     /// a parameter takes some frames.
     pub fn observe(&mut self, document: &Document, seen: OnScreen<'_>) -> bool {
-        self.highlights = Highlights::default();
         let asks = self.stage() == Some(Stage::Question);
-        if let Some((_, step)) = self.step() {
-            let keys = step.light.iter().map(|parameter| parameter.key.to_owned());
-            self.highlights.names = keys.chain(step.look.iter().cloned()).collect();
-        }
-        let Some(running) = &mut self.running else {
-            let stop = self.tour.and_then(|stop| STOPS.get(stop));
-            self.highlights.names.extend(stop.map(|stop| stop.place.to_owned()));
-            return false;
-        };
-        self.highlights.reveal = running.reveal > 0;
+        let marked = if asks { Some(NUMBER) } else { self.lit().next() };
+        let marked = marked.map(str::to_owned);
+        (self.reveal, self.enter) = (false, None);
+        let Some(running) = &mut self.running else { return false };
+        self.reveal = running.reveal > 0;
         running.reveal = running.reveal.saturating_sub(1);
         // Once its group has opened.
-        let enter = running.reveal == 0 && std::mem::take(&mut running.enter);
-        if enter {
-            self.highlights.enter = if asks { Some(NUMBER.to_owned()) } else { self.highlights.names.first().cloned() };
+        if running.reveal == 0 && std::mem::take(&mut running.enter) {
+            self.enter = marked;
         }
         if let Some(lesson) = self.lessons.get(running.lesson) {
             running.judge(lesson, document, seen);
         }
-        self.highlights.reveal || self.highlights.enter.is_some()
+        self.reveal || self.enter.is_some()
     }
 }
 
