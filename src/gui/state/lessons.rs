@@ -13,6 +13,7 @@ use crate::job::SolvedScene;
 use crate::lessons::check::Reading;
 use crate::lessons::live::Live;
 use crate::lessons::record::{self, Record};
+use crate::lessons::text::readings;
 use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Answer, Lesson, LessonError, Step, WindowNames};
 use crate::platform::Instant;
@@ -177,14 +178,19 @@ impl LessonState {
 
     /// A number quoted in a text, from the run of `scene` or, if `told` after a task, from the run that fulfilled it; "…" if unknown.
     pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
-        let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
-        value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
+        let value = |running: &RunningLesson| {
+            running.kept(reading).filter(|_| told).or_else(|| running.present(reading, scene))
+        };
+        self.running.as_ref().and_then(value).map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
     /// Whether the quoted numbers are from another run than that of `scene`.
     pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
-        let step = self.step().map(|(_, step)| step);
-        self.running.as_ref().zip(step).is_some_and(|(running, step)| running.tells_of_another(step, scene))
+        let (Some(running), Some((_, step))) = (&self.running, self.step()) else { return false };
+        readings(step.told()).any(|reading| {
+            let (kept, present) = (running.kept(reading), running.present(reading, scene));
+            kept.zip(present).is_some_and(|(kept, present)| reading.text(kept) != reading.text(present))
+        })
     }
 
     /// The step on screen, and the student's work on it.

@@ -6,11 +6,11 @@ use super::view::Tab;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
+use crate::lessons::Lesson;
 use crate::lessons::check::{Ran, Reading};
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::text::readings;
 use crate::lessons::work::{Stage, StepWork};
-use crate::lessons::{Lesson, Step};
 use crate::platform::Instant;
 use crate::scene::Scene;
 use crate::solution::Status;
@@ -72,19 +72,13 @@ impl RunningLesson {
         (self.enter, self.reveal) = (true, REVEALED);
     }
 
-    /// Value of a quoted number, from the run of `scene` or, if `told` after a task, from the run that fulfilled it.
-    pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
-        let kept = self.kept(reading).filter(|_| told);
-        kept.or_else(|| self.present(reading, scene))
-    }
-
     /// The value in the run that fulfilled the task.
-    fn kept(&self, reading: &Reading) -> Option<f64> {
+    pub(super) fn kept(&self, reading: &Reading) -> Option<f64> {
         self.work.get(self.step)?.readings.get(&reading.source).copied()
     }
 
     /// The value in the run of `scene`.
-    fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
+    pub(super) fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
         let [now, start] = self.ran(scene);
         reading.value(now, start)
     }
@@ -94,15 +88,6 @@ impl RunningLesson {
         let Self { start, newest, tabs, .. } = self;
         let now = Ran { scene, numbers: newest, live: &tabs.now };
         [now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start }]
-    }
-
-    /// Whether the run of `scene` has other numbers than what is told of the one that did the task of `step`.
-    pub(super) fn tells_of_another(&self, step: &Step, scene: &Scene) -> bool {
-        let other = |reading: &Reading| {
-            let (kept, present) = (self.kept(reading)?, self.present(reading, scene)?);
-            Some(reading.text(kept) != reading.text(present))
-        };
-        readings(step.told()).any(|reading| other(reading) == Some(true))
     }
 
     /// Checks the present step against the run on screen: its starting point, and whether its task is fulfilled.
