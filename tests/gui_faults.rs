@@ -18,7 +18,7 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use window::{Memory, User, Window, begin_export, drop_file, open, reopen, reopen_on, until};
+use window::{Memory, User, Window, begin_export, drop_file, has_torque, open, reopen, reopen_on, solved, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
@@ -29,9 +29,9 @@ fn window(ask: fn(Purpose, &DialogStart) -> Answer, (scene, path): (Scene, Optio
     open(Document::opened(scene, path), 900.0, platform)
 }
 
-/// A window on a plate, which is solved at once, whose file dialogs are cancelled.
-fn plate() -> Window {
-    window(|_, _| Answer::Cancelled, (presets::find("plate-crossover").unwrap(), None))
+/// A window on a built-in preset, whose file dialogs are cancelled.
+fn preset(name: &str) -> Window {
+    window(|_, _| Answer::Cancelled, (presets::find(name).unwrap(), None))
 }
 
 fn value(app: &App, key: &str) -> Value {
@@ -83,7 +83,7 @@ fn a_file_that_another_program_has_changed_is_not_replaced_unasked() {
 #[test]
 fn what_is_being_typed_is_asked_about_before_the_window_closes() {
     for by_key in [true, false] {
-        let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
+        let mut window = preset("fundamental");
         window.type_over(Role::TextInput, FIELD, "120");
         if by_key {
             window.ctrl(Key::Q);
@@ -107,7 +107,7 @@ fn close(window: &mut Window) {
 
 #[test]
 fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
-    let mut window = plate();
+    let mut window = preset("plate-crossover");
     let key = "plate.frequency_khz";
     window.type_into("Frequency in kHz", "12");
     assert_eq!(value(window.state(), key), Value::Number(12.0));
@@ -137,11 +137,10 @@ fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
 
 #[test]
 fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
-    let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
-    let torque = |app: &App| app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run));
-    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    let mut window = preset("fundamental");
+    solved(&mut window);
     window.ctrl(Key::Num4);
-    until(&mut window, "torque over speed", torque);
+    until(&mut window, "torque over speed", has_torque);
     window.get_by_label_contains("✔ Converged");
     assert!(window.query_by_label_contains("Of the scene before this edit").is_none());
     // A scene that no memory holds is refused at once: what is shown is of the one before.
@@ -229,7 +228,7 @@ fn a_path_is_kept_in_full() {
 fn a_file_holds_what_its_name_says() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(|_, _| Answer::NoDialog, (presets::find("plate-crossover").unwrap(), None));
-    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    solved(&mut window);
     // Another kind of file is refused, and nothing is written.
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
     window.get_by_label_contains("allowed .npz");
@@ -252,8 +251,8 @@ fn a_file_holds_what_its_name_says() {
 
 #[test]
 fn quitting_asks_about_work_that_goes_on() {
-    let mut window = plate();
-    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    let mut window = preset("plate-crossover");
+    solved(&mut window);
     window.ctrl(Key::Num3);
     window.type_over(Role::TextInput, "Values along x", "2000");
     window.step();
@@ -271,11 +270,10 @@ fn quitting_asks_about_work_that_goes_on() {
 
 #[test]
 fn pins_that_were_removed_together_come_back() {
-    let mut window = plate();
-    let waits = |app: &App| app.state().activity.running.is_some() || app.state().awaits_result();
+    let mut window = preset("plate-crossover");
     for frequency in ["12", "13"] {
         window.type_into("Frequency in kHz", frequency);
-        until(&mut window, "solved", |app| !waits(app));
+        solved(&mut window);
         window.ctrl(Key::D);
     }
     window.ctrl(Key::Num2);
@@ -299,7 +297,7 @@ fn changes_that_the_last_window_left_unsaved_are_asked_for_before_another_scene_
     let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
     let mut window = reopen_on(Memory(left.into()), Some(opened.clone()), 900.0, platform);
     window.run_steps(2);
-    let name = |window: &Window| window.state().state().document.scene().name.clone();
+    let name = |window: &Window| window.known().document.scene().name.clone();
     assert_eq!(name(&window), edited.name);
     window.get_by_label_contains("Save the changes");
     window.click_on("Don't save");
@@ -377,7 +375,7 @@ fn a_file_that_is_dropped_waits_for_the_text_and_does_not_answer_a_question() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("other.toml");
     presets::find("levitating").unwrap().save(&path).unwrap();
-    let mut window = plate();
+    let mut window = preset("plate-crossover");
     window.type_over(Role::TextInput, "Mean gap in µm", "1.25");
     drop_file(&mut window, &path);
     window.get_by_label_contains("Save the changes");
@@ -386,5 +384,5 @@ fn a_file_that_is_dropped_waits_for_the_text_and_does_not_answer_a_question() {
     drop_file(&mut window, folder.path().join("none.toml"));
     window.get_by_label_contains("Save the changes");
     window.click_on("Don't save");
-    assert!(window.state().state().document.scene().name.starts_with("Levitating"));
+    assert!(window.known().document.scene().name.starts_with("Levitating"));
 }

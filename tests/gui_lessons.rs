@@ -13,15 +13,17 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::command::{Command, LessonCommand};
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
-use squeezefilm::gui::state::lessons::LessonState;
+use squeezefilm::gui::state::lessons::{LessonState, PLACES, window_names};
 use squeezefilm::gui::state::link::Link;
+use squeezefilm::gui::state::running_lesson::RunningLesson;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::state::window::State;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::job::SolvedScene;
 use squeezefilm::lessons::live::Live;
 use squeezefilm::lessons::work::{Score, Stage, StepWork};
-use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
+use squeezefilm::lessons::{self, Act, Doing, Kind, Lesson, LessonError, Prediction, Question, Step, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -62,13 +64,20 @@ fn open(window: &mut Window, title: &str) {
 }
 
 fn step(window: &Window) -> (usize, Step) {
-    let teaching = &window.known().lessons;
-    (teaching.running.as_ref().unwrap().step, teaching.step().unwrap().1.clone())
+    let state = window.known();
+    (running(state).step, state.lessons.step().unwrap().1.clone())
+}
+
+fn running(state: &State) -> &RunningLesson {
+    state.lessons.running.as_ref().unwrap()
 }
 
 fn work(window: &Window) -> StepWork {
-    let running = window.known().lessons.running.as_ref().unwrap();
-    running.work[running.step].clone()
+    work_in(window.known()).clone()
+}
+
+fn work_in(state: &State) -> &StepWork {
+    &running(state).work[running(state).step]
 }
 
 /// Changes a parameter as a student does: types a number, or chooses a name.
@@ -306,10 +315,7 @@ fn walk(lesson: usize) {
             // What does it, by hand; gas needs time to leave.
             act(&mut window, &task.example);
             if !task.example.acts.is_empty() {
-                until(&mut window, name, |app| {
-                    let running = app.state().lessons.running.as_ref().unwrap();
-                    running.work[running.step].fulfilled
-                });
+                until(&mut window, name, |app| work_in(app.state()).fulfilled);
             }
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
             assert!(window.shows("✔ Done"), "{name}");
@@ -332,7 +338,7 @@ fn walk(lesson: usize) {
     }
     // The recap: everything was right but the first looks.
     let lesson_state = &window.known().lessons;
-    let (running, followed) = (lesson_state.running.as_ref().unwrap(), &lesson_state.lessons[lesson]);
+    let (running, followed) = (running(window.known()), &lesson_state.lessons[lesson]);
     assert_eq!(running.step, steps);
     let score = Score::of(followed.steps.iter().zip(&running.work));
     assert_eq!((score.observations[0], score.skipped[0]), (0, 0));
@@ -368,15 +374,19 @@ walks![
     accelerometers_to_their_end: 9,
 ];
 
+/// The lessons in a folder, and what is wrong with others.
+fn load(folder: &Path) -> (Vec<Lesson>, Vec<LessonError>) {
+    window_names(|known| lessons::load(folder, known))
+}
+
 #[test]
 fn every_built_in_lesson_is_read_listed_and_walked() {
-    let places = squeezefilm::gui::state::lessons::PLACES;
-    let (read, faults) = lessons::built_in(WindowNames { tabs: TABS, places });
+    let (read, faults) = window_names(lessons::built_in);
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!((read.len(), WALKED), (lessons::BUILT_IN.len(), lessons::BUILT_IN.len()));
     assert!(read.len() >= 10);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
-    let (from_disk, faults) = lessons::load(&folder, WindowNames { tabs: TABS, places });
+    let (from_disk, faults) = load(&folder);
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!(from_disk, read, "built in are all that are there, in the order of their names");
     for lesson in &read {
@@ -469,7 +479,7 @@ fn progress_and_the_own_scene_survive_a_restart() {
     assert!(progress.contains("prediction") && app.state().lessons.progress_text() == progress);
     let mut other = LessonState::new();
     assert!(other.restore("nonsense").is_err() && other.progress_text() == "{}");
-    assert!(app.state().lessons.running.is_none());
+    assert!(app.state().lessons.running.is_none() && app.state().document.is_dirty());
     assert_eq!(app.state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
     window.click_on("Lessons");
     window.get_by_label_contains("at step 3 of 6");
@@ -505,7 +515,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
         }
     }
     assert!(window.known().lessons.tour.is_none());
-    assert_eq!((window.known().lessons.running.as_ref().unwrap().lesson, step(&window).0), (0, 0));
+    assert_eq!((running(window.known()).lesson, step(&window).0), (0, 0));
     window.click_on("Leave");
     let mut window = restarted(window);
     window.run_steps(3);
@@ -582,8 +592,7 @@ fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
     let (_, first) = step(&window);
     predict(&mut window, &first);
     window.click_on("Skip");
-    let lessons_state = &window.known().lessons;
-    assert!(lessons_state.running.as_ref().unwrap().work[0].is_skipped(&first));
+    assert!(running(window.known()).work[0].is_skipped(&first));
     go_on(&mut window, 5);
     assert!(window.shows("What you found") && window.shows("4 steps were skipped"));
     assert!(window.shows("1 of 10 points"));
@@ -600,7 +609,7 @@ fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
     // The next lesson is what is lit at the end.
     go_on(&mut window, 6);
     window.press(Key::Enter);
-    assert_eq!(window.known().lessons.running.as_ref().unwrap().lesson, 1);
+    assert_eq!(running(window.known()).lesson, 1);
 }
 
 /// Milliseconds that the clock of a test has been put forward.
@@ -688,7 +697,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
             until(&mut window, &step.title, |app| {
                 // A held plate moves with the clock.
                 SKIPPED.fetch_add(20, Relaxed);
-                app.state().lessons.running.as_ref().unwrap().work[number].fulfilled
+                running(app.state()).work[number].fulfilled
             });
             let Some(lessons::Answer::Choice { right, .. }) = step.observe.as_ref().map(|observe| &observe.answer)
             else {
@@ -697,15 +706,14 @@ fn the_keyboard_alone_walks_the_first_lesson() {
             window.press(keys[*right]);
             // Whoever presses Enter after every answer reads what is told all the same.
             window.press(Key::Enter);
-            assert_eq!(window.known().lessons.running.as_ref().unwrap().step, number, "{}", step.title);
+            assert_eq!(running(window.known()).step, number, "{}", step.title);
             SKIPPED.fetch_add(1000, Relaxed);
         }
         assert_eq!(stage(&window), Stage::Told, "{}", step.title);
         window.press(Key::Enter);
         window.run_steps(5);
     }
-    let running = window.known().lessons.running.as_ref().unwrap();
-    assert_eq!(running.step, window.known().lessons.lessons[0].steps.len());
+    assert_eq!(running(window.known()).step, window.known().lessons.lessons[0].steps.len());
 }
 
 #[test]
@@ -861,8 +869,7 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
         assert!(missing.is_empty(), "{preset}: {missing:?}");
     }
     // The numbers beside a lesson's text too.
-    let places = squeezefilm::gui::state::lessons::PLACES;
-    for lesson in lessons::built_in(WindowNames { tabs: TABS, places }).0 {
+    for lesson in window_names(lessons::built_in).0 {
         for name in lesson.steps.iter().flat_map(|step| &step.show) {
             assert!(lessons::glossary::find(&name.words()).is_some(), "{}", name.words());
         }
@@ -875,12 +882,6 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     window.run_steps(30);
     assert!(window.shows(meaning));
 }
-
-/// Names of the tabs of a motor, and of a plate.
-const TABS: [&[&str]; 2] = [
-    &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up", "Rotor"],
-    &["Motion", "Compare", "Sweep", "Exact", "Trade-off", "Start-up", "Hold"],
-];
 
 const GOOD: &str = include_str!("lessons/good.md");
 
@@ -980,7 +981,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
     assert_eq!((self::step(&window).0, window.known().view.tab), (1, Tab::Motion));
     until(&mut window, "the run that did the task", |app| amplitude(app) == Some(Value::Number(0.5)));
     solved(&mut window);
-    let start = &window.known().lessons.running.as_ref().unwrap().start;
+    let start = &running(window.known()).start;
     assert!(start.scene == step.scene && start.numbers.get(Quantity::LoadRatio).is_some());
     assert!(window.shows("✔ Done") && work(&window).fulfilled);
     // Whoever changes something first keeps that.
@@ -997,8 +998,7 @@ fn a_step_that_is_shown_again_has_its_tab_and_the_run_that_did_its_task() {
 fn the_highest_pressure_of_a_push_is_kept() {
     let mut window = at("Pushing on trapped air", 0);
     predicted(&mut window);
-    let live =
-        |window: &Window, live: Live| window.known().lessons.running.as_ref().unwrap().tabs.now.get(live).unwrap();
+    let live = |window: &Window, live: Live| running(window.known()).tabs.now.get(live).unwrap();
     let highest = |window: &Window| {
         let hold = window.known().hold.as_ref().unwrap();
         hold.trail().map(|reading| 1e-3 * reading.mean_pressure).fold(0.0, f64::max)
@@ -1058,7 +1058,6 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
 
 #[test]
 fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
-    let known = WindowNames { tabs: TABS, places: squeezefilm::gui::state::lessons::PLACES };
     // What is changed, into what, words of the line at fault, and what is told of it.
     let mutations = [
         ("\"plate-trapped\"", "\"plate-traped\"", "preset =", "no such file beside lesson.md | plate-traped"),
@@ -1124,7 +1123,7 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), "bad", &lesson);
         write(folder.path(), "good", GOOD);
-        let (read, faults) = lessons::load(folder.path(), known);
+        let (read, faults) = load(folder.path());
         assert_eq!(read.len(), 1, "{bad}: the good one is there");
         let text: Vec<String> = faults.iter().map(ToString::to_string).collect();
         let text = text.join("\n");
@@ -1136,14 +1135,15 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
     for (cut, _) in GOOD.char_indices().step_by(7) {
         for rest in ["", "```", "$", "\\", "\0", "[[", "= \"", "## \n"] {
             write(folder.path(), "cut", &format!("{}{rest}", &GOOD[..cut]));
-            let (read, faults) = lessons::load(folder.path(), known);
+            let (read, faults) = load(folder.path());
             assert!(read.len() + usize::from(!faults.is_empty()) == 1, "{cut} {rest}");
         }
     }
     std::fs::write(folder.path().join("cut/lesson.md"), [0xff, 0xfe, 0x00]).unwrap();
-    assert!(lessons::load(folder.path(), known).1[0].to_string().contains("cannot be read"));
-    assert!(lessons::load(&folder.path().join("absent"), known).1[0].to_string().contains("cannot be read"));
-    assert!(lessons::load(tempfile::tempdir().unwrap().path(), known).1[0].to_string().contains("holds no lesson"));
+    let told = |folder: &Path| load(folder).1[0].to_string();
+    assert!(told(folder.path()).contains("cannot be read"));
+    assert!(told(&folder.path().join("absent")).contains("cannot be read"));
+    assert!(told(tempfile::tempdir().unwrap().path()).contains("holds no lesson"));
 }
 
 #[test]
@@ -1154,7 +1154,7 @@ fn what_the_window_lights_and_lessons_name_is_drawn() {
     solved(&mut plate);
     open(&mut motor, "Lost torque");
     let drawn = |window: &Window, place: &str| squeezefilm::gui::ui::highlight::place(&window.ctx, place).is_some();
-    let mut missing: Vec<&str> = squeezefilm::gui::state::lessons::PLACES.to_vec();
+    let mut missing: Vec<&str> = PLACES.to_vec();
     missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
     // The rest is in other tabs.
     motor.click_on("Torque");
@@ -1184,9 +1184,10 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     solved(&mut window);
     window.type_into("Frequency in kHz", "0.5");
     let lent = window.known().document.scene().clone();
-    for path in [bad.clone(), folder.path().join("absent.toml")] {
-        drop_file(&mut window, &path);
+    for (path, why) in [(&bad, "film.min_spacing_nm = 3"), (&folder.path().join("absent.toml"), "absent.toml")] {
+        drop_file(&mut window, path);
         window.get_by_label("This did not work");
+        window.get_by_label_contains(why);
         window.click_on("Close");
         assert_eq!(step(&window).0, 1);
         assert_eq!(window.known().document.scene(), &lent);
@@ -1223,10 +1224,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     window.click_on("Motion");
     show_me(&mut window);
     assert_eq!(window.known().view.tab, Tab::Startup);
-    until(&mut window, "it comes to its end", |app| {
-        let running = app.state().lessons.running.as_ref().unwrap();
-        running.work[running.step].fulfilled
-    });
+    until(&mut window, "it comes to its end", |app| work_in(app.state()).fulfilled);
     // A start-up of before does not count when the step begins again.
     window.click_on("Back");
     go_on(&mut window, 1);
@@ -1239,7 +1237,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     predicted(&mut window);
     window.click_on("Motion");
     show_me(&mut window);
-    until(&mut window, "the plate is pushed", |app| app.state().lessons.running.as_ref().unwrap().work[0].fulfilled);
+    until(&mut window, "the plate is pushed", |app| work_in(app.state()).fulfilled);
 }
 
 #[test]

@@ -103,7 +103,20 @@ pub struct Progress {
     pub film_load: f64,
 }
 
+/// Each grid takes about this many times as long as the one before.
+const COST_RATIO: f64 = 6.0;
+
 impl Progress {
+    /// How much of the work is done, 0 to 1: the change falls by about the same factor in every round.
+    pub fn fraction(&self) -> f64 {
+        let within = (self.residual.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
+        let cost = |level: usize| COST_RATIO.powi(i32::try_from(level).unwrap_or(i32::MAX));
+        let before: f64 = (0..self.level).map(cost).sum();
+        let all: f64 = (0..self.levels).map(cost).sum();
+        let done = (before + cost(self.level) * if within.is_nan() { 0.0 } else { within }) / all;
+        if done.is_nan() { 0.0 } else { done.clamp(0.0, 1.0) }
+    }
+
     /// Those of the last of several solves, which began with the coarsest grid again.
     pub fn last_solve(history: &[Self]) -> &[Self] {
         let again = history.windows(2).rposition(|pair| pair[1].level < pair[0].level);
@@ -156,6 +169,16 @@ impl<'a> Reporter<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_done_grows_from_nothing_to_all() {
+        let at = |level, residual| {
+            Progress { level, levels: 3, iteration: 1, residual, tolerance: 1e-6, film_load: 0.0 }.fraction()
+        };
+        assert_eq!((at(0, 2.0), at(2, 1e-7)), (0.0, 1.0));
+        assert!(at(0, 1e-3) < at(1, 1e-1) && at(1, 1e-1) < at(2, 1e-1));
+        assert_eq!(at(0, f64::NAN), 0.0);
+    }
 
     #[test]
     fn the_last_solve_begins_with_the_coarsest_grid() {

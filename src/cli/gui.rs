@@ -47,7 +47,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let linked = arguments.preset.as_deref().filter(|preset| Link::is_link(preset));
-    let link = linked.map(Link::read).transpose().map_err(|fault| CliError::Input(fault.to_string()))?;
+    let link = linked.map(Link::read).transpose().map_err(CliError::Input)?;
     let changes = !arguments.scene.changes.is_empty();
     let opened = match (&arguments.preset, &link) {
         (_, Some(_)) if changes => {
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
             // What --set changed is not in the file.
             let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;
-            Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset))))
+            Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset)), false))
         }
         (None, _) if changes => {
             return Err(CliError::usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));

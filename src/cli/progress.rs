@@ -8,8 +8,6 @@ use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
 
 const PARTS: u64 = 1000;
-/// Each grid takes about this many times as long as the one before.
-const COST_RATIO: f64 = 6.0;
 const REDRAW: Duration = Duration::from_millis(100);
 
 /// A bar that goes away when it is dropped.
@@ -103,7 +101,7 @@ impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) {
         self.history.push(*progress);
         if !self.bar.is_hidden() {
-            self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
+            self.bar.set_position((PARTS as f64 * progress.fraction()) as u64);
             self.bar.set_message(describe(progress, self.unit));
         }
     }
@@ -119,28 +117,4 @@ fn describe(progress: &Progress, unit: &str) -> String {
         progress.tolerance,
         significant(progress.film_load, 4),
     )
-}
-
-/// How much of the work is done, 0 to 1: the change falls by about the same factor in every round.
-fn fraction(progress: &Progress) -> f64 {
-    let within = (progress.residual.ln() / progress.tolerance.ln()).clamp(0.0, 1.0);
-    let cost = |level: usize| COST_RATIO.powi(i32::try_from(level).unwrap_or(i32::MAX));
-    let before: f64 = (0..progress.level).map(cost).sum();
-    let all: f64 = (0..progress.levels).map(cost).sum();
-    ((before + cost(progress.level) * if within.is_nan() { 0.0 } else { within }) / all).clamp(0.0, 1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_bar_grows_from_nothing_to_all() {
-        let at = |level, residual| {
-            fraction(&Progress { level, levels: 3, iteration: 1, residual, tolerance: 1e-6, film_load: 0.0 })
-        };
-        assert_eq!((at(0, 2.0), at(2, 1e-7)), (0.0, 1.0));
-        assert!(at(0, 1e-3) < at(1, 1e-1) && at(1, 1e-1) < at(2, 1e-1));
-        assert_eq!(at(0, f64::NAN), 0.0);
-    }
 }

@@ -301,5 +301,5 @@ fn last_document(stored: &dyn Fn(&str) -> Option<String>, faults: &mut Vec<Strin
     let scene = parse("scene")?;
     let saved = parse("saved").unwrap_or_else(|| scene.clone());
     let path = stored("path").map(PathBuf::from).filter(|path| path.is_absolute());
-    Some(Document::restored(scene, saved, path).with_new(stored("new").as_deref() == Some("true")))
+    Some(Document::restored(scene, saved, path, stored("new").as_deref() == Some("true")))
 }

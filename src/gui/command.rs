@@ -77,6 +77,8 @@ pub enum Command {
     Refine(Fidelity),
     /// Cancels the running solve; if there is none, what was started in the tab that is shown.
     CancelSolve,
+    /// Cancels what was started in the tab that is shown; what there is of it stays.
+    CancelTab,
     /// Shows this in the middle of the window.
     Show(Tab),
     /// A command for the pinned runs.
@@ -97,8 +99,6 @@ pub enum Command {
     Startup(StartupCommand),
     /// Measures error against time, now.
     Measure,
-    /// Ends the measurement.
-    CancelMeasure,
     /// Sets a target of the trade-off: an accuracy or a time.
     Target(Target),
     /// Ends the export under way; nothing is written.
@@ -177,8 +177,6 @@ pub enum SweepCommand {
     Draw(Quantity),
     /// Starts a new sweep.
     Start,
-    /// Ends it; what is solved stays.
-    Cancel,
     /// Continues a cancelled sweep.
     Continue,
     /// Makes the scene of a point the present scene: one edit.
@@ -194,8 +192,6 @@ pub enum FitCommand {
     Form(FitForm),
     /// Starts the fit or the search.
     Start,
-    /// Ends it.
-    Cancel,
     /// Gives the scene the values that were found: one edit.
     Take,
 }
@@ -205,8 +201,6 @@ pub enum FitCommand {
 pub enum StartupCommand {
     /// Starts from rest.
     Start,
-    /// Ends it.
-    Cancel,
     /// Shows this cycle, or the nearest one that is kept.
     Choose(usize),
     /// Whether the newest cycle is looked at.
@@ -220,8 +214,6 @@ pub enum StartupCommand {
 pub enum SensitivityCommand {
     /// Computes the derivatives.
     Start,
-    /// Cancels the computation.
-    Cancel,
     /// Shows this result, by its index.
     Look(usize),
     /// The uncertainty of a key, as it is typed; empty for none.

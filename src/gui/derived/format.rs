@@ -1,7 +1,6 @@
 //! Numbers and words as the window writes them.
 
-pub use crate::digits::{power_of_ten, raised};
-use crate::digits::{rounded, signed};
+use crate::digits::{raised, rounded, signed};
 use crate::estimate::Estimate;
 
 /// Share of its error below which a value is shown as 0.

@@ -13,9 +13,9 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// A curve of one value for each frame.
-    pub fn new(values: impl IntoIterator<Item = f64>) -> Self {
-        Self { values: values.into_iter().collect(), once: false }
+    /// A curve of one value for each frame of `recording`.
+    fn new(recording: &Recording, values: impl Iterator<Item = f64>) -> Self {
+        Self { values: values.collect(), once: recording.transient }
     }
 
     /// The value at a phase; any number of cycles away if the cycle repeats.
@@ -98,17 +98,15 @@ impl Scales {
         let load = |line: usize, field: &[f64]| -> f64 {
             field[line * nodes..(line + 1) * nodes].iter().zip(&recording.node_length).map(|(f, l)| f * l).sum()
         };
-        let curve =
-            |values: &mut dyn Iterator<Item = f64>| Curve { values: values.collect(), once: recording.transient };
         let mut teeth: Vec<ToothCurves> = Vec::with_capacity(recording.stored_teeth);
         for first in (0..lines).step_by(frames.max(1)) {
             let all = first..(first + frames).min(lines);
             let least =
                 |line: usize| span(recording.film_thickness[line * nodes..(line + 1) * nodes].iter().copied())[0];
             teeth.push(ToothCurves {
-                thickness: curve(&mut all.clone().map(least)),
-                film: curve(&mut all.clone().map(|line| load(line, &recording.film))),
-                contact: curve(&mut all.map(|line| load(line, &recording.contact))),
+                thickness: Curve::new(recording, all.clone().map(least)),
+                film: Curve::new(recording, all.clone().map(|line| load(line, &recording.film))),
+                contact: Curve::new(recording, all.map(|line| load(line, &recording.contact))),
             });
         }
         let loads = span(recording.film.iter().chain(&recording.contact).copied().chain([0.0]));
@@ -160,8 +158,8 @@ impl RunCurves {
         };
         Self {
             scales: Scales::new(recording),
-            film: Curve::new(recording.film_load.iter().map(|load| load / area)),
-            contact: Curve::new(recording.contact_load.iter().copied()),
+            film: Curve::new(recording, recording.film_load.iter().map(|load| load / area)),
+            contact: Curve::new(recording, recording.contact_load.iter().copied()),
             lines: [&recording.contact, &recording.film].map(|field| span(field.iter().copied())),
         }
     }

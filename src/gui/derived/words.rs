@@ -37,9 +37,7 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("numerics.time", "trapped", "None, gas trapped"),
 ];
 
-/// Label of the choice that leaves a parameter to the plan.
-const AUTO: &str = "Automatic";
-/// Name of that choice in a scene.
+/// Name in a scene of the choice that leaves a parameter to the plan.
 pub const AUTO_NAME: &str = "auto";
 
 /// The name of a parameter: its own, or its key in words with a capital letter.
@@ -85,7 +83,7 @@ pub fn choice(key: &str, name: &str) -> String {
     let found = CHOICES.iter().find(|(found, option, _)| *found == key && *option == name);
     match found {
         Some((_, _, words)) => (*words).to_owned(),
-        None if name == AUTO_NAME => AUTO.to_owned(),
+        None if name == AUTO_NAME => "Automatic".to_owned(),
         None => capitalised(&name.replace('-', " ")),
     }
 }

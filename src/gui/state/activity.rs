@@ -21,21 +21,9 @@ pub struct Running {
     pub fidelity: Fidelity,
     /// State after the newest round.
     pub round: Progress,
-    /// Residual at the start of this grid.
-    first: f64,
 }
 
 impl Running {
-    /// Progress between 0 and 1.
-    pub fn fraction(&self) -> f32 {
-        let Progress { level, levels, residual, tolerance, .. } = self.round;
-        let fell = |to: f64| (self.first / to.max(f64::MIN_POSITIVE)).ln();
-        let here = if fell(tolerance) > 0.0 { (fell(residual) / fell(tolerance)).clamp(0.0, 1.0) } else { 0.0 };
-        // Each grid takes some four times as long as the one before.
-        let before = |level: usize| 4f64.powi(level as i32) - 1.0;
-        ((before(level) + here * (before(level + 1) - before(level))) / before(levels.max(1))) as f32
-    }
-
     /// The progress in words.
     pub fn text(&self) -> String {
         let Progress { level, levels, iteration, residual, tolerance, .. } = self.round;
@@ -45,14 +33,5 @@ impl Running {
             return format!("solving {fidelity}, looking for other states");
         }
         format!("solving {fidelity}, grid {} of {levels}, round {iteration}", level + 1)
-    }
-}
-
-impl Activity {
-    /// Takes the progress of the request's solve at `fidelity`.
-    pub fn advance(&mut self, fidelity: Fidelity, progress: &Progress) {
-        let same = self.running.filter(|running| running.fidelity == fidelity && running.round.level == progress.level);
-        let first = same.map_or(progress.residual.max(f64::MIN_POSITIVE), |running| running.first);
-        self.running = Some(Running { fidelity, round: *progress, first });
     }
 }

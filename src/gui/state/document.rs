@@ -72,19 +72,14 @@ impl Document {
         Self { target, ..self }
     }
 
-    /// A scene that outlived its window: unsaved if it differs from what its file or preset says.
-    pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>) -> Self {
-        Self { saved, ..Self::opened(scene, path) }
+    /// A scene that outlived its window: unsaved if it differs from what its file or preset says, or is `new` and has neither.
+    pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>, new: bool) -> Self {
+        Self { saved, new, ..Self::opened(scene, path) }
     }
 
     /// A scene that nothing has yet, so that it counts as unsaved.
     pub fn made(scene: Scene) -> Self {
-        Self::opened(scene, None).with_new(true)
-    }
-
-    /// The same document; `new`: neither a file nor a preset has it.
-    pub fn with_new(self, new: bool) -> Self {
-        Self { new, ..self }
+        Self { new: true, ..Self::opened(scene, None) }
     }
 
     /// What is left of it without unsaved changes; a motor with defaults if nothing has it.

@@ -6,6 +6,7 @@ use crate::fall::{Cycle, Fall};
 use crate::fidelity::Fidelity;
 use crate::job::drop::DropWork;
 use crate::job::task::{News, TaskOf};
+use crate::job::work::Posed;
 use crate::scene::Scene;
 use crate::solution::Status;
 
@@ -14,8 +15,8 @@ use crate::solution::Status;
 pub struct Dropped {
     /// The task; its messages are the cycles, its result is how it ended.
     pub work: Background<Cycle, Fall>,
-    /// The scene that was dropped.
-    pub scene: Scene,
+    /// The scene that was dropped, and its problem.
+    pub posed: Posed,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
     /// The plate at the end of each cycle so far; the first is the beginning.
@@ -25,9 +26,9 @@ pub struct Dropped {
 }
 
 impl Dropped {
-    /// A drop of `scene` that has begun.
-    pub fn new(task: TaskOf<DropWork>, scene: Scene, fidelity: Fidelity) -> Self {
-        Self { work: task.into(), scene, fidelity, cycles: Vec::new(), ended: None }
+    /// A drop that has begun.
+    pub fn new(task: TaskOf<DropWork>, posed: Posed, fidelity: Fidelity) -> Self {
+        Self { work: task.into(), posed, fidelity, cycles: Vec::new(), ended: None }
     }
 
     /// Takes progress and results since the last call; cancels the task if `scene` is another one.
@@ -46,6 +47,6 @@ impl Dropped {
 
     /// Whether `scene` is another one than was dropped.
     pub fn stale(&self, scene: &Scene) -> bool {
-        !solved_alike(&self.scene, scene)
+        !solved_alike(&self.posed.scene, scene)
     }
 }

@@ -7,11 +7,13 @@ use super::lesson_tabs::{OffTabs, OnScreen};
 use super::running_lesson::{REVEALED, RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
+use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::lessons::check::Reading;
 use crate::lessons::live::Live;
 use crate::lessons::record::{self, Record};
+use crate::lessons::text::readings;
 use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Answer, Lesson, LessonError, Step, WindowNames};
 use crate::platform::Instant;
@@ -44,26 +46,8 @@ pub const PLACES: &[&str] = &[
     "lessons",
 ];
 
-/// Highlights of the present frame.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Highlights {
-    /// Parts of the window, and keys of parameters.
-    names: Vec<String>,
-    /// Whether highlighted parameters are scrolled to, and their group opened.
-    pub reveal: bool,
-    /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
-    pub enter: Option<String>,
-}
-
 /// The field for the number that a question asks for.
 pub const NUMBER: &str = "your number";
-
-impl Highlights {
-    /// Whether `name` is highlighted.
-    pub fn has(&self, name: &str) -> bool {
-        self.names.iter().any(|other| other == name)
-    }
-}
 
 /// Lessons, tour and glossary.
 #[derive(Debug, Default)]
@@ -81,8 +65,10 @@ pub struct LessonState {
     pub tour: Option<usize>,
     /// Search text of the glossary; `None` while it is closed.
     pub glossary: Option<String>,
-    /// Highlights of the present frame.
-    pub highlights: Highlights,
+    /// Whether highlighted parameters are scrolled to in this frame, and their group opened.
+    pub reveal: bool,
+    /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
+    pub enter: Option<String>,
 }
 
 impl LessonState {
@@ -192,14 +178,19 @@ impl LessonState {
 
     /// A number quoted in a text, from the run of `scene` or, if `told` after a task, from the run that fulfilled it; "…" if unknown.
     pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
-        let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
-        value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
+        let value = |running: &RunningLesson| {
+            running.kept(reading).filter(|_| told).or_else(|| running.present(reading, scene))
+        };
+        self.running.as_ref().and_then(value).map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
     /// Whether the quoted numbers are from another run than that of `scene`.
     pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
-        let step = self.step().map(|(_, step)| step);
-        self.running.as_ref().zip(step).is_some_and(|(running, step)| running.tells_of_another(step, scene))
+        let (Some(running), Some((_, step))) = (&self.running, self.step()) else { return false };
+        readings(step.told()).any(|reading| {
+            let (kept, present) = (running.kept(reading), running.present(reading, scene));
+            kept.zip(present).is_some_and(|(kept, present)| reading.text(kept) != reading.text(present))
+        })
     }
 
     /// The step on screen, and the student's work on it.
@@ -271,7 +262,7 @@ impl LessonState {
             before: (view.tab, view.parameters, view.results),
             start: StartingPoint::of(scene),
             kept: None,
-            newest: None,
+            newest: Numbers::default(),
             tabs: OffTabs::default(),
             reveal: 0,
             enter: false,
@@ -355,13 +346,8 @@ impl LessonState {
             work.shown |= !work.fulfilled;
         }
         let Some(task) = self.step().and_then(|(_, step)| step.task.as_ref()) else { return false };
-        let mut next = document.scene().clone();
-        let changes = &task.example.changes;
-        let pairs = changes.iter().map(|(key, value)| (key.as_str(), value.as_str()));
-        if changes.is_empty() || next.set_all(pairs).is_err() {
-            return false;
-        }
-        document.change(next, document.target())
+        let next = document.scene().with(&task.example.changes);
+        next.is_ok_and(|next| document.change(next, document.target()))
     }
 
     /// Actions beyond changes of keys in the example solution of the step's task.
@@ -372,7 +358,7 @@ impl LessonState {
 
     /// Whether the step on screen belongs to `tab`.
     pub fn is_about(&self, tab: Tab) -> bool {
-        self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(self::tab) == Some(tab))
+        self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(Tab::named) == Some(tab))
     }
 
     /// Ends the lesson; whether there was one.
@@ -384,43 +370,42 @@ impl LessonState {
         true
     }
 
-    /// Checks the present step against what is on screen, and sets the highlights. Returns whether another frame is needed soon: scrolling to
+    /// Whether the parameter or the part of the window of this name is highlighted: by the step on screen or, without a lesson, by the tour.
+    pub fn lights(&self, name: &str) -> bool {
+        let stop = self.tour.and_then(|stop| STOPS.get(stop)).filter(|_| self.running.is_none());
+        self.lit().chain(stop.map(|stop| stop.place)).any(|lit| lit == name)
+    }
+
+    /// What the step on screen highlights: keys of parameters, then parts of the window.
+    fn lit(&self) -> impl Iterator<Item = &str> {
+        let (light, look) = self.step().map_or((&[][..], &[][..]), |(_, step)| (&step.light[..], &step.look[..]));
+        light.iter().map(|parameter| parameter.key).chain(look.iter().map(String::as_str))
+    }
+
+    /// Checks the present step against what is on screen. Returns whether another frame is needed soon: scrolling to
     /// a parameter takes some frames.
     pub fn observe(&mut self, document: &Document, seen: OnScreen<'_>) -> bool {
-        self.highlights = Highlights::default();
         let asks = self.stage() == Some(Stage::Question);
-        if let Some((_, step)) = self.step() {
-            let keys = step.light.iter().map(|parameter| parameter.key.to_owned());
-            self.highlights.names = keys.chain(step.look.iter().cloned()).collect();
-        }
-        let Some(running) = &mut self.running else {
-            let stop = self.tour.and_then(|stop| STOPS.get(stop));
-            self.highlights.names.extend(stop.map(|stop| stop.place.to_owned()));
-            return false;
-        };
-        self.highlights.reveal = running.reveal > 0;
+        let marked = if asks { Some(NUMBER) } else { self.lit().next() };
+        let marked = marked.map(str::to_owned);
+        (self.reveal, self.enter) = (false, None);
+        let Some(running) = &mut self.running else { return false };
+        self.reveal = running.reveal > 0;
         running.reveal = running.reveal.saturating_sub(1);
         // Once its group has opened.
-        let enter = running.reveal == 0 && std::mem::take(&mut running.enter);
-        if enter {
-            self.highlights.enter = if asks { Some(NUMBER.to_owned()) } else { self.highlights.names.first().cloned() };
+        if running.reveal == 0 && std::mem::take(&mut running.enter) {
+            self.enter = marked;
         }
         if let Some(lesson) = self.lessons.get(running.lesson) {
             running.judge(lesson, document, seen);
         }
-        self.highlights.reveal || self.highlights.enter.is_some()
+        self.reveal || self.enter.is_some()
     }
 }
 
 /// The tab that a step shows: its own or, if it has none, that of the last step before it that has one.
 fn tab_at(lesson: &Lesson, step: usize) -> Option<Tab> {
-    lesson.steps.iter().take(step + 1).rev().find_map(|step| tab(step.tab.as_deref()?))
-}
-
-/// The tab of a name in a lesson.
-fn tab(name: &str) -> Option<Tab> {
-    let named = |tab: Tab| [true, false].iter().any(|plate| tab.label(*plate).eq_ignore_ascii_case(name));
-    Tab::ALL.iter().map(|(tab, _)| *tab).find(|tab| named(*tab))
+    lesson.steps.iter().take(step + 1).rev().find_map(|step| Tab::named(step.tab.as_deref()?))
 }
 
 /// Calls `read` with what lessons may name in the window.

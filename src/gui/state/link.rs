@@ -4,9 +4,10 @@
 //! The keys are those of `--set`, and so are their values, but for `%`, `&`, `#` and what an address cannot hold, which are written as
 //! `%` and two digits. A link names no file.
 
+use super::document::Document;
 use super::view::Tab;
+use crate::scene::Scene;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
-use crate::scene::{Scene, SceneError};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use std::fmt::Write as _;
 
@@ -15,10 +16,8 @@ use std::fmt::Write as _;
 pub enum Link {
     /// A scene.
     Scene {
-        /// The built-in preset.
-        preset: &'static str,
-        /// The preset with the changes applied.
-        scene: Box<Scene>,
+        /// A built-in preset, or a scene that nothing else has: the preset with the changes applied.
+        document: Box<Document>,
         /// The tab to show; `None` keeps the present one.
         tab: Option<Tab>,
     },
@@ -31,42 +30,6 @@ pub enum Link {
     },
 }
 
-/// Why a link cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum LinkError {
-    /// It does not begin with a built-in preset.
-    #[error("a link begins with a built-in preset or with lesson=: {0:?} is neither; the presets are {names}", names = names())]
-    Preset(String),
-    /// A part is not of the form `key=value`.
-    #[error("{0:?} in a link: allowed is key=value")]
-    Pair(String),
-    /// There is no such tab.
-    #[error("tab={0} in a link: allowed is {tabs}", tabs = tabs())]
-    Tab(String),
-    /// The number of a lesson or a step is invalid.
-    #[error("{key}={found} in a link: allowed is a whole number from 1 on")]
-    Number {
-        /// `lesson` or `step`.
-        key: &'static str,
-        /// The text in place of the number.
-        found: String,
-    },
-    /// A part of a link to a lesson is not `step=`.
-    #[error("{0:?} in a link to a lesson: allowed is step=")]
-    Lesson(String),
-    /// A key or its value is invalid.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-}
-
-fn names() -> String {
-    BUILT_IN.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ")
-}
-
-fn tabs() -> String {
-    Tab::ALL.iter().map(|(_, name)| name.to_lowercase()).collect::<Vec<_>>().join(", ")
-}
-
 impl Link {
     /// Whether `text` is a link, of this or any other address, rather than a preset or a path.
     pub fn is_link(text: &str) -> bool {
@@ -76,35 +39,45 @@ impl Link {
     /// Reads an address, or what follows its `#`.
     ///
     /// # Errors
-    /// [`LinkError`] names the part that is wrong, and what is allowed.
-    pub fn read(address: &str) -> Result<Self, LinkError> {
+    /// Words that name the part that is wrong, and what is allowed.
+    pub fn read(address: &str) -> Result<Self, String> {
         let text = address.split_once('#').map_or(address, |(_, text)| text);
         let mut parts = text.split('&').map(|part| percent_decode_str(part).decode_utf8_lossy().into_owned());
         let first = parts.next().unwrap_or_default();
         if let Some(lesson) = first.strip_prefix("lesson=") {
-            let mut link = (counted("lesson", lesson)?, 1);
+            let (lesson, mut step) = (counted("lesson", lesson)?, 1);
             for part in parts {
-                let step = part.strip_prefix("step=").ok_or_else(|| LinkError::Lesson(part.clone()))?;
-                link.1 = counted("step", step)?;
+                let Some(number) = part.strip_prefix("step=") else {
+                    return Err(format!("{part:?} in a link to a lesson: allowed is step="));
+                };
+                step = counted("step", number)?;
             }
-            return Ok(Self::Lesson { lesson: link.0, step: link.1 });
+            return Ok(Self::Lesson { lesson, step });
         }
-        let preset = BuiltIn::find(&first).ok_or(LinkError::Preset(first))?;
+        let preset = BuiltIn::find(&first).ok_or_else(|| {
+            let names = BUILT_IN.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+            format!(
+                "a link begins with a built-in preset or with lesson=: {first:?} is neither; the presets are {names}"
+            )
+        })?;
         let (mut pairs, mut tab) = (Vec::new(), None);
         for part in parts {
-            let Some((key, value)) = part.split_once('=') else { return Err(LinkError::Pair(part)) };
+            let (key, value) =
+                part.split_once('=').ok_or_else(|| format!("{part:?} in a link: allowed is key=value"))?;
             if key == "tab" {
-                let named = Tab::ALL.iter().find(|(_, name)| name.to_lowercase() == value);
-                tab = Some(named.ok_or_else(|| LinkError::Tab(value.to_owned()))?.0);
+                tab = Some(Tab::named(value).ok_or_else(|| {
+                    let tabs = Tab::ALL.iter().map(|(_, name)| name.to_lowercase()).collect::<Vec<_>>().join(", ");
+                    format!("tab={value} in a link: allowed is {tabs}")
+                })?);
             } else {
                 pairs.push((key.to_owned(), value.to_owned()));
             }
         }
-        let original = preset.scene()?;
-        let mut scene = original.clone();
-        scene.set_all(pairs.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        let original = preset.scene().map_err(|error| error.to_string())?;
+        let mut scene = original.with(&pairs).map_err(|error| error.to_string())?;
         scene.retitle(&original);
-        Ok(Self::Scene { preset: preset.name, scene: Box::new(scene), tab })
+        let document = if scene == original { Document::opened(scene, None) } else { Document::made(scene) };
+        Ok(Self::Scene { document: Box::new(document), tab })
     }
 
     /// A link to `scene`, based on the built-in preset that it differs from in the fewest keys.
@@ -114,20 +87,12 @@ impl Link {
         let nearest = alike.min_by_key(|(_, original)| (scene.changed(original).count(), original.name != scene.name));
         let Some((name, original)) = nearest else { return "#".to_owned() };
         let mut text = format!("#{name}");
-        // A key that the scene has not, but the preset has, follows from others or is taken away.
-        let gone = original.parameters().filter(|parameter| {
-            parameter.absent.is_some()
-                && scene.has(parameter)
-                && scene.get(parameter.key).is_none()
-                && original.get(parameter.key).is_some()
-        });
-        for parameter in scene.changed(&original).filter(|parameter| scene.get(parameter.key).is_some()) {
-            if let Some(value) = scene.given_text(parameter) {
+        for parameter in scene.changed(&original) {
+            // A key that the scene has not follows from others or is taken away.
+            let none = || parameter.absent.map(|_| "none".to_owned());
+            if let Some(value) = scene.given_text(parameter).or_else(none) {
                 let _ = write!(text, "&{}={}", parameter.key, utf8_percent_encode(&value, CODED));
             }
-        }
-        for parameter in gone {
-            let _ = write!(text, "&{}=none", parameter.key);
         }
         if tab != Tab::default() {
             let _ = write!(text, "&tab={}", tab.label(false).to_lowercase());
@@ -141,9 +106,9 @@ impl Link {
     }
 }
 
-fn counted(key: &'static str, found: &str) -> Result<usize, LinkError> {
+fn counted(key: &str, found: &str) -> Result<usize, String> {
     let number = found.parse().ok().filter(|number| *number > 0);
-    number.ok_or_else(|| LinkError::Number { key, found: found.to_owned() })
+    number.ok_or_else(|| format!("{key}={found} in a link: allowed is a whole number from 1 on"))
 }
 
 /// Characters to be percent-encoded: all but letters, digits and a few signs.
@@ -155,17 +120,17 @@ const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_'
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> (&'static str, Scene, Option<Tab>) {
+    fn read(text: &str) -> (Scene, Option<Tab>) {
         match Link::read(text).unwrap() {
-            Link::Scene { preset, scene, tab } => (preset, *scene, tab),
+            Link::Scene { document, tab } => (document.scene().clone(), tab),
             lesson => panic!("{lesson:?}"),
         }
     }
 
     #[test]
     fn a_link_is_a_preset_its_changes_and_a_tab() {
-        let (preset, scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=150&tab=torque");
-        assert_eq!((preset, tab), ("fundamental", Some(Tab::Torque)));
+        let (scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=150&tab=torque");
+        assert_eq!(tab, Some(Tab::Torque));
         let mut expected = crate::scene::presets::find("fundamental").unwrap();
         expected.set("film.min_spacing_nm", "150").unwrap();
         assert!(scene.same_model(&expected));
@@ -179,7 +144,7 @@ mod tests {
         for preset in BUILT_IN {
             let original = preset.scene().unwrap();
             let link = Link::to(&original, Tab::Motion);
-            let (_, scene, tab) = read(&link);
+            let (scene, tab) = read(&link);
             assert!(scene.same_model(&original) && tab.is_none(), "{link}");
             for (key, value) in [
                 ("film.gas", "helium"),
@@ -197,7 +162,7 @@ mod tests {
                     continue;
                 }
                 let link = Link::to(&changed, Tab::Sweep);
-                let (_, scene, tab) = read(&link);
+                let (scene, tab) = read(&link);
                 assert!(scene.same_model(&changed) && scene.numerics() == changed.numerics(), "{link}");
                 assert_eq!(tab, Some(Tab::Sweep));
             }
@@ -215,7 +180,7 @@ mod tests {
             ("#lesson=0", "from 1 on"),
             ("#lesson=2&tab=hold", "step="),
         ] {
-            let told = Link::read(link).unwrap_err().to_string();
+            let told = Link::read(link).unwrap_err();
             assert!(told.contains(words), "{link}: {told}");
         }
         assert_eq!(percent_decode_str("%25a%2").decode_utf8_lossy(), "%a%2");

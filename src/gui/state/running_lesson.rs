@@ -6,11 +6,11 @@ use super::view::Tab;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
+use crate::lessons::Lesson;
 use crate::lessons::check::{Ran, Reading};
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::text::readings;
 use crate::lessons::work::{Stage, StepWork};
-use crate::lessons::{Lesson, Step};
 use crate::platform::Instant;
 use crate::scene::Scene;
 use crate::solution::Status;
@@ -55,8 +55,8 @@ pub struct RunningLesson {
     pub start: StartingPoint,
     /// The scene that did the task of a step that is set up once more: it is brought back when the run that it is compared with is there.
     pub(super) kept: Option<Scene>,
-    /// The newest run of the present scene.
-    pub newest: Option<Numbers>,
+    /// The newest run of the present scene; none is known while there is no run.
+    pub newest: Numbers,
     /// Numbers read off the tabs.
     pub tabs: OffTabs,
     pub(super) reveal: u8,
@@ -72,39 +72,27 @@ impl RunningLesson {
         (self.enter, self.reveal) = (true, REVEALED);
     }
 
-    /// Value of a quoted number, from the run of `scene` or, if `told` after a task, from the run that fulfilled it.
-    pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
-        let kept = self.kept(reading).filter(|_| told);
-        kept.or_else(|| self.present(reading, scene))
-    }
-
     /// The value in the run that fulfilled the task.
-    fn kept(&self, reading: &Reading) -> Option<f64> {
+    pub(super) fn kept(&self, reading: &Reading) -> Option<f64> {
         self.work.get(self.step)?.readings.get(&reading.source).copied()
     }
 
     /// The value in the run of `scene`.
-    fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
-        let empty = Numbers::default();
-        let numbers = self.newest.as_ref().unwrap_or(&empty);
-        let (start, tabs) = (&self.start, &self.tabs);
-        let now = Ran { scene, numbers, live: &tabs.now };
-        reading.value(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start })
+    pub(super) fn present(&self, reading: &Reading, scene: &Scene) -> Option<f64> {
+        let [now, start] = self.ran(scene);
+        reading.value(now, start)
     }
 
-    /// Whether the run of `scene` has other numbers than what is told of the one that did the task of `step`.
-    pub(super) fn tells_of_another(&self, step: &Step, scene: &Scene) -> bool {
-        let other = |reading: &Reading| {
-            let (kept, present) = (self.kept(reading)?, self.present(reading, scene)?);
-            Some(reading.text(kept) != reading.text(present))
-        };
-        readings(step.told()).any(|reading| other(reading) == Some(true))
+    /// The run of `scene`, and the one that the step began with.
+    pub fn ran<'a>(&'a self, scene: &'a Scene) -> [Ran<'a>; 2] {
+        let Self { start, newest, tabs, .. } = self;
+        let now = Ran { scene, numbers: newest, live: &tabs.now };
+        [now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start }]
     }
 
     /// Checks the present step against the run on screen: its starting point, and whether its task is fulfilled.
     pub(super) fn judge(&mut self, lesson: &Lesson, document: &Document, seen: OnScreen<'_>) {
-        self.newest = None;
-        self.tabs.now = Readings::default();
+        (self.newest, self.tabs.now) = (Numbers::default(), Readings::default());
         let scene = document.scene();
         let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
             // What was said of another scene says nothing about this one.
@@ -113,12 +101,11 @@ impl RunningLesson {
             }
             return;
         };
-        let numbers = Numbers::of(&run.problem, &run.solution);
-        self.newest = Some(numbers);
+        self.newest = Numbers::of(&run.problem, &run.solution);
         self.tabs.read(run, seen);
         let start = &mut self.start;
         if run.scene == start.scene && start.run.as_ref().is_none_or(|found| found.fidelity <= run.fidelity) {
-            (start.run, start.numbers) = (Some(Arc::clone(run)), numbers);
+            (start.run, start.numbers) = (Some(Arc::clone(run)), self.newest);
             for live in Live::all().filter(|live| !live.is_done_by_hand()) {
                 if let Some(value) = self.tabs.now.get(live) {
                     self.tabs.start.set(live, value);
@@ -128,27 +115,25 @@ impl RunningLesson {
         let Some((step, task)) = lesson.steps.get(self.step).and_then(|step| Some((step, step.task.as_ref()?))) else {
             return;
         };
-        let Some(work) = self.work.get_mut(self.step) else { return };
         // A draft is good enough to look at, not to judge by; and a value counts when the pointer has let go of it.
         let ready = run.fidelity >= document.target().min(Fidelity::Standard) && !document.is_dragging();
-        let (tabs, start) = (&self.tabs, &self.start);
-        let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
-        let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
+        let [now, before] = self.ran(scene);
         let unmet = task.check.unmet(now, before);
         let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
         let does = ready && unmet.is_none() && !beyond;
+        let moved = |live: Live| live.is_done_by_hand() && now.live.get(live) != before.live.get(live);
+        let tried = now.scene != before.scene || task.check.live().any(moved);
+        let told = readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?))).collect();
+        let Some(work) = self.work.get_mut(self.step) else { return };
         let open = work.stage(step) == Stage::Task;
         if open && ready {
-            work.tried = run.scene != start.scene
-                || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
+            work.tried = tried;
             (work.too_far, work.unmet) = (unmet.is_none() && beyond, unmet);
             work.fulfilled |= does;
         }
         // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
         if does && work.fulfilled && (open || !task.check.live().any(Live::is_done_by_hand)) {
-            work.readings =
-                readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?))).collect();
-            work.changes = step.changes(&run.scene);
+            (work.readings, work.changes) = (told, step.changes(scene));
         }
     }
 }

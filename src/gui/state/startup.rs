@@ -8,7 +8,7 @@ use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
 use crate::job::startup::StartupWork;
 use crate::job::task::{News, TaskOf};
-use crate::problem::Problem;
+use crate::job::work::Posed;
 use crate::recording::Recording;
 use crate::scene::Scene;
 use crate::solution::{Model, Outcome, Solution, Stats, Status};
@@ -46,10 +46,8 @@ fn bytes(recording: &Recording) -> usize {
 pub struct StartupState {
     /// The task; its messages are the cycles, its result is how it ended.
     pub work: Background<Cycle, Startup>,
-    /// The scene that was started.
-    pub scene: Scene,
-    /// The problem that the scene poses.
-    pub problem: Problem,
+    /// The scene that was started, and its problem.
+    pub posed: Posed,
     /// Grids and steps are those of this fidelity.
     pub fidelity: Fidelity,
     /// Its number in this window.
@@ -72,11 +70,10 @@ pub struct StartupState {
 
 impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
-    pub fn new(task: TaskOf<StartupWork>, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
+    pub fn new(task: TaskOf<StartupWork>, posed: Posed, fidelity: Fidelity, count: u64) -> Self {
         Self {
             work: task.into(),
-            scene,
-            problem,
+            posed,
             fidelity,
             count,
             points: Vec::new(),
@@ -103,14 +100,13 @@ impl StartupState {
 
     fn take(&mut self, cycle: Cycle) {
         let newest = cycle.number > self.points.len();
-        place(&mut self.points, cycle.number, CycleRow::of(&self.problem, &cycle));
+        place(&mut self.points, cycle.number, CycleRow::of(&self.posed.problem, &cycle));
         place(&mut self.cycles, cycle.number, cycle.slim());
         let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
-        let (scene, problem) = (self.scene.clone(), self.problem.clone());
-        let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
+        let run = as_solved(number_of_run, self.posed.clone(), self.fidelity, outcome, recording);
         keep(&mut self.kept, number, Arc::new(run), MOST_BYTES);
         if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;
@@ -159,19 +155,12 @@ impl StartupState {
 
     /// Whether `scene` is another one than was started.
     pub fn stale(&self, scene: &Scene) -> bool {
-        !solved_alike(&self.scene, scene)
+        !solved_alike(&self.posed.scene, scene)
     }
 }
 
 /// A cycle as the views want it: as a solve of its own.
-pub fn as_solved(
-    number: u64,
-    scene: Scene,
-    problem: Problem,
-    fidelity: Fidelity,
-    outcome: Outcome,
-    recording: Recording,
-) -> SolvedScene {
+fn as_solved(number: u64, posed: Posed, fidelity: Fidelity, outcome: Outcome, recording: Recording) -> SolvedScene {
     let solution = Solution {
         status: Status::Converged,
         outcome,
@@ -182,6 +171,7 @@ pub fn as_solved(
         warnings: Vec::new(),
         recording,
     };
+    let Posed { scene, problem } = posed;
     let (validity, history) = (Vec::new(), Vec::new());
     SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }
 }
@@ -192,11 +182,11 @@ mod tests {
 
     #[test]
     fn what_is_kept_is_bounded_and_holds_first_newest_and_the_early_way() {
-        let problem = Problem::try_from(&Scene::plate()).unwrap();
+        let posed = Posed::try_from(Scene::plate()).unwrap();
         let run = |values: usize| {
             let recording = Recording { pressure: vec![0.0; values], ..Recording::default() };
             let outcome = Outcome::Plate(Default::default());
-            Arc::new(as_solved(0, Scene::plate(), problem.clone(), Fidelity::Draft, outcome, recording))
+            Arc::new(as_solved(0, posed.clone(), Fidelity::Draft, outcome, recording))
         };
         let mut kept = BTreeMap::new();
         for number in 1..=100 {

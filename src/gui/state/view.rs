@@ -50,6 +50,12 @@ impl Tab {
         if self == Self::Torque && plate { "Exact" } else { name }
     }
 
+    /// The tab of this name, as lessons and links have it: its label, in small letters or capitals.
+    pub fn named(name: &str) -> Option<Self> {
+        let is = |tab: &Self| [true, false].iter().any(|plate| tab.label(*plate).eq_ignore_ascii_case(name));
+        Self::ALL.iter().map(|(tab, _)| *tab).find(is)
+    }
+
     /// Whether there is something to see in it: only a plate can be held, and only a motor has a rotor.
     pub fn is_of(self, plate: bool) -> bool {
         self != if plate { Self::Rotor } else { Self::Hold }

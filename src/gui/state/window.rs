@@ -176,6 +176,21 @@ impl State {
         self.run.as_ref().is_none_or(|run| run.number < self.activity.number) && self.activity.failure.is_none()
     }
 
+    /// Cancels what was started in the tab that is shown.
+    pub fn cancel_tab(&mut self) {
+        match self.view.tab {
+            Tab::Sweep => self.sweep.cancel(),
+            Tab::Fit => self.fit.work.cancel(),
+            Tab::Sensitivity => self.sensitivity.cancel(),
+            Tab::Startup => {
+                self.dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
+                self.startup.iter_mut().for_each(|startup| startup.work.cancel());
+            }
+            Tab::Tradeoff => self.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
+            _ => {}
+        }
+    }
+
     /// Whether there is what `export` writes.
     pub fn can_export(&self, export: Export) -> bool {
         match export {

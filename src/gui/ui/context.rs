@@ -131,7 +131,7 @@ impl<'a> DrawContext<'a> {
     /// Records that the part of the window called `name` is at `rect`; draws a ring round it if it is highlighted.
     pub fn mark(&self, ui: &Ui, name: &str, rect: Rect) {
         highlight::remember(ui, name, rect);
-        if self.state.lessons.highlights.has(name) {
+        if self.state.lessons.lights(name) {
             highlight::ring(ui, rect);
         }
     }
@@ -143,7 +143,7 @@ impl<'a> DrawContext<'a> {
 
     /// Gives the keyboard to the `widget` called `name`, if a lesson leads there.
     pub fn lead_to(&self, ui: &Ui, name: &str, widget: Id) {
-        if self.state.lessons.highlights.enter.as_deref() == Some(name) {
+        if self.state.lessons.enter.as_deref() == Some(name) {
             ui.memory_mut(|memory| memory.request_focus(widget));
         }
     }

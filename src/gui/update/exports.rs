@@ -81,15 +81,14 @@ impl Updater {
             }
             Export::Startup if self.state.document.scene().floats() => {
                 let dropped = self.state.dropped.as_ref()?;
-                let (posed, ended) = (Posed::try_from(dropped.scene.clone()).ok()?, dropped.ended.clone()?.ok()?);
-                Content::Fall(Box::new(posed), dropped.fidelity, ended, dropped.cycles.clone())
+                let (posed, ended) = (Box::new(dropped.posed.clone()), dropped.ended.clone()?.ok()?);
+                Content::Fall(posed, dropped.fidelity, ended, dropped.cycles.clone())
             }
             Export::Startup => {
                 let startup = self.state.startup.as_ref()?;
-                let posed = Posed { scene: startup.scene.clone(), problem: startup.problem.clone() };
                 let settings = Settings { fidelity: startup.fidelity, ..Settings::default() };
                 let ended = Box::new(startup.ended.clone()?.ok()?);
-                Content::Startup(Box::new(posed), settings, ended, startup.cycles.clone())
+                Content::Startup(Box::new(startup.posed.clone()), settings, ended, startup.cycles.clone())
             }
             Export::Answers => Content::Answers(self.state.lessons.records()),
             Export::TradeoffTable => Content::TradeoffTable(self.state.tradeoff.as_ref()?.tradeoff.clone()),

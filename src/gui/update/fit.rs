@@ -21,7 +21,6 @@ impl Updater {
             FitCommand::Forget => state.fit.measured = None,
             FitCommand::Form(form) => state.fit.ask(form),
             FitCommand::Start => self.start_fit(),
-            FitCommand::Cancel => state.fit.work.cancel(),
             FitCommand::Take => {
                 let Some((_, found)) = state.fit.found.as_ref() else { return };
                 let values = found.values();

@@ -4,7 +4,7 @@ use super::updater::Updater;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::gui::command::{Command, LessonCommand};
 use crate::gui::derived::format::uncertain;
-use crate::gui::state::document::{Document, Next};
+use crate::gui::state::document::Next;
 use crate::gui::state::link::Link;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
@@ -56,13 +56,8 @@ impl Updater {
     pub fn follow(&mut self, link: Link) {
         self.carry_out(Command::Tour(None));
         match link {
-            Link::Scene { preset, scene, tab } => {
-                let untouched = crate::scene::presets::find(preset).is_ok_and(|original| original == *scene);
-                self.carry_out(Command::Proceed(if untouched {
-                    Next::Preset(preset)
-                } else {
-                    Next::Given(Box::new(Document::made(*scene)))
-                }));
+            Link::Scene { document, tab } => {
+                self.carry_out(Command::Proceed(Next::Given(document)));
                 tab.into_iter().for_each(|tab| self.carry_out(Command::Show(tab)));
             }
             Link::Lesson { lesson, step } => {

@@ -115,13 +115,9 @@ impl Updater {
     }
 
     pub(super) fn start_up(&mut self, command: StartupCommand) {
-        let State { startup, dropped, view, .. } = &mut self.state;
+        let State { startup, view, .. } = &mut self.state;
         match (command, startup) {
             (StartupCommand::Start, _) => self.start_from_rest(),
-            (StartupCommand::Cancel, startup) => {
-                dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
-                startup.iter_mut().for_each(|startup| startup.work.cancel());
-            }
             (StartupCommand::Choose(number), Some(startup)) => startup.stay_at(number),
             (StartupCommand::Follow(follow), Some(startup)) => startup.follow(follow),
             (StartupCommand::Replay, Some(startup)) => {
@@ -136,20 +132,19 @@ impl Updater {
         let Some(posed) = self.posed() else { return };
         // Three grids of every tooth: a finer one takes minutes.
         let fidelity = self.state.document.target().min(Fidelity::Standard);
-        let Posed { scene, problem } = posed.clone();
-        if scene.floats() {
-            let work = DropWork { posed, fidelity };
+        if posed.scene.floats() {
+            let work = DropWork { posed: posed.clone(), fidelity };
             if let Some(task) = self.start_work("The plate cannot be dropped", work, Duration::ZERO) {
-                self.state.dropped = Some(Dropped::new(task, scene, fidelity));
+                self.state.dropped = Some(Dropped::new(task, posed, fidelity));
             }
             return;
         }
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
-        let work = StartupWork { posed, settings };
+        let work = StartupWork { posed: posed.clone(), settings };
         if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {
-            self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count));
+            self.state.startup = Some(StartupState::new(task, posed, fidelity, count));
         }
     }
 }

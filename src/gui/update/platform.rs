@@ -50,11 +50,9 @@ const TOO_SOON: Duration = Duration::from_millis(400);
 /// Asks the system's own dialog.
 fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
     let started = Instant::now();
-    let (filter, title) = match &purpose {
-        // The system says what the dialog is for.
-        Purpose::Picture(_) | Purpose::Save(_) => (purpose.filter(), "Save"),
-        _ => (purpose.filter(), purpose.title()),
-    };
+    let filter = purpose.filter();
+    // The system says what the dialog is for.
+    let title = if matches!(purpose, Purpose::Picture(_) | Purpose::Save(_)) { "Save" } else { purpose.title() };
     let asked = match (filter, purpose.writes()) {
         (None, _) => Asked::Folder,
         (Some(_), true) => Asked::NewFile,

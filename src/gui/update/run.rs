@@ -3,7 +3,8 @@
 use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
 use crate::citation;
-use crate::gui::command::{Command, StartupCommand};
+use crate::gui::command::Command;
+use crate::gui::state::activity::Running;
 use crate::gui::state::background::Background;
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::gui::state::document::{Document, Next};
@@ -65,16 +66,10 @@ impl Updater {
             Command::CancelSolve => {
                 self.solver.cancel();
                 if state.activity.running.take().is_none() {
-                    match state.view.tab {
-                        Tab::Sweep => state.sweep.cancel(),
-                        Tab::Fit => state.fit.work.cancel(),
-                        Tab::Sensitivity => state.sensitivity.cancel(),
-                        Tab::Startup => self.start_up(StartupCommand::Cancel),
-                        Tab::Tradeoff => self.carry_out(Command::CancelMeasure),
-                        _ => {}
-                    }
+                    state.cancel_tab();
                 }
             }
+            Command::CancelTab => state.cancel_tab(),
             Command::Show(tab) => state.view.tab = tab,
             Command::Pin(command) => self.pin(command),
             Command::Sweep(command) => self.sweep(command),
@@ -86,7 +81,6 @@ impl Updater {
             Command::Sensitivity(command) => self.sensitivity(command),
             Command::Lesson(command) => self.teach(command),
             Command::Measure => self.measure(),
-            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::CancelExport => state.exports.running.iter_mut().for_each(|running| running.work.cancel()),
@@ -144,7 +138,7 @@ impl Updater {
         for event in self.solver.drain() {
             match event {
                 Event::Progress { number, fidelity, progress } if number == state.activity.number => {
-                    state.activity.advance(fidelity, &progress);
+                    state.activity.running = Some(Running { fidelity, round: progress });
                 }
                 // A result of an edit that is already history is still newer than what is shown.
                 Event::Solved(run) if state.run.as_ref().is_none_or(|shown| run.number >= shown.number) => {

@@ -18,7 +18,6 @@ impl Updater {
                 let task = self.start_work("It cannot be computed", Derivatives { scene, settings }, REDRAW);
                 task.into_iter().for_each(|task| self.state.sensitivity.begin(task));
             }
-            SensitivityCommand::Cancel => state.cancel(),
             SensitivityCommand::Look(output) => state.output = output,
             SensitivityCommand::Uncertainty(key, text) => state.type_uncertainty(key, text),
             SensitivityCommand::Draws(draws) => state.chosen_draws = Some(draws),

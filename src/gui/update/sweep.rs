@@ -10,7 +10,6 @@ impl Updater {
     pub(super) fn sweep(&mut self, command: SweepCommand) {
         match command {
             SweepCommand::Start => self.start_sweep(),
-            SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept.as_ref().filter(|swept| !swept.running) {
                     self.begin_sweep(SweepWork::Known(Arc::clone(&swept.sweep), swept.rows.to_vec()));

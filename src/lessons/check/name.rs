@@ -91,7 +91,7 @@ impl Name {
     }
 
     /// Its value in a run; `None` if it has none there.
-    pub(super) fn number(self, ran: Ran<'_>) -> Option<f64> {
+    pub fn number(self, ran: Ran<'_>) -> Option<f64> {
         match self {
             Self::Quantity(quantity) => ran.numbers.get(quantity),
             Self::Live(live) => ran.live.get(live),

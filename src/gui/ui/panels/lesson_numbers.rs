@@ -24,17 +24,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
     if step.show.is_empty() {
         return;
     }
-    let value = |name: Name, start: bool| match name {
-        Name::Quantity(quantity) => {
-            let numbers = if start { Some(&running.start.numbers) } else { running.newest.as_ref() };
-            numbers.and_then(|numbers| numbers.get(quantity))
-        }
-        Name::Live(live) => if start { &running.tabs.start } else { &running.tabs.now }.get(live),
-        Name::Key(parameter) => {
-            let scene = if start { &running.start.scene } else { scene };
-            scene.get(parameter.key).and_then(|value| value.as_number())
-        }
-    };
+    let [ran, begun] = running.ran(scene);
     let shown = |name: Name, value: Option<f64>| match (name, value) {
         (_, None) => "…".to_owned(),
         // A parameter as it was typed, a result with its digits.
@@ -68,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
                 "" => String::new(),
                 unit => format!(", {unit}"),
             };
-            let (first, now) = (value(shown_name, true), value(shown_name, false));
+            let (first, now) = (shown_name.number(begun), shown_name.number(ran));
             let ratio = match (first, now) {
                 (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
                     format!("× {}", significant(now / first, 3))

@@ -3,9 +3,8 @@
 
 use crate::analysis::decision;
 use crate::analysis::tradeoff::without_grid;
-use crate::digits::{capitalised, significant};
+use crate::digits::{capitalised, power_of_ten, significant};
 use crate::gui::command::Command;
-use crate::gui::derived::format::power_of_ten;
 use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;

@@ -113,10 +113,9 @@ impl Panel<'_> {
                 continue;
             }
             self.measure_units(ui, &parameters);
-            let highlights = &self.cx.state.lessons.highlights;
+            let lessons = &self.cx.state.lessons;
             let refused = parameters.iter().any(|parameter| {
-                self.cx.state.rejected.of(parameter.key).is_some()
-                    || (highlights.reveal && highlights.has(parameter.key))
+                self.cx.state.rejected.of(parameter.key).is_some() || (lessons.reveal && lessons.lights(parameter.key))
             });
             egui::CollapsingHeader::new(RichText::new(title).strong())
                 .id_salt(table)
@@ -176,14 +175,14 @@ impl Panel<'_> {
             }
             self.footnotes(ui, parameter);
         });
-        let highlights = &self.cx.state.lessons.highlights;
-        if highlights.has(parameter.key) {
+        let lessons = &self.cx.state.lessons;
+        if lessons.lights(parameter.key) {
             highlight::ring(ui, row.response.rect);
-            if highlights.reveal {
+            if lessons.reveal {
                 ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
             }
             let typed = !matches!(parameter.kind, ParameterKind::Choice { .. });
-            let enters = typed && highlights.enter.as_deref() == Some(parameter.key);
+            let enters = typed && lessons.enter.as_deref() == Some(parameter.key);
             if let Some(value) = self.scene.get(parameter.key).filter(|_| enters) {
                 field::enter(ui, parameter.key, &value);
             }

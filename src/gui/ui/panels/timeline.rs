@@ -131,7 +131,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {
                 cx.button(ui, "Cancel", keys::about(&Command::CancelSolve), Command::CancelSolve);
-                ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
+                ui.add(ProgressBar::new(running.round.fraction() as f32).desired_width(120.0));
                 ui.label(running.text());
             } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !cx.state.stale(run)) {
                 let text = "Solve for reference";

@@ -4,7 +4,7 @@ use crate::digits::{percent, significant};
 use crate::estimate::Estimate;
 use crate::export::fall::panel;
 use crate::fall::{Fall, struck};
-use crate::gui::command::StartupCommand;
+use crate::gui::command::{Command, StartupCommand};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::dropped::Dropped;
 use crate::gui::ui::chart::Chart;
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let dropped = cx.state.dropped.as_ref();
     ui.horizontal_wrapped(|ui| {
         if dropped.is_some_and(|dropped| dropped.work.running()) {
-            cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
+            cx.button(ui, "Cancel", "Ends it; its way so far stays", Command::CancelTab);
         } else {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
             cx.mark(ui, "start", button.rect);

@@ -198,7 +198,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     let agreement = state.form.sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.work.running() {
-            cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", FitCommand::Cancel);
+            cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", Command::CancelTab);
             ui.spinner();
             let what = if agreement { "χ²" } else { "best" };
             ui.label(match state.told {

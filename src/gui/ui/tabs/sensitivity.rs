@@ -55,7 +55,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         if let Some(share) = state.running() {
-            cx.button(ui, "Cancel", "Ends it; what was found before stays", SensitivityCommand::Cancel);
+            cx.button(ui, "Cancel", "Ends it; what was found before stays", Command::CancelTab);
             cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), None);
         } else {
             let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";

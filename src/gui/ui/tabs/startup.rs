@@ -3,7 +3,7 @@
 use super::dropped;
 use crate::digits::percent;
 use crate::export::startup::unsettled;
-use crate::gui::command::StartupCommand;
+use crate::gui::command::{Command, StartupCommand};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
@@ -46,7 +46,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         if cx.state.startup.as_ref().is_some_and(|startup| startup.work.running()) {
             let about = "Ends it; the cycles computed so far stay";
-            cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
+            cx.button(ui, "Cancel the start-up", about, Command::CancelTab);
         } else {
             let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
             let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
@@ -94,7 +94,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     if let Some(Ok(ended)) = &startup.ended {
         cx.warn(ui, &ended.warnings);
     }
-    let (name, stale) = (startup.scene.headline(), startup.stale(cx.state.document.scene()));
+    let (name, stale) = (startup.posed.scene.headline(), startup.stale(cx.state.document.scene()));
     cx.alarm(ui, stale.then(|| format!("Of “{name}” before the scene changed; start again")));
     if let Some(row) = startup.points.get(startup.chosen.wrapping_sub(1)) {
         let text = format!("Shown is {}", views::history::words(row));

@@ -3,7 +3,7 @@
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::digits::capitalised;
-use crate::gui::command::SweepCommand;
+use crate::gui::command::{Command, SweepCommand};
 use crate::gui::state::sweep::{Form, Swept, candidates};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
@@ -85,7 +85,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
         if busy || swept.is_some_and(|swept| !swept.complete()) {
             let about = "Ends it; what is solved stays, and it can go on";
             let button = ui.add_enabled(busy, Button::new("Cancel the sweep"));
-            cx.on_click(&button.hint(about), SweepCommand::Cancel);
+            cx.on_click(&button.hint(about), Command::CancelTab);
         }
         match running {
             _ if building => drop(ui.label("Its points are being made")),

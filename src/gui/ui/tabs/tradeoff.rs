@@ -55,7 +55,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         match running {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
-                cx.button(ui, "Cancel the measurement", hover, Command::CancelMeasure);
+                cx.button(ui, "Cancel the measurement", hover, Command::CancelTab);
                 let (share, left) = (measured.share, measured.left(cx.now));
                 cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), left);
             }

@@ -2,10 +2,10 @@
 
 use super::inset::{Inset, chosen};
 use crate::analysis::quantity::{Numbers, Quantity};
+use crate::digits::raised;
 use crate::estimate::Estimate;
 use crate::export::startup::CycleRow;
 use crate::gui::command::StartupCommand;
-use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::state::startup::StartupState;
 use crate::gui::ui::context::DrawContext;
@@ -71,7 +71,7 @@ const OF_STRIP: &[(Curve, f32)] = &[(RATIO_OF_STRIP, 0.62), (PRESSURE, 0.38)];
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let curves = match &startup.problem.scenario {
+    let curves = match &startup.posed.problem.scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
         Scenario::Plate(plate) if plate.is_strip() => OF_STRIP,
@@ -104,7 +104,7 @@ fn plot(
 ) {
     let points = &startup.points;
     let of = |numbers: &Numbers| numbers.known(curve.of.0) * curve.of.1;
-    let aim = periodic.map(|run| of(&Numbers::of_outcome(&startup.problem, &run.solution.outcome)));
+    let aim = periodic.map(|run| of(&Numbers::of_outcome(&startup.posed.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
     let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
     let (film, good) = (style.palette.film, style.palette.good);

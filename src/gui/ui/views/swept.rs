@@ -4,14 +4,13 @@
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, SweepRow, typical_error};
-use crate::digits::{capitalised, short, significant};
+use crate::digits::{capitalised, raised, short, significant};
 use crate::estimate::Estimate;
 use crate::export::figure::{
     self, Colour, Dash, Layer, Mark, Marker, Panel, Points, Shape, Style, contour, is_contour,
 };
 use crate::export::sweep::{curve_panel, map_panel};
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::raised;
 use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::Swept;
