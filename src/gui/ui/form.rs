@@ -53,10 +53,10 @@ pub(super) fn list(
     show_list(ui, list, entries).called(Role::ComboBox, name).hint(about);
 }
 
-/// A list of the `options` of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.
+/// A list of the options of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.
 pub(super) fn choices(
     ui: &mut Ui,
-    (parameter, options): (&'static Parameter, &[&'static str]),
+    parameter: &'static Parameter,
     name: &str,
     plan: &[Decision],
     width: f32,
@@ -64,7 +64,7 @@ pub(super) fn choices(
 ) -> Response {
     let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, name, plan));
     show_list(ui, list.width(width).truncate(), |ui| {
-        for option in options {
+        for option in parameter.options() {
             // A table is chosen by giving its file, below.
             let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
             let possible = !file || *option == name;

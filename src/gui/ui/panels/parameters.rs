@@ -161,9 +161,7 @@ impl Panel<'_> {
                     number.iter().for_each(|number| self.number_row(ui, parameter, number));
                 }
                 (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
-                (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
-                    self.choice_row(ui, parameter, options, name);
-                }
+                (ParameterKind::Choice { .. }, Some(Value::Text(name))) => self.choice_row(ui, parameter, name),
                 (ParameterKind::Rows { .. }, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
                 (ParameterKind::Records { columns, fewest, .. }, Some(Value::Records(of))) => {
                     self.label_row(ui, parameter);
@@ -348,10 +346,10 @@ impl Panel<'_> {
         });
     }
 
-    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
+    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, name: &str) {
         let named = self.label_row(ui, parameter);
         let width = ui.available_width();
-        let list = choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
+        let list = choices(ui, parameter, name, self.plan, width, self.cx).labelled_by(named.id);
         self.cx.lead_to(ui, parameter.key, list.id);
     }
 
