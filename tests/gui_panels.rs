@@ -10,7 +10,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::decision::{term, words};
 use squeezefilm::analysis::validity::outside;
-use squeezefilm::control::Cancel;
+use squeezefilm::control::{Cancel, Progress};
+use squeezefilm::digits::capitalised;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
@@ -589,7 +590,7 @@ fn run_by(method: Method, preset: &str, set: &[(&str, &str)]) -> SolvedScene {
     let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
     let mut history = Vec::new();
-    let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
+    let mut listen = |progress: &Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
     SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
@@ -610,30 +611,27 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let harness = shown(run, 300.0, 1.0);
     let alpha = result.alpha.to_string();
     harness.get_by_label_contains(&alpha);
-    harness.get_by_label("share of the load carried by air");
     for name in [
+        "share of the load carried by air",
         "Film load",
         "Contact load",
         "Stall torque",
         "Maximum operating torque",
         "Maximum without film",
         "Least film thickness",
+        "Highest pressure",
+        "Squeeze number σ",
+        "12.3 ms",
+        "draft",
     ] {
         harness.get_by_label(name);
     }
-    for name in ["Highest pressure", "Squeeze number σ"] {
-        harness.get_by_label(name);
-    }
-    harness.get_by_label("12.3 ms");
-    harness.get_by_label("draft");
     assert!(harness.query_by_label("Levitated").is_none() && harness.query_by_label("Not converged").is_none());
     // Every decision is there: those with a switch as a combo box, the others in words.
     let decisions = harness.state().solution.model.decisions.clone();
     for decision in decisions {
-        let (first, rest) = term(&decision).split_at(1);
-        let term = first.to_uppercase() + rest;
         match decision.key() {
-            Some(_) => drop(harness.get_by_role_and_label(Role::ComboBox, &term)),
+            Some(_) => drop(harness.get_by_role_and_label(Role::ComboBox, &capitalised(term(&decision)))),
             None => drop(harness.get_by_label_contains(&words(&decision)[1..])),
         }
     }
