@@ -30,7 +30,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let columns = Columns::of(ui, decisions);
     for decision in decisions {
         ui.push_id(decision::term(decision), |ui| match decision.key().and_then(Parameter::find) {
-            Some(parameter) => switch(ui, decision, parameter, (decisions, columns), cx),
+            Some(parameter) => switch(ui, decision, parameter, columns, cx),
             None => fixed(ui, decision, cx),
         });
     }
@@ -112,7 +112,7 @@ impl Columns {
         let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key()?)?)));
         let term = widest(&mut switches().map(|(decision, _)| capitalised(decision::term(decision))));
         // As if anything were decided: rows must not jump when something is.
-        let bound = widest(&mut [0.06, 6e-4].into_iter().map(|share| format!("≤ {}", at_most(share))));
+        let bound = text_width(ui, "≤ 0.06 %");
         let wide = widest(&mut switches().flat_map(|(_, parameter)| {
             parameter.options().iter().map(|option| words::automatic(parameter.key, option))
         }));
@@ -142,17 +142,12 @@ fn switch(
     ui: &mut egui::Ui,
     decision: &Decision,
     parameter: &'static Parameter,
-    (plan, columns): (&[Decision], Columns),
+    columns: Columns,
     cx: &DrawContext<'_>,
 ) {
     let explanation = capitalised(&decision::words(decision));
-    let asked = match cx.state.document.scene().get(parameter.key) {
-        Some(Value::Text(name)) => name,
-        // A scene of the other kind, which is not solved yet.
-        _ => String::new(),
-    };
     let combo = |ui: &mut egui::Ui, width: f32, labelled_by: egui::Id| {
-        let combo = choices(ui, parameter, &asked, plan, width, cx);
+        let combo = choices(ui, parameter, width, cx);
         combo.hint_beside(ui, &explanation).labelled_by(labelled_by);
     };
     let height = ui.spacing().interact_size.y;
@@ -168,7 +163,7 @@ fn switch(
         let named = heading(ui, decision, cx).hint_beside(ui, &explanation);
         combo(ui, ui.available_width(), named.id);
     }
-    if asked != words::AUTO_NAME && !asked.is_empty() {
+    if matches!(cx.state.document.scene().get(parameter.key), Some(Value::Text(name)) if name != words::AUTO_NAME) {
         overruled(ui, decision, Command::Reset(parameter.key), cx);
     }
 }

@@ -13,7 +13,6 @@ use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
-use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, SolvedPlate, Value};
 use crate::solution::Status;
 use eframe::egui::{self, RichText, TextStyle, Ui};
@@ -54,9 +53,8 @@ const FRAME_MARGIN: i8 = 6;
 /// Shows the parameters of the scene, and at each why its last edit was rejected.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
-    let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
     scrolled_anew(ui, "parameters", cx.state.view.opened, 8.0, |ui| {
-        let mut panel = Panel { scene, plan, units: 0.0, cx };
+        let mut panel = Panel { scene, units: 0.0, cx };
         panel.all(ui);
     });
 }
@@ -64,7 +62,6 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 /// Data shared by all rows.
 struct Panel<'a> {
     scene: &'a Scene,
-    plan: &'a [Decision],
     /// Width of the column of units of the present group.
     units: f32,
     cx: &'a DrawContext<'a>,
@@ -161,7 +158,7 @@ impl Panel<'_> {
                     number.iter().for_each(|number| self.number_row(ui, parameter, number));
                 }
                 (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
-                (ParameterKind::Choice { .. }, Some(Value::Text(name))) => self.choice_row(ui, parameter, name),
+                (ParameterKind::Choice { .. }, Some(_)) => self.choice_row(ui, parameter),
                 (ParameterKind::Rows { .. }, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
                 (ParameterKind::Records { columns, fewest, .. }, Some(Value::Records(of))) => {
                     self.label_row(ui, parameter);
@@ -346,10 +343,10 @@ impl Panel<'_> {
         });
     }
 
-    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, name: &str) {
+    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let named = self.label_row(ui, parameter);
         let width = ui.available_width();
-        let list = choices(ui, parameter, name, self.plan, width, self.cx).labelled_by(named.id);
+        let list = choices(ui, parameter, width, self.cx).labelled_by(named.id);
         self.cx.lead_to(ui, parameter.key, list.id);
     }
 
