@@ -2,7 +2,7 @@
 
 use super::field::{self, Field};
 use super::records;
-use crate::digits::{capitalised, significant};
+use crate::digits::{capitalised, counted, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, field_name, label, label_in};
@@ -92,7 +92,7 @@ impl Panel<'_> {
             let layout = egui::Layout::right_to_left(egui::Align::Center);
             let mut beside = ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout));
             if changed > 0 {
-                let values = if changed == 1 { "1 value".to_owned() } else { format!("{changed} values") };
+                let values = counted(changed, "value", "values");
                 let long = format!("{values} changed since it was described");
                 let fits = NOTE_SIZE * text_width(ui, &long) < area.width() - heading.width();
                 let text = if fits { long } else { format!("{values} changed") };
@@ -384,7 +384,7 @@ impl Panel<'_> {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
             ui.label(label(parameter)).hint_beside(ui, &explanation);
-            ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
+            ui.label(RichText::new(counted(rows, "row", "rows")).strong());
         });
         quiet(ui, self.cx, "Edit the table in its file and give the file again");
     }
