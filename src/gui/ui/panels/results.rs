@@ -365,7 +365,3 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
 pub(super) fn shown(value: f64) -> String {
     significant(value, DIGITS)
 }
-
-pub(super) fn span(least: f64, most: f64) -> String {
-    format!("{} … {}", shown(least), shown(most))
-}

@@ -56,8 +56,8 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
                 cx.button(ui, "Cancel the measurement", hover, Command::CancelMeasure);
-                let (share, left) = (measured.share, measured.left(cx.now));
-                cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), left);
+                let share = measured.share;
+                cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), Some((measured.started, share)));
             }
             None => {
                 let about = "Takes up to about a minute; the window stays usable";
