@@ -478,22 +478,15 @@ fn explains(faults: &mut Vec<String>, window: &Window, tab: &str, words: &[&str]
         }
     }
     faults.extend(unexplained(&window.ctx).iter().map(|word| format!("{tab}: {word} is not in the glossary")));
+    use Role::{Button, CheckBox, ComboBox, RadioButton, Slider, SpinButton, TextInput};
     const MENUS: &[&str] = &["File", "Presets", "Edit", "View", "Lessons", "Help"];
-    const USED: &[Role] = &[
-        Role::Button,
-        Role::CheckBox,
-        Role::ComboBox,
-        Role::TextInput,
-        Role::SpinButton,
-        Role::Slider,
-        Role::RadioButton,
-    ];
     for (role, name, text) in &told {
         // The number beside a slider is part of it.
         let beside = |(other, label, text): &(Role, String, Option<String>)| {
             *role == Role::SpinButton && *other == Role::Slider && label == name && text.is_some()
         };
-        let used = USED.contains(role) && !MENUS.contains(&name.as_str()) && !told.iter().any(beside);
+        let used = matches!(role, Button | CheckBox | ComboBox | TextInput | SpinButton | Slider | RadioButton);
+        let used = used && !MENUS.contains(&name.as_str()) && !told.iter().any(beside);
         if used && text.as_ref().is_none_or(String::is_empty) {
             faults.push(format!("{tab}: {role:?} {name} says nothing on hover"));
         }
