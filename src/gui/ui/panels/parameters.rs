@@ -39,8 +39,6 @@ pub const GROUPS: &[(&str, &str, bool)] = &[
     ("numerics", "Numerics", false),
 ];
 
-/// Width of a field for numbers, in heights of the text.
-const FIELD_WIDTH: f32 = 4.4;
 /// Digits of a value that follows from others.
 const FOLLOWING_DIGITS: usize = 4;
 /// Narrowest slider.
@@ -234,10 +232,8 @@ impl Panel<'_> {
             parameter.absent.is_some() && parameter.switch.to_lowercase().contains(&label(parameter).to_lowercase());
         let name = if said { None } else { Some(self.label_row(ui, parameter)) };
         ui.horizontal(|ui| {
-            let em = ui.text_style_height(&TextStyle::Body);
-            let field = FIELD_WIDTH * em;
-            let gaps = 2.0 * ui.spacing().item_spacing.x;
-            ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
+            let others = field::number_width(ui) + self.units + 2.0 * ui.spacing().item_spacing.x;
+            ui.spacing_mut().slider_width = (ui.available_width() - others).max(SHORTEST_SLIDER);
             // What has no effect here can be read, and not set.
             if !self.scene.heeds(parameter.key) {
                 ui.disable();
@@ -247,23 +243,11 @@ impl Panel<'_> {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
             };
-            let typed = field_name(parameter);
-            self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
+            let field = Field { key: parameter.key, value: Some(value), name: &field_name(parameter), hint: "" };
+            field.show(ui, self.cx).hint_beside(ui, &explanation);
             let unit = RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet);
             ui.add(egui::Label::new(unit).selectable(false).extend());
         });
-    }
-
-    /// A field for the value of a parameter, on one line.
-    fn field<'f>(
-        &'f self,
-        parameter: &'static Parameter,
-        value: Option<&'f Value>,
-        name: &'f str,
-        width: f32,
-    ) -> Field<'f> {
-        let refused = self.cx.state.rejected.of(parameter.key);
-        Field { key: parameter.key, value, name, hint: "", refused, width, wrapped: false }
     }
 
     fn slider(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
@@ -352,15 +336,14 @@ impl Panel<'_> {
 
     fn text_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) {
         let name = label(parameter);
-        let field = Field { hint: name, wrapped: true, ..self.field(parameter, Some(value), name, f32::INFINITY) };
+        let field = Field { key: parameter.key, value: Some(value), name, hint: name };
         field.show(ui, self.cx).hint_beside(ui, parameter.about);
     }
 
     fn path_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let about = format!("{}\n{}", parameter.about, parameter.key);
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
-        let field = self.field(parameter, None, label(parameter), f32::INFINITY);
-        let field = Field { hint: "path, then Enter", ..field };
+        let field = Field { key: parameter.key, value: None, name: label(parameter), hint: "path, then Enter" };
         let columns = match parameter.key {
             "surface.heights_csv" => {
                 "A grid of heights after lines # dx_um = …, # dy_um = … and # height = nm, or a profile with columns x_um and z_nm"
