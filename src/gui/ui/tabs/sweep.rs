@@ -110,9 +110,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
             }
         }
         quantity(ui, cx);
-        if swept.is_some_and(|swept| !swept.rows.is_empty()) {
-            export_button(ui, SWEEP, cx);
-        }
+        export_button(ui, SWEEP, cx);
     });
 }
 
