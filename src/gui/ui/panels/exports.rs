@@ -22,7 +22,6 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             ui.label(if running.work.cancelled { "Ending…" } else { running.export.title() });
         });
-        ui.ctx().request_repaint_after(Duration::from_secs(1));
     } else if let Some(paths) = exports.written() {
         ui.horizontal(|ui| {
             cx.small_button(ui, ("✕", "Closes this note"), "Close the note", Command::CloseExportNote);
