@@ -1059,7 +1059,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
 #[test]
 fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
     let known = WindowNames { tabs: TABS, places: squeezefilm::gui::state::lessons::PLACES };
-    // What is changed, into what, words of the line at fault if it is another one, and what is told of it.
+    // What is changed, into what, words of the line at fault, and what is told of it.
     let mutations = [
         ("\"plate-trapped\"", "\"plate-traped\"", "", "no such file beside lesson.md | plate-traped"),
         ("preset = \"plate-trapped\"", "", "## ", "setup.preset is missing"),
@@ -1108,6 +1108,7 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
     for (good, bad, place, parts) in mutations {
         assert_eq!(GOOD.matches(good).count(), 1, "{good}");
         let lesson = GOOD.replacen(good, bad, 1);
+        // Without words it is the line that was changed.
         let at_fault = |(line, was): (&str, &str)| if place.is_empty() { line != was } else { line.contains(place) };
         let line = lesson.lines().zip(GOOD.lines()).position(at_fault).unwrap() + 1;
         let folder = tempfile::tempdir().unwrap();
