@@ -215,10 +215,7 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     assert!(part > 0 && part < 1000, "{part}");
     window.get_by_label_contains("Cancelled");
     // A second click in the same place is one too many, and does nothing.
-    window.drag_at(place);
-    window.step();
-    window.drop_at(place);
-    window.run_steps(3);
+    click_at(&mut window, place);
     assert!(!swept(window.state()).running && swept(window.state()).rows.len() == part);
     window.click_on("Continue");
     assert!(swept(window.state()).running);
@@ -237,12 +234,9 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     let before = swept(window.state()).rows.to_vec();
     window.open_list("Result shown");
     window.click_on("Film load, N");
-    assert_eq!(window.known().sweep.quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
+    let quantities = swept(window.state()).sweep.quantities();
+    assert_eq!(window.known().sweep.quantity(&quantities), Quantity::FilmLoad);
     assert!(!swept(window.state()).running && swept(window.state()).rows == before);
-}
-
-fn sweep_quantities(window: &Window) -> Vec<Quantity> {
-    swept(window.state()).sweep.quantities()
 }
 
 /// Starts the sweep, and waits for its end.
@@ -270,10 +264,7 @@ fn a_point_is_read_and_opened_as_one_edit() {
     window.run_steps(20);
     window.get_by_label_contains("Click to make this the present scene");
     let before = window.known().document.scene().clone();
-    window.drag_at(at);
-    window.step();
-    window.drop_at(at);
-    window.run_steps(3);
+    click_at(&mut window, at);
     let opened = window.known().document.scene().clone();
     assert_eq!(opened, swept(window.state()).sweep.scene_at(3).unwrap());
     assert!(window.query_by_label_contains("before the scene changed").is_none(), "it is a point of the sweep");
@@ -297,17 +288,13 @@ fn a_double_click_brings_a_moved_chart_back_and_opens_no_point() {
     }
     window.run_steps(100);
     assert_eq!(window.known().document.scene(), &before, "it was dragged, and two clicks bring it back");
-    window.drag_at(to);
-    window.drop_at(to);
-    window.run_steps(3);
+    click_at(&mut window, to);
     let point = |window: &Window, place: usize| swept(window.state()).sweep.scene_at(place).unwrap();
     assert_eq!(window.known().document.scene(), &point(&window, 3), "one click opens a point");
     // Where a click may be the first of two it waits.
     drag(&mut window, from, to);
     window.run_steps(100);
-    window.drag_at(to);
-    window.drop_at(to);
-    window.run_steps(3);
+    click_at(&mut window, to);
     assert_eq!(window.known().document.scene(), &point(&window, 3));
     window.run_steps(60);
     assert_eq!(window.known().document.scene(), &point(&window, 1));
@@ -378,26 +365,11 @@ fn what_is_exported_is_what_the_command_line_writes() {
     let at = |name: &str| -> PathBuf { folder.path().join(name) };
     let mut window = once_solved(window("plate-crossover"));
     export(&mut window, "All results, into a folder…", &at("results"));
-    let expected = [
-        "convergence.png",
-        "convergence.svg",
-        "exact.png",
-        "exact.svg",
-        "fields.csv",
-        "fields.npz",
-        "loads.png",
-        "loads.svg",
-        "loop.png",
-        "loop.svg",
-        "map.png",
-        "map.svg",
-        "pressure.csv",
-        "profile.png",
-        "profile.svg",
-        "scene.toml",
-        "series.csv",
-        "summary.json",
-    ];
+    let figures = ["convergence", "exact", "loads", "loop", "map", "profile"];
+    let figures = figures.iter().flat_map(|name| ["png", "svg"].map(|format| format!("{name}.{format}")));
+    let data = ["fields.csv", "fields.npz", "pressure.csv", "scene.toml", "series.csv", "summary.json"];
+    let mut expected: Vec<String> = figures.chain(data.map(str::to_owned)).collect();
+    expected.sort();
     assert_eq!(names(&at("results")), expected);
     window.get_by_label_contains("Wrote 18 files");
     let summary: serde_json::Value =
@@ -506,22 +478,15 @@ fn explains(faults: &mut Vec<String>, window: &Window, tab: &str, words: &[&str]
         }
     }
     faults.extend(unexplained(&window.ctx).iter().map(|word| format!("{tab}: {word} is not in the glossary")));
+    use Role::{Button, CheckBox, ComboBox, RadioButton, Slider, SpinButton, TextInput};
     const MENUS: &[&str] = &["File", "Presets", "Edit", "View", "Lessons", "Help"];
-    const USED: &[Role] = &[
-        Role::Button,
-        Role::CheckBox,
-        Role::ComboBox,
-        Role::TextInput,
-        Role::SpinButton,
-        Role::Slider,
-        Role::RadioButton,
-    ];
     for (role, name, text) in &told {
         // The number beside a slider is part of it.
         let beside = |(other, label, text): &(Role, String, Option<String>)| {
             *role == Role::SpinButton && *other == Role::Slider && label == name && text.is_some()
         };
-        let used = USED.contains(role) && !MENUS.contains(&name.as_str()) && !told.iter().any(beside);
+        let used = matches!(role, Button | CheckBox | ComboBox | TextInput | SpinButton | Slider | RadioButton);
+        let used = used && !MENUS.contains(&name.as_str()) && !told.iter().any(beside);
         if used && text.as_ref().is_none_or(String::is_empty) {
             faults.push(format!("{tab}: {role:?} {name} says nothing on hover"));
         }
@@ -846,8 +811,7 @@ fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
 fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let mut window = once_solved(window("fundamental"));
     window.ctrl(Key::Num9);
-    let state = |window: &Window| -> bool { window.known().sensitivity.found.is_some() };
-    assert!(!state(&window), "nothing is computed before it is asked for");
+    assert!(window.known().sensitivity.found.is_none(), "nothing is computed before it is asked for");
     window.click_on("Compute sensitivities");
     until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
     let scene = presets::find("fundamental").unwrap();
@@ -1062,6 +1026,13 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
         until(&mut window, "the others", |app| app.state().pins.waiting.is_empty());
         assert_eq!(window.known().pins.runs.len(), left_over);
     }
+}
+
+/// Presses and lets go.
+fn click_at(window: &mut Window, place: Pos2) {
+    window.drag_at(place);
+    window.drop_at(place);
+    window.run_steps(3);
 }
 
 /// Presses at `from`, moves to `to`, lets go.

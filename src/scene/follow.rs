@@ -19,9 +19,12 @@ struct Following {
     value: fn(&Scene, &str) -> Option<f64>,
 }
 
+/// `[numerator, denominator]` of a factor.
+type Factor = fn(&Scene) -> Option<[f64; 2]>;
+
 /// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
-/// one, as `[numerator, denominator]` of a fraction. It depends on the scene.
-const ALTERNATIVES: &[(&str, fn(&Scene) -> Option<[f64; 2]>)] = &[
+/// one, which depends on the scene.
+const ALTERNATIVES: &[(&str, Factor)] = &[
     ("motor.load_n", |scene| Some([scene.number("motor.waves").ok()?, 1.0])),
     ("motor.rotor_speed_mm_per_s", |scene| Some([TAU * scene.number("motor.contact_radius_mm").ok()?, 60.0])),
     ("stator.tooth_share", |scene| Some([1.0, scene.pitch_mm().ok()?])),

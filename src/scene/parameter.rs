@@ -263,6 +263,14 @@ impl Parameter {
         }
     }
 
+    /// The names of a choice; none of anything else.
+    pub fn options(&self) -> &'static [&'static str] {
+        match self.kind {
+            ParameterKind::Choice { options, .. } => options,
+            _ => &[],
+        }
+    }
+
     /// The value of an absent key; `None` if its absence has a meaning of its own.
     pub fn default(&self) -> Option<Value> {
         self.usual().filter(|_| self.absent.is_none())

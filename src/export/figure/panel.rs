@@ -73,6 +73,10 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
     svg.close();
 }
 
+/// A name, where it is, and the line to what it names if that is not beside it.
+#[cfg(feature = "gui")]
+pub(crate) type PlacedName = (String, [f64; 2], Option<[[f64; 2]; 2]>);
+
 /// The names of places, the upper left corner of each, and the line from the place to one that is farther away, where a figure has them, for
 /// another drawing of the panel: an area of this width and height \[pt\] with the axes between these ends, and words of the width and height
 /// that `words` tells.
@@ -82,7 +86,7 @@ pub(crate) fn names(
     ends: [[f64; 2]; 2],
     [width, height]: [f64; 2],
     words: impl Fn(&str) -> [f64; 2],
-) -> Vec<(String, [f64; 2], Option<[[f64; 2]; 2]>)> {
+) -> Vec<PlacedName> {
     let ruler =
         |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
     let placed = Placed {

@@ -197,11 +197,9 @@ impl Swept {
         self.rows.len() as f64 / self.sweep.len().max(1) as f64
     }
 
-    /// Time that is left \[s\], as far as can be said.
-    pub fn left(&self, now: Instant) -> Option<f64> {
-        let done = self.rows.len().checked_sub(self.before).filter(|done| *done > 0)?;
-        let spent = now.saturating_duration_since(self.started).as_secs_f64();
-        Some(spent * (self.sweep.len() - self.rows.len()) as f64 / done as f64)
+    /// When it was begun or continued, and the share that was done since.
+    pub fn since(&self) -> (Instant, f64) {
+        (self.started, self.rows.len().saturating_sub(self.before) as f64 / self.sweep.len().max(1) as f64)
     }
 
     /// Whether `scene` differs from the swept scene in more than the varied parameters.

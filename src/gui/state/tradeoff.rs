@@ -20,7 +20,8 @@ pub struct TradeoffState {
     pub work: BackgroundOf<TradeoffWork>,
     /// The scene that is measured.
     pub scene: Scene,
-    started: Instant,
+    /// When it began.
+    pub started: Instant,
     /// Share of the work that is done, 0 to 1.
     pub share: f64,
     /// The results so far.
@@ -40,12 +41,6 @@ impl TradeoffState {
             (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
         }
         found.into_iter().for_each(|runs| self.tradeoff = Tradeoff::of(&runs));
-    }
-
-    /// Time that is left \[s\], as far as can be said.
-    pub fn left(&self, now: Instant) -> Option<f64> {
-        let spent = now.saturating_duration_since(self.started).as_secs_f64();
-        (self.share > 0.0).then(|| spent * (1.0 - self.share) / self.share)
     }
 
     /// Whether `scene` is another one than was measured. Its grid does not matter: each setting brings its own.

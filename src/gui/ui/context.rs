@@ -109,9 +109,14 @@ impl<'a> DrawContext<'a> {
         self.on_click(&ui.small_button(text).hint(about).accessible_name(name), command);
     }
 
-    /// A progress bar: the share done, 0 to 1, with words and the time that is left \[s\], if it is known.
-    pub fn progress(&self, ui: &mut Ui, width: f32, share: f64, words: &str, left: Option<f64>) {
-        let left = left.map_or_else(String::new, |left| format!(", {} left", rough(left)));
+    /// A progress bar: the share done, 0 to 1, with words, and the time that is left if the rest goes as the share that was done `since` a
+    /// moment.
+    pub fn progress(&self, ui: &mut Ui, width: f32, share: f64, words: &str, since: Option<(Instant, f64)>) {
+        let since = since.filter(|(_, done)| *done > 0.0 && share < 1.0);
+        let left = since.map_or_else(String::new, |(start, done)| {
+            let spent = self.now.saturating_duration_since(start).as_secs_f64();
+            format!(", {} left", rough(spent * (1.0 - share) / done))
+        });
         ui.add(egui::ProgressBar::new(share as f32).desired_width(width).text(format!("{words}{left}")));
         // What is left grows less even while nothing new is told.
         ui.ctx().request_repaint_after(Duration::from_secs(1));

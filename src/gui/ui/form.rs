@@ -5,7 +5,6 @@ use super::hint::Hint;
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, chosen, label};
 use crate::gui::state::sweep::AxisForm;
-use crate::plan::Decision;
 use crate::scene::{Parameter, Value};
 use eframe::egui::{Button, ComboBox, Key, Response, RichText, Role, TextEdit, TextStyle, Ui};
 
@@ -53,18 +52,17 @@ pub(super) fn list(
     show_list(ui, list, entries).called(Role::ComboBox, name).hint(about);
 }
 
-/// A list of the `options` of a parameter, of which `name` is chosen, or left to the `plan`; another one is set at once.
-pub(super) fn choices(
-    ui: &mut Ui,
-    (parameter, options): (&'static Parameter, &[&'static str]),
-    name: &str,
-    plan: &[Decision],
-    width: f32,
-    cx: &DrawContext<'_>,
-) -> Response {
-    let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, name, plan));
+/// A list of the options of a parameter, with what the plan decides if it is left to that; another one is set at once.
+pub(super) fn choices(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx: &DrawContext<'_>) -> Response {
+    let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
+    let name = match cx.state.document.scene().get(parameter.key) {
+        Some(Value::Text(name)) => name,
+        // The switch of a run whose scene is of the other kind.
+        _ => String::new(),
+    };
+    let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, &name, plan));
     show_list(ui, list.width(width).truncate(), |ui| {
-        for option in options {
+        for option in parameter.options() {
             // A table is chosen by giving its file, below.
             let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
             let possible = !file || *option == name;

@@ -7,7 +7,7 @@ use crate::scene::quantity_text;
 use crate::scene::show_text;
 use eframe::egui::style::ScrollAnimation;
 use eframe::egui::{
-    Button, Color32, DragValue, Event, Grid, Id, Key, Rangef, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
+    Button, DragValue, Event, Grid, Id, Key, Rangef, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
 };
 use std::cell::Cell;
 use std::fmt::Debug;
@@ -120,15 +120,21 @@ pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: imp
     }
 }
 
-/// Column heads, each with its glossary term; an empty term leaves the head unexplained.
-pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], colour: Color32) {
+/// A row of column heads, each with its glossary term; an empty term leaves the head unexplained.
+pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], cx: &DrawContext<'_>) {
     for (head, word) in heads {
-        let head = RichText::new(*head).color(colour);
+        let head = RichText::new(*head).color(cx.colours.quiet);
         match word.is_empty() {
             true => ui.label(head),
             false => glossary::term(ui, head, word),
         };
     }
+    ui.end_row();
+}
+
+/// A number and its unit, which no line break divides.
+pub(super) fn joined(text: &str) -> String {
+    text.replace(' ', "\u{a0}")
 }
 
 /// Shows what `add` draws over the whole height that there is, and scrolls it. At the right `bar` is left free: for the scroll bar, which

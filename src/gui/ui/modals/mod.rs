@@ -1,8 +1,27 @@
-//! Overlays: questions, the sheet of shortcuts, the tour, the glossary.
+//! Overlays: questions, the sheet of shortcuts, the tour, the glossary; and what modal ones have in common.
 
-pub mod frame;
 pub mod glossary;
 mod new_motor;
 pub mod question;
 pub mod shortcuts;
 pub mod tour;
+
+use crate::gui::command::Command;
+use eframe::egui::{self, RichText, Ui};
+
+/// Margin around the contents \[points\].
+const MARGIN: i8 = 18;
+
+/// Commands to carry out when the dialog is closed; `None` until it is answered.
+type Answer = Option<Vec<Command>>;
+
+/// The frame of all modals: as that of a popup, with room inside.
+fn frame(ctx: &egui::Context) -> egui::Frame {
+    egui::Frame::popup(&ctx.global_style()).inner_margin(MARGIN)
+}
+
+/// The heading, in large letters.
+fn heading(ui: &mut Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).heading()).wrap());
+    ui.add_space(8.0);
+}

@@ -1,6 +1,6 @@
 //! The questions of a new motor, with what is assumed where there is no answer.
 
-use super::frame::{Answer, heading};
+use super::{Answer, heading};
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, label};
 use crate::gui::ui::context::DrawContext;

@@ -1,7 +1,6 @@
 //! Errors, questions and the prompt for a path, drawn.
 
-use super::frame::{Answer, frame, heading};
-use super::new_motor;
+use super::{Answer, frame, heading, new_motor};
 use crate::citation::{LICENCE, VERSION, bibtex};
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::Purpose;
@@ -52,8 +51,7 @@ fn error(ui: &mut Ui, message: &str) -> Answer {
         ui.add(egui::Label::new(message).wrap());
     });
     ui.add_space(12.0);
-    let close = first_button(ui, "Close");
-    close.clicked().then(Vec::new)
+    first_button(ui, "Close").clicked().then(Vec::new)
 }
 
 fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
@@ -80,8 +78,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         cx.on_click(&ui.button("Copy citation"), Command::CopyCitation);
-        let close = first_button(ui, "Close");
-        close.clicked().then(Vec::new)
+        first_button(ui, "Close").clicked().then(Vec::new)
     })
     .inner
 }
@@ -93,7 +90,7 @@ fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
         ("Don't save", vec![Command::DiscardThen(next.clone())]),
         ("Keep editing", Vec::new()),
     ];
-    buttons(ui, answers)
+    buttons(ui, 0, answers)
 }
 
 fn changed_elsewhere(ui: &mut Ui, path: &Path, then: Option<&Next>) -> Answer {
@@ -106,15 +103,15 @@ fn changed_elsewhere(ui: &mut Ui, path: &Path, then: Option<&Next>) -> Answer {
         ("Replace it", vec![Command::Replace(then.cloned())]),
         ("Keep editing", Vec::new()),
     ];
-    buttons(ui, answers)
+    buttons(ui, 0, answers)
 }
 
-/// A row of buttons, the first of which has the keyboard: what the one that is clicked does.
-fn buttons<const N: usize>(ui: &mut Ui, answers: [(&str, Vec<Command>); N]) -> Answer {
+/// A row of buttons, one of which has the keyboard: what the one that is clicked does.
+fn buttons<const N: usize>(ui: &mut Ui, first: usize, answers: [(&str, Vec<Command>); N]) -> Answer {
     ui.horizontal_wrapped(|ui| {
         let mut clicked = None;
         for (i, (text, commands)) in answers.into_iter().enumerate() {
-            let button = if i == 0 { first_button(ui, text) } else { ui.button(text) };
+            let button = if i == first { first_button(ui, text) } else { ui.button(text) };
             if button.clicked() {
                 clicked = Some(commands);
             }
@@ -130,12 +127,7 @@ fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
         ui.add(egui::Label::new(what).wrap());
     }
     ui.add_space(12.0);
-    ui.horizontal_wrapped(|ui| {
-        let quit = ui.button("Quit anyway").clicked();
-        let wait = first_button(ui, "Keep the window open");
-        if quit { Some(vec![Command::QuitAnyway]) } else { wait.clicked().then(Vec::new) }
-    })
-    .inner
+    buttons(ui, 1, [("Quit anyway", vec![Command::QuitAnyway]), ("Keep the window open", Vec::new())])
 }
 
 fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {

@@ -1,6 +1,6 @@
 //! The sheet of keyboard shortcuts.
 
-use super::frame::frame;
+use super::frame;
 use crate::gui::command::Command;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::keys::{self, GROUPS, Shortcut, WINDOW};

@@ -15,16 +15,13 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             cx.button(ui, "Cancel the export", "Ends it; nothing is written", Command::CancelExport);
             let (drawn, all) = running.drawn;
             if all > 0 {
-                let spent = cx.now.saturating_duration_since(running.started).as_secs_f64();
-                let left = spent * (all - drawn.min(all)) as f64 / drawn.max(1) as f64;
-                let left = (drawn > 0 && drawn < all).then_some(left);
-                cx.progress(ui, 220.0, drawn as f64 / all as f64, &format!("{drawn} of {all} pictures"), left);
+                let (share, words) = (drawn as f64 / all as f64, format!("{drawn} of {all} pictures"));
+                cx.progress(ui, 220.0, share, &words, Some((running.started, share)));
             } else {
                 ui.spinner();
             }
             ui.label(if running.work.cancelled { "Ending…" } else { running.export.title() });
         });
-        ui.ctx().request_repaint_after(Duration::from_secs(1));
     } else if let Some(paths) = exports.written() {
         ui.horizontal(|ui| {
             cx.small_button(ui, ("✕", "Closes this note"), "Close the note", Command::CloseExportNote);

@@ -8,8 +8,10 @@ use crate::gui::ui::hint::text_width;
 use crate::scene::Value;
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
-use eframe::egui::{self, Id, Key};
+use eframe::egui::{self, Id, Key, TextStyle};
 
+/// Width of a field for numbers, in heights of the text.
+const NUMBER: f32 = 4.4;
 /// Most and fewest significant digits of a number that is not being edited: as many as fit. With the cursor in the field it has all.
 const DIGITS: usize = 6;
 const FEWEST_DIGITS: usize = 3;
@@ -44,12 +46,6 @@ pub struct Field<'a> {
     pub name: &'a str,
     /// Placeholder of an empty field.
     pub hint: &'static str,
-    /// Why the last text was refused.
-    pub refused: Option<&'a str>,
-    /// Width of the text.
-    pub width: f32,
-    /// Whether long text continues on further lines.
-    pub wrapped: bool,
 }
 
 impl Field<'_> {
@@ -57,16 +53,20 @@ impl Field<'_> {
     pub fn show(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>) -> egui::Response {
         let id = id_of(self.key);
         let present = self.value.map(plain).unwrap_or_default();
-        let edit = self.pending(ui, id);
+        let refused = cx.state.rejected.of(self.key).is_some();
+        let edit = pending(ui, id, refused);
         let focused = ui.memory(|memory| memory.has_focus(id));
         let mut text = match (&edit, self.value) {
             (Some(edit), _) => edit.text.clone(),
-            (None, Some(Value::Number(number))) if !focused => self.fitting(ui, *number),
+            (None, Some(Value::Number(number))) if !focused => fitting(ui, *number),
             (None, _) => present.clone(),
         };
-        let alarmed = self.refused.is_some() && edit.is_some();
-        let free = matches!(self.value, None | Some(Value::Text(_)));
-        let editor = if self.wrapped && text.len() <= LONGEST_WRAPPED {
+        let alarmed = refused && edit.is_some();
+        let (align, width) = match self.value {
+            None | Some(Value::Text(_)) => (egui::Align2::LEFT_CENTER, f32::INFINITY),
+            Some(_) => (egui::Align2::RIGHT_CENTER, number_width(ui)),
+        };
+        let editor = if matches!(self.value, Some(Value::Text(_))) && text.len() <= LONGEST_WRAPPED {
             egui::TextEdit::multiline(&mut text).desired_rows(1).return_key(None)
         } else {
             egui::TextEdit::singleline(&mut text)
@@ -74,8 +74,8 @@ impl Field<'_> {
         let entered = focused && ui.input(|input| input.key_pressed(Key::Enter));
         let response = editor
             .id(id)
-            .desired_width(self.width)
-            .align(if free { egui::Align2::LEFT_CENTER } else { egui::Align2::RIGHT_CENTER })
+            .desired_width(width)
+            .align(align)
             .hint_text(self.hint)
             .text_color_opt(alarmed.then_some(cx.colours.alarm))
             .show(ui)
@@ -94,39 +94,13 @@ impl Field<'_> {
             if typing || edit.is_some() {
                 keep(ui, id, text, Stage::Typing);
             }
-        } else if typing || (self.refused.is_some() && response.lost_focus() && escaped) {
+        } else if typing || (refused && response.lost_focus() && escaped) {
             // A field that was not shown for a while has not been left just now.
             let left = response.lost_focus() && !escaped;
             let handed = if entered { Stage::Entered } else { Stage::Left };
             self.finish(ui, id, &text, (left && text.trim() != present).then_some(handed), cx);
         }
         response
-    }
-
-    /// The number, with as many digits as fit.
-    fn fitting(&self, ui: &egui::Ui, number: f64) -> String {
-        let room = self.width.min(ui.available_width()) - 2.0 * ui.spacing().button_padding.x;
-        let text = |digits| plain(&Value::Number(rounded(number, digits)));
-        let fits = |digits: &usize| text_width(ui, &text(*digits)) <= room;
-        text((FEWEST_DIGITS..=DIGITS).rev().find(fits).unwrap_or(FEWEST_DIGITS))
-    }
-
-    /// Text that differs from the scene, if there is any.
-    fn pending(&self, ui: &egui::Ui, id: Id) -> Option<Edit> {
-        let edit: Edit = ui.data(|data| data.get_temp(id))?;
-        match edit.stage {
-            Stage::Typing => {}
-            _ if self.refused.is_none() => {
-                ui.data_mut(|data| data.remove::<Edit>(id));
-                return None;
-            }
-            Stage::Entered => {
-                ui.memory_mut(|memory| memory.request_focus(id));
-                keep(ui, id, edit.text.clone(), Stage::Left);
-            }
-            Stage::Left => {}
-        }
-        Some(edit)
     }
 
     /// The cursor has left the field: hands the text over at this stage, or drops it.
@@ -137,7 +111,7 @@ impl Field<'_> {
             return;
         }
         ui.data_mut(|data| data.remove::<Edit>(id));
-        if let (Some(_), Some(value)) = (self.refused, self.value) {
+        if let (Some(_), Some(value)) = (cx.state.rejected.of(self.key), self.value) {
             // Setting what is already set takes the refusal back.
             cx.push(Command::Set { key: self.key, value: value.clone(), dragging: false });
         }
@@ -153,6 +127,37 @@ impl Field<'_> {
             _ => Command::SetText(self.key, text.trim().to_owned()),
         }
     }
+}
+
+/// Width of a field for a number \[points\].
+pub fn number_width(ui: &egui::Ui) -> f32 {
+    NUMBER * ui.text_style_height(&TextStyle::Body)
+}
+
+/// The number, with as many digits as fit.
+fn fitting(ui: &egui::Ui, number: f64) -> String {
+    let room = number_width(ui).min(ui.available_width()) - 2.0 * ui.spacing().button_padding.x;
+    let text = |digits| plain(&Value::Number(rounded(number, digits)));
+    let fits = |digits: &usize| text_width(ui, &text(*digits)) <= room;
+    text((FEWEST_DIGITS..=DIGITS).rev().find(fits).unwrap_or(FEWEST_DIGITS))
+}
+
+/// Text that differs from the scene, if there is any.
+fn pending(ui: &egui::Ui, id: Id, refused: bool) -> Option<Edit> {
+    let edit: Edit = ui.data(|data| data.get_temp(id))?;
+    match edit.stage {
+        Stage::Typing => {}
+        _ if !refused => {
+            ui.data_mut(|data| data.remove::<Edit>(id));
+            return None;
+        }
+        Stage::Entered => {
+            ui.memory_mut(|memory| memory.request_focus(id));
+            keep(ui, id, edit.text.clone(), Stage::Left);
+        }
+        Stage::Left => {}
+    }
+    Some(edit)
 }
 
 /// Whether the field of `key` holds text that is not in the scene.

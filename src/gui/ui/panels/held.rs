@@ -1,6 +1,6 @@
 //! The right panel beside a plate in the hand: the numbers of its film now.
 
-use super::results::{headline, number, section, shown, span};
+use super::results::{headline, number, section, shown};
 use crate::estimate::Estimate;
 use crate::gui::derived::format::{time, uncertain};
 use crate::gui::state::hold::HoldState;
@@ -28,7 +28,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         cx.note(ui, format!("force of the film on the plate, positive if it pushes{mean}"));
         ui.add_space(4.0);
         let [least, most] = hold.force_range;
-        number(ui, cx, "Since it was at rest", &span(least, most), unit);
+        number(ui, cx, "Since it was at rest", &format!("{} … {}", shown(least), shown(most)), unit);
         number(ui, cx, area, &shown(reading.ratio), "");
         section(ui, "Gap");
         number(ui, cx, if free { "Gap, mean" } else { "Held gap" }, &shown(reading.gap * 1e6), "µm");

@@ -73,20 +73,19 @@ pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'
 }
 
 /// A tinted box with a title.
-fn boxed<R>(ui: &mut Ui, colour: Color32, title: &str, add: impl FnOnce(&mut Ui) -> R) -> R {
+fn boxed(ui: &mut Ui, colour: Color32, title: &str, add: impl FnOnce(&mut Ui)) {
     let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.13);
     let line = egui::Stroke::new(1.0, ui.visuals().panel_fill.lerp_to_gamma(colour, 0.45));
     let frame =
         egui::Frame::new().fill(ground).stroke(line).corner_radius(6).inner_margin(egui::Margin::symmetric(10, 8));
-    let shown = frame.show(ui, |ui| {
+    frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 5.0;
         // Buttons keep an edge on the tinted ground.
         ui.visuals_mut().widgets.inactive.bg_stroke = line;
         ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
-        add(ui)
+        add(ui);
     });
-    shown.inner
 }
 
 fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawContext<'_>) {

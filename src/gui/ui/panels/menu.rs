@@ -94,17 +94,17 @@ pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport
 /// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
 
-/// A button with a menu of exports.
+/// A button with a menu of exports, once there is something to export.
 pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) {
-    let button = menu(ui, "Export ▾", &mut |ui| {
-        group.iter().for_each(|export| export_item(ui, *export, true, cx));
-    });
-    button.hint("Writes this to files, as the command line does");
+    if group.iter().any(|export| cx.state.can_export(*export)) {
+        let button = menu(ui, "Export ▾", &mut |ui| group.iter().for_each(|export| export_item(ui, *export, cx)));
+        button.hint("Writes this to files, as the command line does");
+    }
 }
 
-fn export_item(ui: &mut egui::Ui, export: Export, enabled: bool, cx: &DrawContext<'_>) {
+fn export_item(ui: &mut egui::Ui, export: Export, cx: &DrawContext<'_>) {
     let Described { entry, about, .. } = export.described();
-    let entry = ui.add_enabled(enabled, Button::new(entry));
+    let entry = ui.add_enabled(cx.state.can_export(export), Button::new(entry));
     take(ui, beside(ui.max_rect(), entry, about), Command::Ask(Purpose::Export(export)), cx);
 }
 
@@ -113,7 +113,7 @@ fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if i > 0 {
             ui.separator();
         }
-        group.iter().for_each(|export| export_item(ui, *export, cx.state.can_export(*export), cx));
+        group.iter().for_each(|export| export_item(ui, *export, cx));
     }
 }
 
@@ -164,7 +164,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
         item(ui, "Read lessons of folders again", !state.folders.is_empty(), LessonCommand::Reload, cx);
     }
-    export_item(ui, Export::Answers, cx.state.can_export(Export::Answers), cx);
+    export_item(ui, Export::Answers, cx);
     if !state.faults.is_empty() {
         item(ui, "What was wrong with lessons…", true, LessonCommand::Faults, cx);
     }

@@ -6,7 +6,6 @@ use crate::analysis::tradeoff::without_grid;
 use crate::digits::{capitalised, power_of_ten, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::words;
-use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
@@ -14,7 +13,7 @@ use crate::gui::ui::form::choices;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
-use crate::scene::{Parameter, ParameterKind, Scene, Value};
+use crate::scene::{Parameter, Value};
 use eframe::egui::{self, Align, Layout, RichText, TextStyle, vec2};
 
 /// Width that a combo box needs beside its text, in heights of the text.
@@ -26,13 +25,12 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         changed(ui, &effect, cx);
     }
     let decisions = &run.solution.model.decisions;
+    target(ui, cx);
     let columns = Columns::of(ui, decisions);
-    let row = SwitchRow { run, columns, cx };
-    row.target(ui);
     for decision in decisions {
         ui.push_id(decision::term(decision), |ui| match decision.key().and_then(Parameter::find) {
-            Some(parameter) => row.switch(ui, decision, parameter),
-            None => row.fixed(ui, decision),
+            Some(parameter) => switch(ui, decision, parameter, columns, cx),
+            None => fixed(ui, decision, cx),
         });
     }
     ui.add_space(4.0);
@@ -56,7 +54,7 @@ fn changed(ui: &mut egui::Ui, change: &SwitchEffect, cx: &DrawContext<'_>) {
 }
 
 /// `α 0.24583 → 0.25401 (+3.3 %), stated bound 5.0 %`.
-pub fn sentence(change: &SwitchEffect) -> String {
+fn sentence(change: &SwitchEffect) -> String {
     let [before, after] = [change.before, change.after].map(|alpha| significant(alpha, 5));
     let relative = change.relative();
     let sign = if relative > 0.0 {
@@ -97,22 +95,6 @@ fn at_most(share: f64) -> String {
     format!("{up:.decimals$} %")
 }
 
-/// Bound of a decision's effect; empty for a grid, whose error is stated elsewhere.
-fn bound(decision: &Decision) -> String {
-    if decision.key().is_none() && decision.effect == 0.0 {
-        return String::new();
-    }
-    if decision.effect > 0.0 { format!("≤ {}", at_most(decision.effect)) } else { "exact".to_owned() }
-}
-
-/// The choice in the scene for a key; empty if it is not a choice.
-fn asked(scene: &Scene, key: &str) -> String {
-    match scene.get(key) {
-        Some(Value::Text(name)) => name,
-        _ => String::new(),
-    }
-}
-
 /// Widths, so that the switches begin and end at one place.
 #[derive(Clone, Copy)]
 struct Columns {
@@ -129,9 +111,9 @@ impl Columns {
         let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key()?)?)));
         let term = widest(&mut switches().map(|(decision, _)| capitalised(decision::term(decision))));
         // As if anything were decided: rows must not jump when something is.
-        let bound = widest(&mut [0.06, 6e-4].into_iter().map(|share| format!("≤ {}", at_most(share))));
+        let bound = text_width(ui, "≤ 0.06 %");
         let wide = widest(&mut switches().flat_map(|(_, parameter)| {
-            options(parameter).iter().map(|option| words::automatic(parameter.key, option))
+            parameter.options().iter().map(|option| words::automatic(parameter.key, option))
         }));
         let combo = wide + COMBO_ICON * ui.text_style_height(&TextStyle::Body);
         let gaps = 3.0 * ui.spacing().item_spacing.x;
@@ -139,121 +121,99 @@ impl Columns {
     }
 }
 
-fn options(parameter: &Parameter) -> &'static [&'static str] {
-    match parameter.kind {
-        ParameterKind::Choice { options, .. } => options,
-        _ => &[],
-    }
+/// Up to which fidelity edits are solved.
+fn target(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let (target, numerics) = (cx.state.document.target(), cx.state.document.scene().numerics());
+    ui.horizontal(|ui| {
+        let label = ui.label(RichText::new("Solved up to").color(cx.colours.quiet));
+        let (combo, chosen) = fidelity::choose_target(ui, target, ui.available_width(), cx);
+        if let Some(target) = chosen {
+            cx.push(Command::Use(target, numerics));
+        }
+        let hint = "Every edit is solved at draft first, then refined up to this";
+        combo.hint_beside(ui, hint).labelled_by(label.id);
+    });
+    ui.add_space(4.0);
 }
 
-struct SwitchRow<'a> {
-    run: &'a SolvedScene,
+/// A decision that can be overruled.
+fn switch(
+    ui: &mut egui::Ui,
+    decision: &Decision,
+    parameter: &'static Parameter,
     columns: Columns,
-    cx: &'a DrawContext<'a>,
+    cx: &DrawContext<'_>,
+) {
+    let explanation = capitalised(&decision::words(decision));
+    let combo = |ui: &mut egui::Ui, width: f32, labelled_by: egui::Id| {
+        let combo = choices(ui, parameter, width, cx);
+        combo.hint_beside(ui, &explanation).labelled_by(labelled_by);
+    };
+    let height = ui.spacing().interact_size.y;
+    if columns.one_line {
+        ui.horizontal(|ui| {
+            let named = cell(ui, columns.term, height, Align::Min, |ui| term(ui, decision));
+            let named = named.hint_beside(ui, &explanation);
+            let room = ui.available_width() - columns.bound - ui.spacing().item_spacing.x;
+            combo(ui, room, named.id);
+            cell(ui, columns.bound, height, Align::Max, |ui| bound(ui, decision, cx));
+        });
+    } else {
+        let named = heading(ui, decision, cx).hint_beside(ui, &explanation);
+        combo(ui, ui.available_width(), named.id);
+    }
+    if matches!(cx.state.document.scene().get(parameter.key), Some(Value::Text(name)) if name != words::AUTO_NAME) {
+        overruled(ui, decision, Command::Reset(parameter.key), cx);
+    }
 }
 
-impl SwitchRow<'_> {
-    fn document(&self) -> &Document {
-        &self.cx.state.document
+/// A decision without a switch: what and why in words.
+fn fixed(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) {
+    ui.add_space(2.0);
+    heading(ui, decision, cx);
+    cx.note(ui, capitalised(&decision::words(decision)));
+    if decision.overruled {
+        let document = &cx.state.document;
+        let back = Command::Use(document.target(), without_grid(&document.scene().numerics()));
+        overruled(ui, decision, back, cx);
     }
+}
 
-    /// Up to which fidelity edits are solved.
-    fn target(&self, ui: &mut egui::Ui) {
-        let (target, numerics) = (self.document().target(), self.document().scene().numerics());
-        ui.horizontal(|ui| {
-            let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
-            let (combo, chosen) = fidelity::choose_target(ui, target, ui.available_width(), self.cx);
-            if let Some(target) = chosen {
-                self.cx.push(Command::Use(target, numerics));
-            }
-            let hint = "Every edit is solved at draft first, then refined up to this";
-            combo.hint_beside(ui, hint).labelled_by(label.id);
-        });
-        ui.add_space(4.0);
-    }
+fn heading(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) -> egui::Response {
+    ui.horizontal(|ui| {
+        let term = term(ui, decision);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| bound(ui, decision, cx));
+        term
+    })
+    .inner
+}
 
-    /// A decision that can be overruled.
-    fn switch(&self, ui: &mut egui::Ui, decision: &Decision, parameter: &'static Parameter) {
-        let explanation = capitalised(&decision::words(decision));
-        let height = ui.spacing().interact_size.y;
-        if self.columns.one_line {
-            ui.horizontal(|ui| {
-                let term = cell(ui, self.columns.term, height, Align::Min, |ui| self.term(ui, decision))
-                    .hint_beside(ui, &explanation);
-                let room = ui.available_width() - self.columns.bound - ui.spacing().item_spacing.x;
-                self.combo(ui, parameter, room, &explanation, term.id);
-                cell(ui, self.columns.bound, height, Align::Max, |ui| self.bound(ui, decision));
-            });
-        } else {
-            let term = self.heading(ui, decision).hint_beside(ui, &explanation);
-            self.combo(ui, parameter, ui.available_width(), &explanation, term.id);
-        }
-        let asked = asked(self.document().scene(), parameter.key);
-        if asked != words::AUTO_NAME && !asked.is_empty() {
-            let back = Command::Reset(parameter.key);
-            self.overruled(ui, decision, back);
-        }
-    }
+fn term(ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
+    ui.add(egui::Label::new(capitalised(decision::term(decision))).extend())
+}
 
-    /// A decision without a switch: what and why in words.
-    fn fixed(&self, ui: &mut egui::Ui, decision: &Decision) {
-        ui.add_space(2.0);
-        self.heading(ui, decision);
-        self.cx.note(ui, capitalised(&decision::words(decision)));
-        if decision.overruled {
-            let numerics = without_grid(&self.document().scene().numerics());
-            self.overruled(ui, decision, Command::Use(self.document().target(), numerics));
-        }
-    }
+/// Bound of a decision's effect; none for a grid, whose error is stated elsewhere.
+fn bound(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) {
+    let (text, about) = if decision.effect > 0.0 {
+        (format!("≤ {}", at_most(decision.effect)), "What is left out changes α by at most this, relative")
+    } else if decision.key().is_some() {
+        ("exact".to_owned(), "Nothing is left out")
+    } else {
+        return;
+    };
+    ui.add(egui::Label::new(RichText::new(text).color(cx.colours.quiet)).extend()).hint_beside(ui, about);
+}
 
-    fn heading(&self, ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
-        ui.horizontal(|ui| {
-            let term = self.term(ui, decision);
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.bound(ui, decision));
-            term
-        })
-        .inner
-    }
-
-    fn term(&self, ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
-        ui.add(egui::Label::new(capitalised(decision::term(decision))).extend())
-    }
-
-    fn bound(&self, ui: &mut egui::Ui, decision: &Decision) {
-        let text = bound(decision);
-        if text.is_empty() {
-            return;
-        }
-        let text = RichText::new(text).color(self.cx.colours.quiet);
-        let about = if decision.effect > 0.0 {
-            "What is left out changes α by at most this, relative"
-        } else {
-            "Nothing is left out"
-        };
-        ui.add(egui::Label::new(text).extend()).hint_beside(ui, about);
-    }
-
-    fn combo(&self, ui: &mut egui::Ui, parameter: &'static Parameter, width: f32, about: &str, labelled_by: egui::Id) {
-        let name = asked(self.document().scene(), parameter.key);
-        let decisions = &self.run.solution.model.decisions;
-        let combo = choices(ui, (parameter, options(parameter)), &name, decisions, width, self.cx);
-        combo.hint_beside(ui, about).labelled_by(labelled_by);
-    }
-
-    /// Says that the scene decides, and offers to leave it to the plan again.
-    fn overruled(&self, ui: &mut egui::Ui, decision: &Decision, back: Command) {
-        ui.horizontal_wrapped(|ui| {
-            let (text, colour) = if decision.overruled {
-                ("Overruled", self.cx.colours.accent)
-            } else {
-                ("As the plan would", self.cx.colours.quiet)
-            };
-            ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
-            let name = format!("{} back to auto", capitalised(decision::term(decision)));
-            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), &name, back);
-        });
-        ui.add_space(2.0);
-    }
+/// Says that the scene decides, and offers to leave it to the plan again.
+fn overruled(ui: &mut egui::Ui, decision: &Decision, back: Command, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        let (text, colour) =
+            if decision.overruled { ("Overruled", cx.colours.accent) } else { ("As the plan would", cx.colours.quiet) };
+        ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
+        let name = format!("{} back to auto", capitalised(decision::term(decision)));
+        cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), &name, back);
+    });
+    ui.add_space(2.0);
 }
 
 /// `add` in a box of this size, at its left or right.

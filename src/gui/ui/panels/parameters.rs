@@ -2,7 +2,7 @@
 
 use super::field::{self, Field};
 use super::records;
-use crate::digits::{capitalised, significant};
+use crate::digits::{capitalised, counted, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, field_name, label, label_in};
@@ -13,7 +13,6 @@ use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::parts::scrolled_anew;
 use crate::gui::ui::theme::outline_fields;
-use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, SolvedPlate, Value};
 use crate::solution::Status;
 use eframe::egui::{self, RichText, TextStyle, Ui};
@@ -40,8 +39,6 @@ pub const GROUPS: &[(&str, &str, bool)] = &[
     ("numerics", "Numerics", false),
 ];
 
-/// Width of a field for numbers, in heights of the text.
-const FIELD_WIDTH: f32 = 4.4;
 /// Digits of a value that follows from others.
 const FOLLOWING_DIGITS: usize = 4;
 /// Narrowest slider.
@@ -54,9 +51,8 @@ const FRAME_MARGIN: i8 = 6;
 /// Shows the parameters of the scene, and at each why its last edit was rejected.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
-    let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
     scrolled_anew(ui, "parameters", cx.state.view.opened, 8.0, |ui| {
-        let mut panel = Panel { scene, plan, units: 0.0, cx };
+        let mut panel = Panel { scene, units: 0.0, cx };
         panel.all(ui);
     });
 }
@@ -64,7 +60,6 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 /// Data shared by all rows.
 struct Panel<'a> {
     scene: &'a Scene,
-    plan: &'a [Decision],
     /// Width of the column of units of the present group.
     units: f32,
     cx: &'a DrawContext<'a>,
@@ -95,7 +90,7 @@ impl Panel<'_> {
             let layout = egui::Layout::right_to_left(egui::Align::Center);
             let mut beside = ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout));
             if changed > 0 {
-                let values = if changed == 1 { "1 value".to_owned() } else { format!("{changed} values") };
+                let values = counted(changed, "value", "values");
                 let long = format!("{values} changed since it was described");
                 let fits = NOTE_SIZE * text_width(ui, &long) < area.width() - heading.width();
                 let text = if fits { long } else { format!("{values} changed") };
@@ -160,9 +155,7 @@ impl Panel<'_> {
                     number.iter().for_each(|number| self.number_row(ui, parameter, number));
                 }
                 (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
-                (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
-                    self.choice_row(ui, parameter, options, name);
-                }
+                (ParameterKind::Choice { .. }, Some(_)) => self.choice_row(ui, parameter),
                 (ParameterKind::Rows { .. }, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
                 (ParameterKind::Records { columns, fewest, .. }, Some(Value::Records(of))) => {
                     self.label_row(ui, parameter);
@@ -238,10 +231,8 @@ impl Panel<'_> {
             parameter.absent.is_some() && parameter.switch.to_lowercase().contains(&label(parameter).to_lowercase());
         let name = if said { None } else { Some(self.label_row(ui, parameter)) };
         ui.horizontal(|ui| {
-            let em = ui.text_style_height(&TextStyle::Body);
-            let field = FIELD_WIDTH * em;
-            let gaps = 2.0 * ui.spacing().item_spacing.x;
-            ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
+            let others = field::number_width(ui) + self.units + 2.0 * ui.spacing().item_spacing.x;
+            ui.spacing_mut().slider_width = (ui.available_width() - others).max(SHORTEST_SLIDER);
             // What has no effect here can be read, and not set.
             if !self.scene.heeds(parameter.key) {
                 ui.disable();
@@ -251,23 +242,11 @@ impl Panel<'_> {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
             };
-            let typed = field_name(parameter);
-            self.field(parameter, Some(value), &typed, field).show(ui, self.cx).hint_beside(ui, &explanation);
+            let field = Field { key: parameter.key, value: Some(value), name: &field_name(parameter), hint: "" };
+            field.show(ui, self.cx).hint_beside(ui, &explanation);
             let unit = RichText::new(self.scene.unit(parameter)).color(self.cx.colours.quiet);
             ui.add(egui::Label::new(unit).selectable(false).extend());
         });
-    }
-
-    /// A field for the value of a parameter, on one line.
-    fn field<'f>(
-        &'f self,
-        parameter: &'static Parameter,
-        value: Option<&'f Value>,
-        name: &'f str,
-        width: f32,
-    ) -> Field<'f> {
-        let refused = self.cx.state.rejected.of(parameter.key);
-        Field { key: parameter.key, value, name, hint: "", refused, width, wrapped: false }
     }
 
     fn slider(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
@@ -347,24 +326,23 @@ impl Panel<'_> {
         });
     }
 
-    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
+    fn choice_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let named = self.label_row(ui, parameter);
         let width = ui.available_width();
-        let list = choices(ui, (parameter, options), name, self.plan, width, self.cx).labelled_by(named.id);
+        let list = choices(ui, parameter, width, self.cx).labelled_by(named.id);
         self.cx.lead_to(ui, parameter.key, list.id);
     }
 
     fn text_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) {
         let name = label(parameter);
-        let field = Field { hint: name, wrapped: true, ..self.field(parameter, Some(value), name, f32::INFINITY) };
+        let field = Field { key: parameter.key, value: Some(value), name, hint: name };
         field.show(ui, self.cx).hint_beside(ui, parameter.about);
     }
 
     fn path_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let about = format!("{}\n{}", parameter.about, parameter.key);
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false)).hint_beside(ui, &about);
-        let field = self.field(parameter, None, label(parameter), f32::INFINITY);
-        let field = Field { hint: "path, then Enter", ..field };
+        let field = Field { key: parameter.key, value: None, name: label(parameter), hint: "path, then Enter" };
         let columns = match parameter.key {
             "surface.heights_csv" => {
                 "A grid of heights after lines # dx_um = …, # dy_um = … and # height = nm, or a profile with columns x_um and z_nm"
@@ -388,7 +366,7 @@ impl Panel<'_> {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
             ui.label(label(parameter)).hint_beside(ui, &explanation);
-            ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
+            ui.label(RichText::new(counted(rows, "row", "rows")).strong());
         });
         quiet(ui, self.cx, "Edit the table in its file and give the file again");
     }

@@ -6,7 +6,7 @@ use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::form::show_list;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::entered_box;
+use crate::gui::ui::parts::{Entered, entered_box};
 use crate::scene::edges::{self, inner_edge, with_edge};
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, Id, RichText};
@@ -23,9 +23,7 @@ struct Tried {
     /// Which table, and which of its values.
     at: [usize; 2],
     /// The text, if a number was typed.
-    text: Option<String>,
-    /// Why that is no number in the range.
-    fault: Option<String>,
+    entered: Option<Entered>,
     /// The array that the edit made, or the present one if the text is at fault.
     array: Value,
     /// The frame in which it was made: it is carried out when that has been drawn.
@@ -40,20 +38,13 @@ impl Tried {
     /// The last edit in the array of `key`, and why it is refused. One that is not refused is forgotten.
     fn refused(ui: &egui::Ui, cx: &DrawContext<'_>, key: &'static str) -> Option<(Self, String)> {
         let tried: Self = ui.data(|data| data.get_temp(Self::id_of(key)))?;
-        let fault = tried.fault.clone().filter(|_| cx.state.document.scene().get(key).as_ref() == Some(&tried.array));
+        let fault = tried.entered.as_ref().and_then(|(_, fault)| fault.clone());
+        let fault = fault.filter(|_| cx.state.document.scene().get(key).as_ref() == Some(&tried.array));
         let why = fault.or_else(|| cx.state.rejected.of_value(key, &tried.array).map(str::to_owned));
         if why.is_none() && ui.ctx().cumulative_frame_nr() > tried.frame {
-            Self::forget(ui, key);
+            ui.data_mut(|data| data.remove::<Self>(Self::id_of(key)));
         }
         Some((tried, why?))
-    }
-
-    fn forget(ui: &egui::Ui, key: &'static str) {
-        ui.data_mut(|data| data.remove::<Self>(Self::id_of(key)));
-    }
-
-    fn keep(self, ui: &egui::Ui, key: &'static str) {
-        ui.data_mut(|data| data.insert_temp(Self::id_of(key), self));
     }
 }
 
@@ -100,34 +91,26 @@ pub fn show(
                     let named = ui.add(egui::Label::new(label(of)).selectable(false)).hint_beside(ui, of.about);
                     let spoken = format!("{}, {name}", field_name(of));
                     let kept = refused.filter(|(tried, _)| tried.at[1] == place);
-                    let kept = kept.and_then(|(tried, _)| tried.text.as_deref());
-                    match cell(ui, (of, value, kept), (named.id, &spoken), cx) {
-                        Some(Edit::Set { value, dragging, text }) => {
-                            let mut edited = records.to_vec();
-                            match value {
-                                // What two parts share moves in both.
-                                Value::Number(to) if fewest > 0 => {
-                                    let lengths = columns[..place].iter().filter(|column| column.range().is_some());
-                                    edited = with_edge(records, (number, lengths.count()), to);
-                                }
-                                value => edited[number][place] = value,
+                    let kept = kept.and_then(|(tried, _)| tried.entered.as_ref()).map(|(text, _)| text.as_str());
+                    if let Some(Edit { value, dragging, entered }) =
+                        cell(ui, (of, value, kept), (named.id, &spoken), cx)
+                    {
+                        let mut edited = records.to_vec();
+                        match value {
+                            // What two parts share moves in both.
+                            Some(Value::Number(to)) if fewest > 0 => {
+                                let lengths = columns[..place].iter().filter(|column| column.range().is_some());
+                                edited = with_edge(records, (number, lengths.count()), to);
                             }
-                            let array = Value::Records(edited.clone());
-                            Tried { at: [number, place], text, fault: None, array, frame: drawn }
-                                .keep(ui, parameter.key);
-                            set(edited, dragging);
+                            Some(value) => edited[number][place] = value,
+                            None => {}
                         }
-                        Some(Edit::Faulty { text, fault }) => {
-                            let array = Value::Records(records.to_vec());
-                            let (text, fault) = (Some(text), Some(fault));
-                            Tried { at: [number, place], text, fault, array, frame: drawn }.keep(ui, parameter.key);
+                        if !matches!(entered, Some((_, Some(_)))) {
+                            // To set what is already set takes a refusal back.
+                            set(edited.clone(), dragging);
                         }
-                        Some(Edit::Dropped) => {
-                            Tried::forget(ui, parameter.key);
-                            // Setting what is already set takes the refusal back.
-                            set(records.to_vec(), false);
-                        }
-                        None => {}
+                        let tried = Tried { at: [number, place], entered, array: Value::Records(edited), frame: drawn };
+                        ui.data_mut(|data| data.insert_temp(Tried::id_of(parameter.key), tried));
                     }
                     ui.end_row();
                 }
@@ -161,19 +144,13 @@ pub fn show(
 }
 
 /// An edit of one value.
-enum Edit {
-    /// It becomes another one.
-    Set {
-        value: Value,
-        /// Whether a pointer still drags it.
-        dragging: bool,
-        /// The text, if a number was typed.
-        text: Option<String>,
-    },
-    /// A text was entered that is no number in the range.
-    Faulty { text: String, fault: String },
-    /// Escape drops the text that was refused.
-    Dropped,
+struct Edit {
+    /// What it becomes; it stays if a text that is no number was entered, or was dropped with Escape.
+    value: Option<Value>,
+    /// Whether a pointer still drags it.
+    dragging: bool,
+    /// The text, if a number was typed.
+    entered: Option<Entered>,
 }
 
 /// One value, or the text in place of it that was refused; the edit of it.
@@ -183,7 +160,7 @@ fn cell(
     (name, spoken): (Id, &str),
     cx: &DrawContext<'_>,
 ) -> Option<Edit> {
-    let taken = |value: Value| Edit::Set { value, dragging: false, text: None };
+    let taken = |value: Value| Edit { value: Some(value), dragging: false, entered: None };
     match (of.kind, value) {
         (ParameterKind::Number { range, .. }, value) => {
             let present = value.as_number()?;
@@ -203,12 +180,10 @@ fn cell(
                 ui.visuals_mut().override_text_color = usual;
             }
             let response = response.labelled_by(name).accessible_name(spoken).hint_beside(ui, of.about);
-            let text = match entered {
-                Some((text, Some(fault))) => return Some(Edit::Faulty { text, fault }),
-                entered => entered.map(|(text, _)| text),
-            };
-            if refused.is_some() && response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Escape)) {
-                return Some(Edit::Dropped);
+            let faulty = matches!(entered, Some((_, Some(_))));
+            let escaped = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Escape));
+            if faulty || refused.is_some() && escaped {
+                return Some(Edit { value: None, dragging: false, entered });
             }
             // What a drag makes of it is round; a field that is only left keeps the decimals that it does not show.
             let shown = |number: f64| format!("{number:.DECIMALS$}");
@@ -217,10 +192,9 @@ fn cell(
                 number if shown(number) == shown(present) => present,
                 number => number,
             };
-            let done = response.drag_stopped() || (refused.is_some() && text.is_some());
-            let dragging = response.dragged();
-            let value = Value::Number(number);
-            ((response.changed() && number != present) || done).then_some(Edit::Set { value, dragging, text })
+            let done = response.drag_stopped() || (refused.is_some() && entered.is_some());
+            let edit = Edit { value: Some(Value::Number(number)), dragging: response.dragged(), entered };
+            ((response.changed() && number != present) || done).then_some(edit)
         }
         (ParameterKind::Choice { options, .. }, Value::Text(chosen)) => {
             let mut picked = None;

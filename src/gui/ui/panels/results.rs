@@ -15,7 +15,7 @@ use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary::Explained;
 use crate::gui::ui::hint::text_width;
-use crate::gui::ui::parts::scrolled_anew;
+use crate::gui::ui::parts::{joined, scrolled_anew};
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{MotorResult, Outcome, PlateResult, Status, StoppedBy};
@@ -234,7 +234,7 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             // A grid that the time did not suffice for is given up before it has converged.
             let last = run.history.iter().rev().find(|round| round.residual <= round.tolerance);
             let text = last.map_or_else(String::new, |last| {
-                let [changed, allowed] = [last.residual, last.tolerance].map(in_one_piece);
+                let [changed, allowed] = [last.residual, last.tolerance].map(|share| joined(&percent(share)));
                 format!(": further rounds would change {changed}, allowed {allowed}")
             });
             let mut job = egui::text::LayoutJob::default();
@@ -245,7 +245,7 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
             ui.add_space(2.0);
         }
         Status::NotConverged { residual, tolerance } => {
-            let [changed, allowed] = [*residual, *tolerance].map(in_one_piece);
+            let [changed, allowed] = [*residual, *tolerance].map(|share| joined(&percent(share)));
             let text = format!("Further rounds would still change it by {changed}, allowed {allowed}");
             banner(ui, cx.colours.alarm, "Not converged", &text);
         }
@@ -254,11 +254,6 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
         }
         Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
     }
-}
-
-/// A share in per cent that no line break divides.
-fn in_one_piece(share: f64) -> String {
-    percent(share).replace(' ', "\u{a0}")
 }
 
 /// A title and a sentence on a tinted ground.
@@ -353,7 +348,7 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
     let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
     let name = egui::Label::new(RichText::new(name).color(cx.colours.quiet));
     // Of two values each stays whole with its error and unit.
-    let value = if fits { value } else { value.replace(' ', "\u{a0}").replace("\u{a0}…\u{a0}", " … ") };
+    let value = if fits { value } else { joined(&value).replace("\u{a0}…\u{a0}", " … ") };
     let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
     let right = egui::Layout::right_to_left(egui::Align::Center);
     if fits {
@@ -369,8 +364,4 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
 
 pub(super) fn shown(value: f64) -> String {
     significant(value, DIGITS)
-}
-
-pub(super) fn span(least: f64, most: f64) -> String {
-    format!("{} … {}", shown(least), shown(most))
 }

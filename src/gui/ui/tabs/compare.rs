@@ -346,15 +346,12 @@ fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
             }
             ui.label(name + &unit).hint(about);
             for (place, value) in row.values.iter().enumerate() {
-                match value {
-                    Some(value) => {
-                        let text = RichText::new(shown(row.parameter.key, value));
-                        ui.label(if row.differs() { text.strong() } else { text.color(cx.colours.quiet) });
-                    }
-                    None => {
-                        ui.label(RichText::new(row.missing(place)).color(cx.colours.quiet));
-                    }
-                }
+                let text = match value {
+                    Some(value) => RichText::new(shown(row.parameter.key, value)),
+                    None => RichText::new(row.missing(place)),
+                };
+                let strong = value.is_some() && row.differs();
+                ui.label(if strong { text.strong() } else { text.color(cx.colours.quiet) });
             }
             ui.end_row();
         }

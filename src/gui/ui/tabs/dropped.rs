@@ -30,9 +30,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             cx.lead_to(ui, "start", button.id);
             cx.on_click(&button, StartupCommand::Start);
         }
-        if cx.state.can_export(Export::Startup) {
-            export_button(ui, &[Export::Startup], cx);
-        }
+        export_button(ui, &[Export::Startup], cx);
     });
     let Some(dropped) = dropped else {
         return cx.introduce(ui, &[

@@ -158,8 +158,7 @@ fn table(ui: &mut Ui, found: &ExactComparison, units: [&str; 2], cx: &DrawContex
     ];
     parts::table(ui, "exact", 4, 9.0, |ui| {
         let heads = [("", ""), ("Computed", "Computed"), ("Exact limit", "Exact"), ("for", "Exact")];
-        parts::heads(ui, &heads, cx.colours.quiet);
-        ui.end_row();
+        parts::heads(ui, &heads, cx);
         for [name, computed, exact, when] in rows {
             let word = name.split(" / ").next().unwrap_or(name);
             glossary::term(ui, RichText::new(name).color(cx.colours.quiet), word);

@@ -376,8 +376,7 @@ fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
 fn rows(ui: &mut Ui, measured: &Measured, found: &Fitted, cx: &DrawContext<'_>) {
     ui.add_space(4.0);
     table(ui, "measurements", 4, 10.0, |ui| {
-        heads(ui, &["", "Measured", "Computed", "Residual"].map(|head| (head, head)), cx.colours.quiet);
-        ui.end_row();
+        heads(ui, &["", "Measured", "Computed", "Residual"].map(|head| (head, head)), cx);
         for (one, row) in measured.measurements.iter().zip(&found.rows).take(LISTED) {
             ui.label(RichText::new(format!("{}, {}", one.label, one.what.name())).color(cx.colours.quiet));
             ui.label(significant(one.value, 4));

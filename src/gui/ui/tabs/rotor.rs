@@ -214,33 +214,29 @@ fn section(
 
 /// The mesh as it is, and magnified as the load bends it.
 fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, tall]: [f64; 2], cx: &DrawContext<'_>) {
-    let node = |i: usize, moved: Option<(&[[f64; 2]], f64)>| {
-        let [r, z] = bent.mesh.nodes[i];
-        let [u, w] = moved.map_or([0.0; 2], |(moved, factor)| moved[i].map(|u| factor * u));
-        scale.at(1e3 * (r + u), 1e3 * (z + w))
-    };
-    let draw = |moved: Option<(&[[f64; 2]], f64)>, stroke: Stroke| {
+    let draw = |node: &dyn Fn(usize) -> [f64; 2], stroke: Stroke| {
         for element in &bent.mesh.elements {
             // Side by side: where sides meet at a sharp angle a closed line has spikes.
             for pair in AROUND.windows(2) {
-                let ends = [pair[0], pair[1]].map(|i| node(element.nodes[i], moved));
+                let ends = [pair[0], pair[1]].map(|i| node(element.nodes[i])).map(|[r, z]| scale.at(1e3 * r, 1e3 * z));
                 painter.line_segment(ends, stroke);
             }
         }
     };
-    draw(None, Stroke::new(0.5, cx.colours.quiet.gamma_multiply(0.6)));
+    let nodes = &bent.mesh.nodes;
+    draw(&|i| nodes[i], Stroke::new(0.5, cx.colours.quiet.gamma_multiply(0.6)));
     let Some(run) = cx.state.run.as_ref().filter(|run| !cx.state.stale(run)) else { return };
     if run.solution.recording.frames == 0 {
         return;
     }
-    let key = (run.number, run.fidelity, bent.mesh.nodes.len());
+    let key = (run.number, run.fidelity, nodes.len());
     let moved = once(ui, "bent rotor", key, || bent.under(&run.solution.recording.lines, 0));
     let most = moved.iter().flatten().fold(0.0, |top: f64, u| top.max(u.abs()));
-    if moved.len() != bent.mesh.nodes.len() || most == 0.0 {
+    if moved.len() != nodes.len() || most == 0.0 {
         return;
     }
     let factor = MAGNIFIED * 1e-3 * wide.max(tall) / most;
-    draw(Some((moved.as_slice(), factor)), Stroke::new(0.8, cx.colours.film));
+    draw(&|i| [0, 1].map(|k| nodes[i][k] + factor * moved[i][k]), Stroke::new(0.8, cx.colours.film));
     let text = format!(
         "under the present load, where it presses most: up to {} µm, drawn {} times as large",
         significant(1e6 * most, 3),

@@ -219,8 +219,7 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
         ("Share", "Share of the variance"),
     ];
     parts::table(ui, "sensitivities", heads.len(), 14.0, |ui| {
-        parts::heads(ui, &heads, cx.colours.quiet);
-        ui.end_row();
+        parts::heads(ui, &heads, cx);
         for column in order {
             let by = &found.columns[column];
             let parameter = by.parameter;

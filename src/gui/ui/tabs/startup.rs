@@ -61,9 +61,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         cx.on_change(&checkbox, StartupCommand::Follow(follow));
         let hover = "Plays the cycles that are kept one after the other, from the first";
         cx.button(ui, "Play from rest", hover, StartupCommand::Replay);
-        if cx.state.can_export(Export::Startup) {
-            export_button(ui, &[Export::Startup], cx);
-        }
+        export_button(ui, &[Export::Startup], cx);
     });
 }
 

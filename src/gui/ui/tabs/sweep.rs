@@ -91,7 +91,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
             _ if building => drop(ui.label("Its points are being made")),
             Some(swept) => {
                 let text = format!("{} of {}", swept.rows.len(), swept.sweep.len());
-                cx.progress(ui, 190.0, swept.share(), &text, swept.left(cx.now));
+                cx.progress(ui, 190.0, swept.share(), &text, Some(swept.since()));
             }
             None => {
                 if let Some(swept) = swept.filter(|swept| !swept.complete()) {
@@ -110,9 +110,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
             }
         }
         quantity(ui, cx);
-        if swept.is_some_and(|swept| !swept.rows.is_empty()) {
-            export_button(ui, SWEEP, cx);
-        }
+        export_button(ui, SWEEP, cx);
     });
 }
 

@@ -177,8 +177,9 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     let narrow = ui.available_width() < NARROW[0] * em;
     parts::table(ui, "figures of merit", 3, GAPS[usize::from(!narrow)], |ui| {
         ui.label("");
-        parts::heads(ui, &[("With film", "With film")], cx.colours.film);
-        parts::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
+        for (head, colour) in [("With film", cx.colours.film), ("Without film", cx.colours.contact)] {
+            glossary::term(ui, RichText::new(head).color(colour), head);
+        }
         ui.end_row();
         for (name, values, word) in rows {
             ui.scope(|ui| {

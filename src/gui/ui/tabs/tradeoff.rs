@@ -13,7 +13,7 @@ use crate::gui::ui::chart::{Chart, legend, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::parts::{self, first_button, number_box, scrolled};
+use crate::gui::ui::parts::{self, first_button, joined, number_box, scrolled};
 use crate::gui::ui::theme::{ACCENT, on_screen};
 use crate::solve::Method;
 use eframe::egui::{self, RichText, TextStyle};
@@ -56,8 +56,8 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
                 cx.button(ui, "Cancel the measurement", hover, Command::CancelTab);
-                let (share, left) = (measured.share, measured.left(cx.now));
-                cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), left);
+                let share = measured.share;
+                cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), Some((measured.started, share)));
             }
             None => {
                 let about = "Takes up to about a minute; the window stays usable";
@@ -181,8 +181,7 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     order.sort_by(|a, b| a.median.total_cmp(&b.median));
     parts::table(ui, "settings", 4, 14.0, |ui| {
         let heads = [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error"), ("", "")];
-        parts::heads(ui, &heads, cx.colours.quiet);
-        ui.end_row();
+        parts::heads(ui, &heads, cx);
         for point in order {
             let candidate = &point.run.candidate;
             let (family, colour) = words(candidate.family);
@@ -209,11 +208,6 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
             ui.end_row();
         }
     });
-}
-
-/// A number and its unit on one line.
-fn joined(text: &str) -> String {
-    text.replace(' ', "\u{a0}")
 }
 
 fn duration(seconds: f64) -> String {
