@@ -44,9 +44,9 @@ pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui:
     ui.label(text).explained_here(ui, word)
 }
 
-/// A hover area over a term at `place`; `number` tells apart the terms of one drawing.
-pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
-    let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
+/// A hover area over a term at `place`, which `id` tells from the same term elsewhere in `ui`.
+pub fn over(ui: &Ui, place: egui::Rect, word: &str, id: impl egui::AsIdSalt) -> egui::Response {
+    let response = ui.interact(place, ui.scope_id().with(("term", word, id)), egui::Sense::hover());
     response.called(egui::Role::Label, &format!("About: {word}"))
 }
 

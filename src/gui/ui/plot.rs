@@ -18,7 +18,7 @@ pub(super) fn id(name: &str) -> Id {
     Id::unique(("chart", name))
 }
 
-/// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
+/// Shows the chart `name`, as screen readers call it, from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
 pub(super) fn framed<'a, R>(
     ui: &mut egui::Ui,
     (name, plot): (&str, Plot<'a>),
@@ -28,7 +28,7 @@ pub(super) fn framed<'a, R>(
     // A new chart starts with automatic ranges, as after a double click.
     let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
     let ([left, right], [bottom, top]) = (widened(x), widened(y));
-    plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
+    let shown = plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
         if fresh {
             plot.set_auto_bounds(true);
         }
@@ -37,7 +37,9 @@ pub(super) fn framed<'a, R>(
             plot.set_auto_bounds(true);
         }
         add(plot)
-    })
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    shown
 }
 
 /// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn

@@ -62,7 +62,6 @@ impl<'a> Inset<'a> {
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, chart), self.bounds, add);
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
         if let Some(name) = below {
             let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
             let place = style.write(corner, Align2::RIGHT_TOP, name, style.palette.quiet);
