@@ -3,6 +3,7 @@
 use super::glossary::{self, Explained};
 use super::theme::{self, Palette};
 use crate::digits::short;
+use crate::export::figure::{Colour, Colours};
 use crate::gui::derived::format::ends;
 use crate::recording::Recording;
 use crate::ticks::{Steps, round_down};
@@ -338,7 +339,12 @@ pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 /// Colours of the field in 256 steps.
 pub(super) fn field_colours() -> &'static [Color32; 256] {
     static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
-    COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
+    COLOURS.get_or_init(|| {
+        std::array::from_fn(|i| {
+            let Colour(r, g, b) = Colours::Field.at(i as f64 / 255.0);
+            Color32::from_rgb(r, g, b)
+        })
+    })
 }
 
 /// The colour of a value of the field, of which these get the first colour and the last.

@@ -1,12 +1,15 @@
 //! Text with formulas in it, broken into lines.
 
-use super::formula::{Style as MathStyle, Typeset};
+use super::formula::{ASCENT, DESCENT, Style as MathStyle, Typeset};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::theme::{mathematics, palette};
+use crate::gui::ui::theme::palette;
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
 use eframe::egui::{self, Color32, FontId, Response, Sense, TextStyle, Ui, pos2, vec2};
+
+/// Size of a formula on its own, as a share of the text's.
+const DISPLAY: f32 = 1.2;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +48,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
-                let style = MathStyle { size: mathematics::DISPLAY * look.size, colour: look.colour, display: true };
+                let style = MathStyle { size: DISPLAY * look.size, colour: look.colour, display: true };
                 let mut formula_set = Typeset::of(ui.painter(), &formula.nodes, style);
                 if formula_set.width > room {
                     let size = style.size * ((room / formula_set.width) * 0.98);
@@ -110,7 +113,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
         }
     }
     let lead = 0.36 * look.size;
-    let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
+    let (ascent, descent) = (ASCENT * look.size, DESCENT * look.size);
     let heights: Vec<(f32, f32)> = lines
         .iter()
         .map(|line| line.iter().map(|atom| &atom.set))
