@@ -288,10 +288,8 @@ fn draw_surfaces(
     });
     let [low, high] = span(heights.flatten());
     let margin = 0.08 * (high - low).max(1e-9);
-    let axes = Axes::new(rect, x, [low - margin, high + margin]);
+    let axes = Axes::of_heights(style, (rect, x), [low - margin, high + margin], [0.0, 0.0]);
     let vertical = times(axes.exaggeration() / along.of_first());
-    axes.canvas(style);
-    style.scale_bar(&axes);
     let titles = [
         format!("Rotor undersides (thick) over tooth tops (thin), vertical {vertical}"),
         format!("Rotor (thick), teeth (thin), {vertical}"),

@@ -95,12 +95,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
 /// The wall, the plate above it, the film between them.
 fn draw_gap(style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
     let highest = shown.ranges.thickness[1].max(1e-9);
-    let (below, above) = (0.16, 0.26);
-    let part = 1.0 - below - above;
-    let bottom = -highest * below / part;
-    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
-    axes.canvas(style);
-    style.scale_bar(&axes);
+    let above = 0.26;
+    let axes = Axes::of_heights(style, (rect, shown.x_range()), [0.0, highest], [0.16, above]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(axes.exaggeration()));
     let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
