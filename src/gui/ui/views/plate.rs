@@ -7,7 +7,7 @@ use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::gui::derived::format::{load_unit, number, times};
-use crate::gui::derived::scales::{Curve, with_margin};
+use crate::gui::derived::scales::with_margin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle};
 use crate::gui::ui::plot::{dots, level, line, under_pointer};
@@ -158,15 +158,14 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
 }
 
 fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
+    let Some((curves, lag)) = shown.scales.tooth(0) else { return };
     let [low, high] = shown.ranges.tooth_load;
     let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
-    let none = Curve::default();
-    let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let trace = |curve, lag, colour, dash| Trace { curve, lag, offset: 0.0, colour, dash };
     let first = shown.first.as_ref().and_then(|first| first.scales.tooth(0));
     let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, LineStyle::dashed_dense()));
     let legend = style.at_first(first.as_ref());
-    let present = trace(curve, lag, style.palette.film, LineStyle::Solid);
+    let present = trace(&curves.film, lag, style.palette.film, LineStyle::Solid);
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
