@@ -191,7 +191,7 @@ fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Plat
     let frames = shown.recording.frames.max(1) as f64;
     let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
     let of = Place { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
-    of.draw(ui, style, place, xi);
+    of.draw(ui, style, place);
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.
