@@ -216,7 +216,6 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         Axes::new(*last, x, [0.0, 1.0]).x_labels(&inside, 1.0 / along.written(), name);
     }
 
-    let period = common_period(runs.iter().map(|run| run.recording.period));
     let middle = 0.5 * (area.left() + right);
     let halves = [(column.x.min, middle - 0.4 * style.row), (middle + 0.4 * style.row + style.gutter, right)];
     type Of = fn(&RunCurves) -> &Curve;
@@ -226,8 +225,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
-        let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, of(&run.pin.curves))).collect();
-        over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
+        over_cycle(ui, &style, (place, title), runs, of, 1.0, cx);
     }
 
     let maps = maps.iter().copied().reduce(Rect::union).unwrap_or(wave);
@@ -246,27 +244,23 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     }
 }
 
-/// The period that all have; not a number if they differ.
-fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
-    let first = periods.next().unwrap_or(f64::NAN);
-    if periods.all(|period| (period / first - 1.0).abs() < SAME) { first } else { f64::NAN }
-}
-
-/// Curves of all runs over the cycle, of which each has its own length.
-fn over_cycle(
+/// The curves `of` all runs over the cycle, of which each has its own length.
+fn over_cycle<T>(
     ui: &mut Ui,
     style: &PlotStyle,
-    place: Rect,
-    title: &str,
-    curves: &[(Color32, LineStyle, &Curve)],
-    (unit, period): (f64, f64),
+    (place, title): (Rect, &str),
+    runs: &[Pinned<'_, T>],
+    of: fn(&RunCurves) -> &Curve,
+    unit: f64,
     cx: &DrawContext<'_>,
 ) {
-    let traces: Vec<_> = curves
+    let traces: Vec<_> = runs
         .iter()
-        .map(|(colour, dash, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, dash: *dash })
+        .map(|run| Trace { curve: of(&run.pin.curves), lag: 0.0, offset: 0.0, colour: run.colour, dash: run.dash })
         .collect();
-    let range = span(curves.iter().map(|(.., curve)| curve.range()).chain([[0.0, 0.0]]).flatten());
+    let range = span(traces.iter().map(|trace| trace.curve.range()).chain([[0.0, 0.0]]).flatten());
+    let period = Along::of(runs.iter().map(|run| run.recording.period));
+    let period = if period.alike { period.first } else { f64::NAN };
     let word = title.split(',').next().unwrap_or(title);
     let short = title.replace(" on one wave", "");
     let series =
@@ -300,12 +294,10 @@ fn draw_surfaces(
     axes.x_grid(style, 1.0 / along.written());
     for run in runs {
         let metre = along.metre(run.recording.length);
-        let at = |tooth: usize, node: usize, height: f64| {
-            axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
-        };
         for tooth in 0..run.recording.teeth {
-            let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            let top: Vec<_> = top.map(|(i, w)| at(tooth, i, *w)).collect();
+            let middle = tooth as f64 * run.recording.pitch;
+            let top = run.recording.x.iter().zip(&run.lines.stator[run.lines.of(tooth)]);
+            let top: Vec<_> = top.map(|(x, height)| axes.at((middle + x) * metre, *height)).collect();
             style.painter.extend(stroked(&top, Stroke::new(1.0, run.colour), run.dash));
         }
         let underside = run.lines.underside(run.recording);
@@ -419,10 +411,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let middle = 0.5 * (area.left() + right);
     let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
-    let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, &run.pin.curves.film)).collect();
-    let title = "Mean pressure, kPa gauge";
-    over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
+    over_cycle(ui, &style, (left, "Mean pressure, kPa gauge"), runs, |curves| &curves.film, 1e3, cx);
     draw_loops(ui, &style, right, runs, cx.state.view.phase);
 
     let on_a_term = style.explain(ui);
