@@ -22,14 +22,12 @@ pub fn place(ctx: &Context, name: &str) -> Option<Rect> {
     (now.saturating_sub(frame) <= 1).then_some(rect)
 }
 
-fn rings_id() -> Id {
-    Id::unique("highlight, rings")
-}
+const RINGS: &str = "highlight, rings";
 
 /// The ring of this frame or the one before that `rect` touches: what pops up there keeps out of it.
 pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
     let now = ctx.cumulative_frame_nr();
-    let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(rings_id())).unwrap_or_default();
+    let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(Id::unique(RINGS))).unwrap_or_default();
     let fresh = rings.into_iter().filter(|(frame, _)| now.saturating_sub(*frame) <= 1);
     fresh.map(|(_, ring)| ring).find(|ring| ring.expand(GAP).intersects(rect))
 }
@@ -38,7 +36,7 @@ pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
 pub fn ring(ui: &Ui, rect: Rect) {
     let now = ui.ctx().cumulative_frame_nr();
     ui.ctx().data_mut(|data| {
-        let rings: &mut Vec<(u64, Rect)> = data.get_temp_mut_or_default(rings_id());
+        let rings: &mut Vec<(u64, Rect)> = data.get_temp_mut_or_default(Id::unique(RINGS));
         rings.retain(|(frame, _)| now.saturating_sub(*frame) <= 1);
         rings.push((now, rect));
     });
