@@ -157,27 +157,22 @@ fn outline(style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
 
 /// A thick line wherever the contact carries load.
 fn touching(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
-    let recording = shown.recording;
-    let nodes = recording.x.len();
+    let (recording, lines) = (shown.recording, &shown.lines);
     let stroke = Stroke::new(4.0, style.palette.contact);
     for tooth in 0..recording.teeth {
-        let line = shown.lines.of(tooth).start;
         let middle = tooth as f64 * recording.pitch;
-        let mut run: Vec<Pos2> = Vec::new();
-        for i in 0..=nodes {
-            if i < nodes && shown.lines.contact[line + i] > shown.of.touching_from() {
-                run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
-                continue;
-            }
-            if let [only] = run[..] {
+        let nodes: Vec<(usize, usize)> = lines.of(tooth).enumerate().collect();
+        let touches = |k: usize| lines.contact[k] > shown.of.touching_from();
+        for run in nodes.split(|(_, k)| !touches(*k)).filter(|run| !run.is_empty()) {
+            let mut points: Vec<Pos2> =
+                run.iter().map(|(i, k)| axes.at(middle + recording.x[*i], lines.stator[*k])).collect();
+            if let ([only], [(i, _)]) = (&points[..], run) {
                 // One node stands for its length of tooth.
-                let half = 0.5 * recording.node_length[i - 1];
-                let reach = ((axes.px(half) - axes.px(0.0)).max(1.0), 0.0).into();
-                run = vec![only - reach, only + reach];
+                let half = 0.5 * recording.node_length[*i];
+                let reach = vec2((axes.px(half) - axes.px(0.0)).max(1.0), 0.0);
+                points = vec![*only - reach, *only + reach];
             }
-            if run.len() > 1 {
-                style.painter.line(std::mem::take(&mut run), stroke);
-            }
+            style.painter.line(points, stroke);
         }
     }
 }
