@@ -89,20 +89,13 @@ struct Atom {
 pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     let atoms = atoms(ui, parts, look);
     let room = ui.available_width();
-    // Lines of atoms; what is glued together is moved together.
-    let mut lines: Vec<Vec<Atom>> = vec![Vec::new()];
+    let mut lines: Vec<Vec<&Atom>> = vec![Vec::new()];
     let mut at = 0.0;
-    let mut units: Vec<Vec<Atom>> = Vec::new();
-    for atom in atoms {
-        match units.last_mut() {
-            Some(unit) if atom.space.is_none() || atom.glued => unit.push(atom),
-            _ => units.push(vec![atom]),
-        }
-    }
-    for unit in units {
+    // What is glued together is moved together.
+    for unit in atoms.chunk_by(|_, next| next.space.is_none() || next.glued) {
         let inside: f32 = unit.iter().skip(1).filter_map(|atom| atom.space).sum();
         let width = inside + unit.iter().map(|atom| atom.set.width).sum::<f32>();
-        let space = unit.first().and_then(|atom| atom.space).unwrap_or_default();
+        let space = unit[0].space.unwrap_or_default();
         if at > 0.0 && at + space + width > room {
             lines.push(Vec::new());
             at = 0.0;
