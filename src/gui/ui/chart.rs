@@ -98,7 +98,6 @@ impl<'n> Chart<'n> {
         let shown = framed(ui, (name, change(plot)), bounds, move |plot| {
             ground(plot);
             panel.layers.iter().for_each(|layer| draw(plot, panel, layer, &visuals));
-            plot.pointer_coordinate().map(|at| at.x)
         });
         let frame = *shown.transform.frame();
         let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=whole.bottom());
@@ -109,7 +108,7 @@ impl<'n> Chart<'n> {
             }
         }
         names(ui, panel, &shown.transform);
-        PlotResponse { inner: shown.inner.filter(|_| shown.response.hovered()), ..shown }
+        shown
     }
 }
 

@@ -25,7 +25,7 @@ impl<'a> Inset<'a> {
         ui: &mut egui::Ui,
         style: &PlotStyle,
         add: impl FnOnce(&mut PlotUi<'a>) + 'a,
-    ) -> PlotResponse<()> {
+    ) -> PlotResponse<Option<f64>> {
         let Self { name, rect, below, .. } = *self;
         let (gutter, axis) = (style.gutter, style.axis);
         let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
@@ -72,7 +72,7 @@ impl<'a> Inset<'a> {
 }
 
 /// The x of the chart `name` that was clicked, or that its vertical line was dragged to.
-pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<()>, line: Option<f64>, name: &str) -> Option<f64> {
+pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<Option<f64>>, line: Option<f64>, name: &str) -> Option<f64> {
     let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
     let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
     line.and_then(|x| dragged(ui, &shown.transform, x, name)).or(clicked)

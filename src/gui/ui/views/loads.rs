@@ -12,7 +12,7 @@ use egui_plot::{LineStyle, PlotResponse, PlotUi, Span};
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
 /// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
-pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<()> {
+pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<Option<f64>> {
     let width = shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = [

@@ -122,12 +122,6 @@ impl Along {
         if self.alike { 1e3 } else { 1.0 }
     }
 
-    /// A chart over the numbers that are written, and where on the axis the pointer is.
-    fn pointed(&self, chart: PlotResponse<()>) -> (Response, Option<f64>) {
-        let x = chart.response.hover_pos().map(|at| chart.transform.value_from_position(at).x / self.written());
-        (chart.response, x)
-    }
-
     /// Units of the axis per metre of the first run, to which the x shared by all views refers.
     fn of_first(&self) -> f64 {
         self.metre(self.first)
@@ -237,8 +231,9 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         (response, x)
     });
     let on_a_term = style.explain(ui);
+    let charts = charts.map(|chart| (chart.response, chart.inner.map(|x| x / along.written())));
     let heads = ["gap, nm", "contact, kPa", "film, kPa gauge"];
-    for (response, x) in painted.into_iter().chain(charts.map(|chart| along.pointed(chart))) {
+    for (response, x) in painted.into_iter().chain(charts) {
         let at = (response, x.filter(|_| !on_a_term));
         along.read(at, ("λ", &heads), runs, cx, |ui, run, x| values(ui, run, x / along.metre(run.recording.length)));
     }
@@ -316,7 +311,7 @@ fn draw_pressure(
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
     field: usize,
-) -> PlotResponse<()> {
+) -> PlotResponse<Option<f64>> {
     let kilo = |run: &Pinned<'_, Motor>| 1e-3 / run.of.contact_width;
     let ranges = runs.iter().map(|run| run.pin.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = span(ranges.chain([[0.0, 0.0]]).flatten());
@@ -415,8 +410,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     draw_loops(ui, &style, right, runs, cx.state.view.phase);
 
     let on_a_term = style.explain(ui);
-    let (response, x) = along.pointed(charted);
-    let at = (response, x.filter(|_| !on_a_term));
+    let at = (charted.response, charted.inner.map(|x| x / written).filter(|_| !on_a_term));
     along.read(at, (lengths, &["p, kPa absolute"]), runs, cx, |ui, run, x| {
         let pressure = sample::middle_pressure(run.recording, 0, x / along.metre(run.of.length), run.place);
         ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));

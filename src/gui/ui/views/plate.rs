@@ -78,9 +78,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let painted = [Some(wall_response), map_response].into_iter().flatten();
     let painted =
         painted.filter_map(|response| axes.x_at(response.on_hover_cursor(CursorIcon::Crosshair).hover_pos()?.x));
-    let profile_response = charted.response.on_hover_cursor(CursorIcon::Crosshair);
-    let charted = profile_response.hover_pos().map(|at| 1e-3 * charted.transform.value_from_position(at).x);
-    if let Some(x) = painted.chain(charted).last() {
+    charted.response.on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = painted.chain(charted.inner.map(|x| 1e-3 * x)).last() {
         cx.point_at(x);
     }
     for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
@@ -127,7 +126,7 @@ pub(super) fn wall_and_plate(style: &PlotStyle, axes: &Axes, of: &Plate, [wall, 
 }
 
 /// Pressure along x at y = 0, over x \[mm\].
-fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<()> {
+fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<Option<f64>> {
     let ambient = shown.of.gas.ambient_pressure;
     let [low, high] = shown.ranges.pressure;
     let range = with_margin([low.min(ambient), high.max(ambient)], 0.06);
