@@ -194,9 +194,6 @@ fn pieces<const N: usize>(points: impl Iterator<Item = [f64; N]>) -> Vec<Vec<[f6
 
 /// Names of places, where figures have them.
 fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
-    if !panel.layers.iter().any(|layer| matches!(layer, Layer::Text(_))) {
-        return;
-    }
     let (frame, bounds, colour) = (*at.frame(), at.bounds(), ui.visuals().text_color());
     let painter = ui.painter_at(frame);
     let galley = |text: &str| painter.layout_no_wrap(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour);
