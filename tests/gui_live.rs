@@ -65,7 +65,7 @@ fn agrees(app: &App) {
 #[test]
 fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let mut window = once_solved(window("fundamental", STARTUP));
-    assert!(window.known().startup.as_ref().is_none(), "nothing is computed before it is asked for");
+    assert!(window.known().startup.is_none(), "nothing is computed before it is asked for");
     assert!(window.query_by_label("Pause").is_none());
     window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
@@ -76,11 +76,11 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     agrees(window.state());
     // It is not the bar of a plate that would be dropped.
     let (own, other) = (window.known().document.scene().clone(), presets::find("floating-disc").unwrap());
-    assert!(window.state().state().on_timeline().is_some());
+    assert!(window.known().on_timeline().is_some());
     for (scene, there) in [(other, false), (own, true)] {
         window.state_mut().carry_out(Command::Proceed(Next::Given(Box::new(Document::opened(scene, None)))));
         window.run_steps(2);
-        assert_eq!(window.state().state().on_timeline().is_some(), there);
+        assert_eq!(window.known().on_timeline().is_some(), there);
     }
     // Every tooth, and from rest: the first cycle carries less than the last.
     let app = window.state();
@@ -138,9 +138,7 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
 fn a_plate_starts_from_rest_too() {
     let mut window = once_solved(window("plate-crossover", STARTUP));
     window.click_on("Start from rest");
-    until(&mut window, "it repeats", |app| {
-        app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
-    });
+    until(&mut window, "it repeats", |app| starting(app).ended.is_some());
     window.get_by_label_contains("repeats within");
     window.get_by_label_contains("load ratio");
     window.get_by_label_contains("film load over p_a × length, against the cycle: click");
@@ -179,11 +177,11 @@ fn at_rest(window: &mut Window) {
 #[test]
 fn a_motor_cannot_be_held_but_a_plate_is_offered() {
     let mut window = window("fundamental", HOLD);
-    assert!(window.known().hold.as_ref().is_none());
+    assert!(window.known().hold.is_none());
     window.get_by_label_contains("Only a plate can be held");
     window.click_on("Open the plate at its crossover");
     assert_eq!(window.known().view.tab, Tab::Hold);
-    assert!(window.known().hold.as_ref().is_some());
+    assert!(window.known().hold.is_some());
     window.get_by_label_contains("slowed 6");
 }
 
@@ -251,9 +249,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     }
     until(&mut window, "it is pushed down", |app| gap(app) < 0.45);
     window.click_on("Let go");
-    until(&mut window, "it rises", |app| {
-        gap(app) > 0.5 && app.state().hold.as_ref().is_some_and(|hold| hold.trail().len() > 30)
-    });
+    until(&mut window, "it rises", |app| gap(app) > 0.5 && held(app).trail().len() > 30);
 
     window.key_press(Key::Space);
     wait(&mut window);
@@ -301,10 +297,7 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     wait(&mut window);
     window.key_press(Key::ArrowDown);
     until(&mut window, "it follows the hand", |app| held(app).playing);
-    until(&mut window, "it is there", |app| {
-        let hold = held(app);
-        (hold.now.reading.gap / hold.target - 1.0).abs() < 1e-3
-    });
+    until(&mut window, "it is there", |app| (held(app).now.reading.gap / held(app).target - 1.0).abs() < 1e-3);
 }
 
 #[test]
@@ -354,8 +347,8 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     window.ctrl(Key::Num6);
     window.click_on("Drop it");
     until(&mut window, "it falls", |app| app.state().dropped.as_ref().is_some_and(|dropped| dropped.cycles.len() > 60));
-    let heights: Vec<f64> =
-        window.known().dropped.as_ref().unwrap().cycles.iter().map(|cycle| cycle.height.value).collect();
+    let dropped = window.known().dropped.as_ref().unwrap();
+    let heights: Vec<f64> = dropped.cycles.iter().map(|cycle| cycle.height.value).collect();
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
     window.run_steps(2);
     assert!(window.known().dropped.as_ref().unwrap().work.running());

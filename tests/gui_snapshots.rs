@@ -23,7 +23,6 @@ use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::Method;
@@ -88,10 +87,16 @@ fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
 /// Name of the picture, preset, size of the window, keys that are pressed.
 type Look = (&'static str, &'static str, [f32; 2], &'static [(Modifiers, Key)]);
 
-/// Whether there is a driver to draw with.
-fn can_draw() -> bool {
+/// No results yet; `None`, and why, if there is no driver to draw with.
+fn results() -> Option<SnapshotResults> {
     let instance = pollster_wait(default_wgpu_setup().new_instance());
-    !pollster_wait(instance.enumerate_adapters(eframe::wgpu::Backends::VULKAN)).is_empty()
+    if pollster_wait(instance.enumerate_adapters(eframe::wgpu::Backends::VULKAN)).is_empty() {
+        let required = std::env::var_os("SQUEEZEFILM_SNAPSHOTS").is_some_and(|value| value == "required");
+        assert!(!required, "there is no Vulkan driver");
+        eprintln!("skipped: there is no Vulkan driver (Debian: mesa-vulkan-drivers)");
+        return None;
+    }
+    Some(SnapshotResults::new())
 }
 
 fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
@@ -117,10 +122,7 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
     // How long the solver takes decides how long a cursor has been blinking.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     window.key_press(Key::Space);
-    until(&mut window, "solved", |app| {
-        let fine = app.state().run.as_deref().is_some_and(|run| run.fidelity == Fidelity::Fine);
-        fine && app.state().activity.running.is_none()
-    });
+    solved(&mut window);
     window.press(Key::Home);
     for _ in 0..7 {
         window.press(Key::ArrowRight);
@@ -146,16 +148,19 @@ fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
     settle(window);
 }
 
+/// Until the scene on screen is solved, and nothing moves any more.
+fn solved(window: &mut Window) {
+    window::solved(window);
+    settle(window);
+}
+
 /// Two pinned runs of a preset that differ in one key, and a preset beside them.
 fn compared(preset: &str, (field, text): (&str, &str), size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
     let mut window = window(preset, size, keys);
     window.ctrl(Key::D);
     settle(&mut window);
     window.type_into(field, text);
-    until(&mut window, "solved", |app| {
-        let number = app.state().activity.number;
-        app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
-    });
+    solved(&mut window);
     window.ctrl(Key::D);
     settle(&mut window);
     window.ctrl(Key::Num2);
@@ -206,13 +211,7 @@ fn started(results: &mut SnapshotResults) {
 
 #[test]
 fn the_window_looks_as_it_did() {
-    if !can_draw() {
-        let required = std::env::var_os("SQUEEZEFILM_SNAPSHOTS").is_some_and(|value| value == "required");
-        assert!(!required, "there is no Vulkan driver");
-        eprintln!("skipped: there is no Vulkan driver (Debian: mesa-vulkan-drivers)");
-        return;
-    }
-    let mut results = SnapshotResults::new();
+    let Some(mut results) = results() else { return };
     for &(name, preset, size, keys) in LOOKS {
         let mut window = window(preset, size, keys);
         compare(&mut results, &mut window, name);
@@ -250,10 +249,7 @@ fn the_window_looks_as_it_did() {
 /// What the results depend on, before and after parameters are uncertain.
 #[test]
 fn sensitivities_look_as_they_did() {
-    if !can_draw() {
-        return;
-    }
-    let mut results = SnapshotResults::new();
+    let Some(mut results) = results() else { return };
     let mut window = window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num9)]);
     window.click_on("Compute sensitivities");
     until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
@@ -272,11 +268,8 @@ fn sensitivities_look_as_they_did() {
 /// The rotor by itself: a ring with its parts among the parameters, and a beam.
 #[test]
 fn a_rotor_looks_as_it_did() {
-    if !can_draw() {
-        return;
-    }
     const ROTOR: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num8);
-    let mut results = SnapshotResults::new();
+    let Some(mut results) = results() else { return };
     let computed = |app: &App| match app.state().run.as_deref().map(|run| &run.problem.scenario) {
         Some(Scenario::Motor(motor)) => app.state().rotor.is_of(motor),
         _ => false,
@@ -309,16 +302,13 @@ fn a_rotor_looks_as_it_did() {
 /// A fit with its residuals, in a small window and light too; and measured torques over the curve.
 #[test]
 fn measurements_look_as_they_did() {
-    if !can_draw() {
-        return;
-    }
     const FIT: (Modifiers, Key) = (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
+    let Some(mut results) = results() else { return };
     let folder = tempfile::tempdir().unwrap();
     let (loads, torques) = (folder.path().join("loads.csv"), folder.path().join("torques.csv"));
     let rows = "row,stator.frequency_khz,film_load_n\nlow,20,0.550\n,40,0.600\n,60,0.615\nhigh,100,0.630\n";
     std::fs::write(&loads, rows).unwrap();
     std::fs::write(&torques, "rotor_speed_rpm,torque_nm\n0,0.27\n20,0.255\n40,0.24\n50,0.21\n55,0.12\n").unwrap();
-    let mut results = SnapshotResults::new();
     for (name, size, keys) in [("fit-dark", USUAL, &[FIT][..]), ("fit-small-light", SMALL, &[FIT, THEME][..])] {
         let mut window = window("fundamental", size, keys);
         drop_file(&mut window, &loads);
@@ -356,22 +346,16 @@ fn click(window: &mut Window, labels: &[&str]) {
     }
 }
 
-/// Until the scene of a lesson's step is solved as far as it will be, and its motion stands at its start.
-fn solved(window: &mut Window) {
-    until(window, "the step is solved", |app| {
-        let done = |run: &SolvedScene| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
-        app.state().activity.running.is_none() && app.state().run.as_deref().is_some_and(done)
-    });
+/// Until the scene of a lesson's step is solved, with the pointer where nothing is.
+fn still(window: &mut Window) {
+    solved(window);
     window.hover_at(eframe::egui::pos2(700.0, 1.0));
     settle(window);
 }
 
 #[test]
 fn lessons_tour_and_glossary_look_as_they_did() {
-    if !can_draw() {
-        return;
-    }
-    let mut results = SnapshotResults::new();
+    let Some(mut results) = results() else { return };
     // A formula, a question and a task; small and light, a task that is done.
     for (name, size, keys) in [
         ("lesson-dark", USUAL, &[][..]),
@@ -381,21 +365,21 @@ fn lessons_tour_and_glossary_look_as_they_did() {
         let mut window = window("fundamental", size, keys);
         click(&mut window, &["Lessons", "Pushing on trapped air"]);
         if name == "lesson-dark" {
-            solved(&mut window);
+            still(&mut window);
             window.snapshot("lesson-hold");
         }
         for _ in 0..2 {
             window.key_press(Key::PageDown);
             settle(&mut window);
         }
-        solved(&mut window);
+        still(&mut window);
         if name != "lesson-lecture" {
             click(&mut window, &["More than double", "This is my prediction"]);
         }
         if name == "lesson-small-light" {
             click(&mut window, &["Give me a hint", "One more hint", "Show me"]);
         }
-        solved(&mut window);
+        still(&mut window);
         compare(&mut results, &mut window, name);
     }
     let mut window = window("fundamental", USUAL, &[]);
@@ -404,13 +388,13 @@ fn lessons_tour_and_glossary_look_as_they_did() {
         window.key_press(Key::PageDown);
         settle(&mut window);
     }
-    solved(&mut window);
+    still(&mut window);
     window.snapshot("lesson-formula");
     click(&mut window, &["Leave", "Help", "Take the tour", "Next"]);
-    solved(&mut window);
+    still(&mut window);
     window.snapshot("tour");
     click(&mut window, &["Skip the tour", "Help", "Glossary"]);
     window.get_by_role_and_label(Role::TextInput, "Search").type_text("squeeze");
-    solved(&mut window);
+    still(&mut window);
     compare(&mut results, &mut window, "glossary");
 }

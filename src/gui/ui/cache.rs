@@ -3,6 +3,8 @@
 use eframe::egui::{Context, Id, Ui};
 use std::sync::Arc;
 
+const MADE: &str = "squeezefilm, made";
+
 /// Result of `make`, kept under `name` until `key` changes.
 pub fn once<K: PartialEq + Send + Sync + 'static, T: Send + Sync + 'static>(
     ui: &Ui,
@@ -18,16 +20,12 @@ pub fn once<K: PartialEq + Send + Sync + 'static, T: Send + Sync + 'static>(
     let fresh = Arc::new(make());
     ui.data_mut(|data| {
         data.insert_temp(id, Arc::new((key, Arc::clone(&fresh))));
-        *data.get_temp_mut_or_default::<usize>(made_id()) += 1;
+        *data.get_temp_mut_or_default::<usize>(Id::unique(MADE)) += 1;
     });
     fresh
 }
 
-fn made_id() -> Id {
-    Id::unique("squeezefilm, made")
-}
-
 /// Number of computations so far: tests check that a redraw without a change adds none.
 pub fn made(ctx: &Context) -> usize {
-    ctx.data(|data| data.get_temp(made_id())).unwrap_or_default()
+    ctx.data(|data| data.get_temp(Id::unique(MADE))).unwrap_or_default()
 }

@@ -98,12 +98,17 @@ impl<'n> Chart<'n> {
         let shown = framed(ui, (name, change(plot)), bounds, move |plot| {
             ground(plot);
             panel.layers.iter().for_each(|layer| draw(plot, panel, layer, &visuals));
-            plot.pointer_coordinate().map(|at| at.x)
         });
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-        axes(ui, whole, *shown.transform.frame(), words.0, words.1);
+        let frame = *shown.transform.frame();
+        let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=whole.bottom());
+        let left = Rect::from_x_y_ranges(whole.left()..=frame.left(), frame.y_range());
+        for (axis, rect, word) in [("x", below, words.0), ("y", left, Some(words.1))] {
+            if let Some(word) = word {
+                glossary::over(ui, rect, word, (name, axis)).explained_here(ui, word);
+            }
+        }
         names(ui, panel, &shown.transform);
-        PlotResponse { inner: shown.inner.filter(|_| shown.response.hovered()), ..shown }
+        shown
     }
 }
 
@@ -189,9 +194,6 @@ fn pieces<const N: usize>(points: impl Iterator<Item = [f64; N]>) -> Vec<Vec<[f6
 
 /// Names of places, where figures have them.
 fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
-    if !panel.layers.iter().any(|layer| matches!(layer, Layer::Text(_))) {
-        return;
-    }
     let (frame, bounds, colour) = (*at.frame(), at.bounds(), ui.visuals().text_color());
     let painter = ui.painter_at(frame);
     let galley = |text: &str| painter.layout_no_wrap(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour);
@@ -231,19 +233,6 @@ fn shape(shape: Shape) -> MarkerShape {
     }
 }
 
-/// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
-fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
-    let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
-    let left = Rect::from_x_y_ranges(place.left()..=frame.left(), frame.y_range());
-    for (number, (rect, word)) in [(below, x), (left, Some(y))].into_iter().enumerate() {
-        if let Some(word) = word {
-            // Charts of one tab are told apart by where they are.
-            let number = number + 2 * place.top().max(0.0) as usize + 100_000 * place.left().max(0.0) as usize;
-            glossary::over(ui, rect, word, number).explained_here(ui, word);
-        }
-    }
-}
-
 /// A title above a chart, with its unit, which the glossary explains under `word`.
 pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
     ui.add(egui::Label::new(RichText::new(text).strong()).wrap()).explained_here(ui, word);
@@ -267,10 +256,19 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
     if entries.is_empty() {
         return;
     }
+    let (font, text) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {
         for (name, colour, layer) in entries {
+            let galley = ui.painter().layout_no_wrap(name.to_owned(), font.clone(), text);
+            let em = galley.size().y;
+            let indent = (SAMPLE + 0.35) * em;
+            // An entry is a whole that goes to the next line.
+            let size = vec2(indent + galley.size().x + 0.5 * em, em);
+            let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+            response.called(egui::Role::Label, name).explained_here(ui, name);
+            let (painter, left) = (ui.painter(), area.left_center());
             let colour = on_screen(colour, ui.visuals());
-            key(ui, name, SAMPLE + 0.35, 0.5, |painter, left, em| match layer {
+            match layer {
                 Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
                     let ends = [left, left + vec2(SAMPLE * em, 0.0)];
                     // A solid one is one dash.
@@ -303,22 +301,10 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
                     let area = Rect::from_center_size(left + vec2(0.5 * SAMPLE * em, 0.0), vec2(SAMPLE * em, 0.5 * em));
                     painter.rect_filled(area, 1.0, colour);
                 }
-            });
+            }
+            painter.galley(area.left_top() + vec2(indent, 0.0), galley, text);
         }
     });
-}
-
-/// An entry of a legend, in one piece, so that it is a whole that goes to the next line. What `draw` draws from a place on, at half the
-/// height of the text, has `indent` before the text, which has `after` behind it, in heights of the text.
-fn key(ui: &mut egui::Ui, text: &str, indent: f32, after: f32, draw: impl FnOnce(&egui::Painter, egui::Pos2, f32)) {
-    let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
-    let em = galley.size().y;
-    let size = vec2(indent * em + galley.size().x + after * em, em);
-    let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    response.called(egui::Role::Label, text).explained_here(ui, text);
-    draw(ui.painter(), area.left_center(), em);
-    ui.painter().galley(area.left_top() + vec2(indent * em, 0.0), galley, colour);
 }
 
 /// Marks of an axis of log₁₀ at round numbers, about `most`: equal steps, where the logarithm has them, if there are few powers of ten.

@@ -2,7 +2,7 @@
 
 use super::highlight;
 use super::hint::Hint;
-use super::theme::{self, Palette, palette};
+use super::theme::{Palette, palette};
 use crate::digits::{capitalised, raised};
 use crate::gui::command::Command;
 use crate::gui::derived::format::rough;
@@ -143,7 +143,7 @@ impl<'a> DrawContext<'a> {
 
     /// As [`Self::mark`], for a plot: the ring stays within it, clear of the title above.
     pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
-        self.mark(ui, name, plot.shrink(theme::highlight::GAP + 0.5 * theme::highlight::GLOW));
+        self.mark(ui, name, plot.shrink(highlight::GAP + 0.5 * highlight::GLOW));
     }
 
     /// Gives the keyboard to the `widget` called `name`, if a lesson leads there.

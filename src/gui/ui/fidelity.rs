@@ -40,12 +40,12 @@ pub fn choose_target(ui: &mut Ui, present: Fidelity, width: f32, cx: &DrawContex
 }
 
 /// The combo box, and the choice made in its list. Text typed there is forgotten when it closes.
-fn list<T>(
+fn list(
     ui: &mut Ui,
     (id, width): (&'static str, Option<f32>),
     shown: String,
-    show: impl FnOnce(&mut Ui) -> Option<T>,
-) -> (Response, Option<T>) {
+    show: impl FnOnce(&mut Ui) -> Option<Fidelity>,
+) -> (Response, Option<Fidelity>) {
     let combo = ComboBox::from_id_salt(id)
         .selected_text(shown)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)

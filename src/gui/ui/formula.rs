@@ -1,10 +1,21 @@
 //! Sets formulas: every part is a box with a width, a height above the baseline and a depth below it.
 
-use crate::gui::ui::theme::mathematics;
 use crate::lessons::formula::{Mark, Node, SUM};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
+/// Size of indices and exponents, of the sign of a sum on its own, and of numerator and denominator within text, as shares of the text's.
+const SCRIPT: f32 = 0.72;
+const SIGN_OF_SUM: f32 = 1.5;
+const FRACTION: f32 = 0.8;
+/// Smallest size of glyphs \[points\].
+const LEAST: f32 = 8.5;
+/// Heights above the baseline of the middle of + and −, and of a letter, and its depth below it, as shares of the size.
+const AXIS: f32 = 0.27;
+pub(super) const ASCENT: f32 = 0.74;
+pub(super) const DESCENT: f32 = 0.21;
+/// Width of lines, of fractions and roots, likewise.
+const RULE: f32 = 0.07;
 /// Letters without a stem.
 const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
 
@@ -29,12 +40,12 @@ pub(super) struct Style {
 
 impl Style {
     fn scaled(self, scale: f32) -> Self {
-        Self { size: (scale * self.size).max(mathematics::LEAST.min(self.size)), display: false, ..self }
+        Self { size: (scale * self.size).max(LEAST.min(self.size)), display: false, ..self }
     }
 
     /// Width of the lines of fractions, roots, brackets and bars.
     fn rule(self) -> f32 {
-        (mathematics::RULE * self.size).max(1.0)
+        (RULE * self.size).max(1.0)
     }
 
     /// A line of that width.
@@ -82,8 +93,8 @@ impl Typeset {
         let baseline = galley.rows.first().and_then(|row| Some(row.pos.y + row.row.glyphs.first()?.pos.y));
         Self {
             width: galley.size().x,
-            ascent: mathematics::ASCENT * size,
-            descent: mathematics::DESCENT * size,
+            ascent: ASCENT * size,
+            descent: DESCENT * size,
             shapes: vec![Shape::galley(pos2(0.0, -baseline.unwrap_or_default()), galley, colour)],
         }
     }
@@ -115,12 +126,12 @@ impl Typeset {
     }
 
     fn fraction(painter: &Painter, over: &[Node], under: &[Node], style: Style) -> Self {
-        let inner = if style.display { Style { display: false, ..style } } else { style.scaled(mathematics::FRACTION) };
+        let inner = if style.display { Style { display: false, ..style } } else { style.scaled(FRACTION) };
         let (over, under) = (Self::of(painter, over, inner), Self::of(painter, under, inner));
         let (overhang, gap) = (0.12 * style.size, 0.14 * style.size + 0.5 * style.rule());
         let widest = over.width.max(under.width) + 2.0 * overhang;
         let side = 0.08 * style.size;
-        let axis = -mathematics::AXIS * style.size;
+        let axis = -AXIS * style.size;
         let line = vec![pos2(side, axis), pos2(side + widest, axis)];
         let mut set = Self { width: widest + 2.0 * side, shapes: vec![style.line(line)], ..Self::default() };
         let middle = |part: &Self| side + 0.5 * (widest - part.width);
@@ -151,10 +162,10 @@ impl Typeset {
 
     /// A sum on its own, with what it is over below and how far it goes above.
     fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
-        let small = style.scaled(mathematics::SCRIPT);
-        let sign = Self::text(painter, SUM, Style { size: mathematics::SUM * style.size, ..style }, false);
+        let small = style.scaled(SCRIPT);
+        let sign = Self::text(painter, SUM, Style { size: SIGN_OF_SUM * style.size, ..style }, false);
         // Its middle is where those of + and of fractions are.
-        let drop = 0.5 * (sign.ascent - sign.descent) - mathematics::AXIS * style.size;
+        let drop = 0.5 * (sign.ascent - sign.descent) - AXIS * style.size;
         let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
         let width = sign.width.max(below.width).max(above.width);
         let gap = 0.1 * style.size;
@@ -174,7 +185,7 @@ impl Typeset {
             return Self::sum(painter, scripts, style);
         }
         let [index, exponent] = scripts;
-        let small = style.scaled(mathematics::SCRIPT);
+        let small = style.scaled(SCRIPT);
         let mut set = Self::of(painter, base, style);
         let (base_ascent, base_descent, start) = (set.ascent, set.descent, set.width + 0.02 * style.size);
         let tall = base_ascent > 1.1 * style.size;

@@ -12,13 +12,11 @@ const RING_NEAR: f32 = 24.0;
 /// Widest explanation on hover.
 const WIDTH: f32 = 320.0;
 
-fn unexplained_id() -> Id {
-    Id::unique("glossary, unexplained")
-}
+const UNEXPLAINED: &str = "glossary, unexplained";
 
 /// Words that were shown and that the glossary does not have: none, which a test asks for.
 pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
-    ctx.data(|data| data.get_temp::<Vec<String>>(unexplained_id())).unwrap_or_default()
+    ctx.data(|data| data.get_temp::<Vec<String>>(Id::unique(UNEXPLAINED))).unwrap_or_default()
 }
 
 /// Shows a glossary entry while the pointer rests on a widget.
@@ -44,16 +42,16 @@ pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui:
     ui.label(text).explained_here(ui, word)
 }
 
-/// A hover area over a term at `place`; `number` tells apart the terms of one drawing.
-pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
-    let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
+/// A hover area over a term at `place`, which `id` tells from the same term elsewhere in `ui`.
+pub fn over(ui: &Ui, place: egui::Rect, word: &str, id: impl egui::AsIdSalt) -> egui::Response {
+    let response = ui.interact(place, ui.scope_id().with(("term", word, id)), egui::Sense::hover());
     response.called(egui::Role::Label, &format!("About: {word}"))
 }
 
 fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Rect>) -> egui::Response {
     let Some(term) = find(word) else {
         ui.ctx().data_mut(|data| {
-            let missing: &mut Vec<String> = data.get_temp_mut_or_default(unexplained_id());
+            let missing: &mut Vec<String> = data.get_temp_mut_or_default(Id::unique(UNEXPLAINED));
             if !missing.iter().any(|other| other == word) {
                 missing.push(word.to_owned());
             }

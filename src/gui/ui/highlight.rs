@@ -1,7 +1,13 @@
 //! Where parts of the window are, and the ring round one that a lesson or the tour points at.
 
-use super::theme::{highlight, palette};
+use super::theme::palette;
 use eframe::egui::{Context, CornerRadius, Id, Rect, Stroke, StrokeKind, Ui};
+
+/// Gap between a part and the ring round it, widths of the ring and of its glow, and its corners.
+pub(super) const GAP: f32 = 3.0;
+const LINE: f32 = 2.0;
+pub(super) const GLOW: f32 = 6.0;
+const CORNER: u8 = 6;
 
 /// Remembers that `name` is at `rect` in this frame.
 pub fn remember(ui: &Ui, name: &str, rect: Rect) {
@@ -16,30 +22,28 @@ pub fn place(ctx: &Context, name: &str) -> Option<Rect> {
     (now.saturating_sub(frame) <= 1).then_some(rect)
 }
 
-fn rings_id() -> Id {
-    Id::unique("highlight, rings")
-}
+const RINGS: &str = "highlight, rings";
 
 /// The ring of this frame or the one before that `rect` touches: what pops up there keeps out of it.
 pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
     let now = ctx.cumulative_frame_nr();
-    let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(rings_id())).unwrap_or_default();
+    let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(Id::unique(RINGS))).unwrap_or_default();
     let fresh = rings.into_iter().filter(|(frame, _)| now.saturating_sub(*frame) <= 1);
-    fresh.map(|(_, ring)| ring).find(|ring| ring.expand(highlight::GAP).intersects(rect))
+    fresh.map(|(_, ring)| ring).find(|ring| ring.expand(GAP).intersects(rect))
 }
 
 /// A ring with a glow round `rect`.
 pub fn ring(ui: &Ui, rect: Rect) {
     let now = ui.ctx().cumulative_frame_nr();
     ui.ctx().data_mut(|data| {
-        let rings: &mut Vec<(u64, Rect)> = data.get_temp_mut_or_default(rings_id());
+        let rings: &mut Vec<(u64, Rect)> = data.get_temp_mut_or_default(Id::unique(RINGS));
         rings.retain(|(frame, _)| now.saturating_sub(*frame) <= 1);
         rings.push((now, rect));
     });
     let colour = palette(ui.visuals().dark_mode).accent;
-    let rect = rect.expand(highlight::GAP);
-    let corner = CornerRadius::same(highlight::CORNER);
-    for (width, colour) in [(highlight::GLOW, colour.gamma_multiply(0.25)), (highlight::LINE, colour)] {
+    let rect = rect.expand(GAP);
+    let corner = CornerRadius::same(CORNER);
+    for (width, colour) in [(GLOW, colour.gamma_multiply(0.25)), (LINE, colour)] {
         ui.painter().rect_stroke(rect, corner, Stroke::new(width, colour), StrokeKind::Middle);
     }
 }

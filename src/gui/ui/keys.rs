@@ -65,12 +65,6 @@ const HOLD_STEP: f64 = 0.05;
 /// The group of the keys that change how the window looks.
 pub const WINDOW: &str = "Window";
 
-const GO_ON: Command = Command::Lesson(LessonCommand::GoOn);
-
-fn choose(choice: usize) -> Command {
-    Command::Lesson(LessonCommand::Choose(choice))
-}
-
 const MOVING: &[Shortcut] = &[
     Idle.on(NONE, Key::Space, "Play or pause", || Command::TogglePlay),
     Idle.on(NONE, Key::ArrowLeft, "One frame back", || Command::StepFrames(-1)),
@@ -96,15 +90,15 @@ const SCENE: &[Shortcut] = &[
 ];
 
 const LESSONS: &[Shortcut] = &[
-    Idle.on(NONE, Key::PageDown, "Next step", || Command::Lesson(LessonCommand::Next)),
-    Idle.on(NONE, Key::PageUp, "Previous step", || Command::Lesson(LessonCommand::Back)),
-    Idle.on(NONE, Key::Enter, "Confirm the answer, go to what is marked, or go on", || GO_ON),
-    Idle.on(NONE, Key::Num1, "First answer", || choose(0)),
-    Idle.on(NONE, Key::Num2, "Second answer", || choose(1)),
-    Idle.on(NONE, Key::Num3, "Third answer", || choose(2)),
-    Idle.on(NONE, Key::Num4, "Fourth answer", || choose(3)),
-    Window.on(NONE, Key::F5, "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
-    Idle.on(NONE, Key::H, "Hint", || Command::Lesson(LessonCommand::Hint)),
+    Idle.on(NONE, Key::PageDown, "Next step", || LessonCommand::Next.into()),
+    Idle.on(NONE, Key::PageUp, "Previous step", || LessonCommand::Back.into()),
+    Idle.on(NONE, Key::Enter, "Confirm the answer, go to what is marked, or go on", || LessonCommand::GoOn.into()),
+    Idle.on(NONE, Key::Num1, "First answer", || LessonCommand::Choose(0).into()),
+    Idle.on(NONE, Key::Num2, "Second answer", || LessonCommand::Choose(1).into()),
+    Idle.on(NONE, Key::Num3, "Third answer", || LessonCommand::Choose(2).into()),
+    Idle.on(NONE, Key::Num4, "Fourth answer", || LessonCommand::Choose(3).into()),
+    Window.on(NONE, Key::F5, "Read the lessons of folders again", || LessonCommand::Reload.into()),
+    Idle.on(NONE, Key::H, "Hint", || LessonCommand::Hint.into()),
 ];
 
 const FILE: &[Shortcut] = &[

@@ -3,6 +3,7 @@
 use super::glossary::{self, Explained};
 use super::theme::{self, Palette};
 use crate::digits::short;
+use crate::export::figure::{Colour, Colours};
 use crate::gui::derived::format::ends;
 use crate::recording::Recording;
 use crate::ticks::{Steps, round_down};
@@ -182,7 +183,7 @@ impl PlotStyle {
     }
 
     /// A vertical bar left of `axes`, as long as a round number of micrometres.
-    pub(super) fn scale_bar(&self, axes: &Axes) {
+    fn scale_bar(&self, axes: &Axes) {
         let (plot, scale) = (axes.rect, axes.points_per_metre());
         let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
         let height = (length * 1e-6 * scale) as f32;
@@ -252,6 +253,21 @@ impl Axes {
         Self { rect, x: widened(x), y: widened(y) }
     }
 
+    /// Those of a drawing of heights \[m\], with its ground and a scale bar: from `low` to `high`, and these shares of the drawing below and above.
+    pub(super) fn of_heights(
+        style: &PlotStyle,
+        (rect, x): (Rect, [f64; 2]),
+        [low, high]: [f64; 2],
+        [below, above]: [f64; 2],
+    ) -> Self {
+        let whole = (high - low) / (1.0 - below - above);
+        let bottom = low - below * whole;
+        let axes = Self::new(rect, x, [bottom, bottom + whole]);
+        style.painter.rect_filled(rect, 2.0, style.palette.canvas);
+        style.scale_bar(&axes);
+        axes
+    }
+
     pub(super) fn px(&self, x: f64) -> f32 {
         let part = (x - self.x[0]) / (self.x[1] - self.x[0]);
         self.rect.left() + part as f32 * self.rect.width()
@@ -280,10 +296,6 @@ impl Axes {
     pub(super) fn x_at(&self, px: f32) -> Option<f64> {
         let part = f64::from((px - self.rect.left()) / self.rect.width());
         (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
-    }
-
-    pub(super) fn canvas(&self, style: &PlotStyle) {
-        style.painter.rect_filled(self.rect, 2.0, style.palette.canvas);
     }
 
     pub(super) fn x_grid(&self, style: &PlotStyle, unit: f64) {
@@ -338,7 +350,12 @@ pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 /// Colours of the field in 256 steps.
 pub(super) fn field_colours() -> &'static [Color32; 256] {
     static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
-    COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
+    COLOURS.get_or_init(|| {
+        std::array::from_fn(|i| {
+            let Colour(r, g, b) = Colours::Field.at(i as f64 / 255.0);
+            Color32::from_rgb(r, g, b)
+        })
+    })
 }
 
 /// The colour of a value of the field, of which these get the first colour and the last.

@@ -7,11 +7,9 @@ use crate::scene::quantity_text;
 use crate::scene::show_text;
 use eframe::egui::style::ScrollAnimation;
 use eframe::egui::{
-    Button, DragValue, Event, Grid, Id, Key, Rangef, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
+    AsIdSalt, Button, DragValue, Event, Grid, Id, Key, Rangef, Response, RichText, ScrollArea, Stroke, Tooltip, Ui,
 };
 use std::cell::Cell;
-use std::fmt::Debug;
-use std::hash::Hash;
 use std::ops::RangeInclusive;
 
 /// Room at the right of a tab with charts: half of the last number of an axis is clear of the scroll bar.
@@ -139,7 +137,7 @@ pub(super) fn joined(text: &str) -> String {
 
 /// Shows what `add` draws over the whole height that there is, and scrolls it. At the right `bar` is left free: for the scroll bar, which
 /// floats, and for half a number at the end of an axis.
-pub fn scrolled(ui: &mut Ui, id: impl Hash + Debug, bar: f32, add: impl FnOnce(&mut Ui)) {
+pub fn scrolled(ui: &mut Ui, id: impl AsIdSalt, bar: f32, add: impl FnOnce(&mut Ui)) {
     scroll(ui, ScrollArea::vertical().id_salt(id), bar, add);
 }
 

@@ -18,17 +18,18 @@ pub(super) fn id(name: &str) -> Id {
     Id::unique(("chart", name))
 }
 
-/// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
-pub(super) fn framed<'a, R>(
+/// Shows the chart `name`, as screen readers call it, from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
+/// With the x that is pointed at.
+pub(super) fn framed<'a>(
     ui: &mut egui::Ui,
     (name, plot): (&str, Plot<'a>),
     [x, y]: [[f64; 2]; 2],
-    add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
-) -> PlotResponse<R> {
+    add: impl FnOnce(&mut PlotUi<'a>) + 'a,
+) -> PlotResponse<Option<f64>> {
     // A new chart starts with automatic ranges, as after a double click.
     let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
     let ([left, right], [bottom, top]) = (widened(x), widened(y));
-    plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
+    let mut shown = plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
         if fresh {
             plot.set_auto_bounds(true);
         }
@@ -36,8 +37,12 @@ pub(super) fn framed<'a, R>(
         if bounds.width() > FARTHEST * (right - left) || bounds.height() > FARTHEST * (top - bottom) {
             plot.set_auto_bounds(true);
         }
-        add(plot)
-    })
+        add(plot);
+        None
+    });
+    shown.inner = shown.response.hover_pos().map(|at| shown.transform.value_from_position(at).x);
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    shown
 }
 
 /// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn

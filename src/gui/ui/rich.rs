@@ -1,12 +1,15 @@
 //! Text with formulas in it, broken into lines.
 
-use super::formula::{Style as MathStyle, Typeset};
+use super::formula::{ASCENT, DESCENT, Style as MathStyle, Typeset};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::theme::{mathematics, palette};
+use crate::gui::ui::theme::palette;
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
 use eframe::egui::{self, Color32, FontId, Response, Sense, TextStyle, Ui, pos2, vec2};
+
+/// Size of a formula on its own, as a share of the text's.
+const DISPLAY: f32 = 1.2;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +48,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
-                let style = MathStyle { size: mathematics::DISPLAY * look.size, colour: look.colour, display: true };
+                let style = MathStyle { size: DISPLAY * look.size, colour: look.colour, display: true };
                 let mut formula_set = Typeset::of(ui.painter(), &formula.nodes, style);
                 if formula_set.width > room {
                     let size = style.size * ((room / formula_set.width) * 0.98);
@@ -86,20 +89,13 @@ struct Atom {
 pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     let atoms = atoms(ui, parts, look);
     let room = ui.available_width();
-    // Lines of atoms; what is glued together is moved together.
-    let mut lines: Vec<Vec<Atom>> = vec![Vec::new()];
+    let mut lines: Vec<Vec<&Atom>> = vec![Vec::new()];
     let mut at = 0.0;
-    let mut units: Vec<Vec<Atom>> = Vec::new();
-    for atom in atoms {
-        match units.last_mut() {
-            Some(unit) if atom.space.is_none() || atom.glued => unit.push(atom),
-            _ => units.push(vec![atom]),
-        }
-    }
-    for unit in units {
+    // What is glued together is moved together.
+    for unit in atoms.chunk_by(|_, next| next.space.is_none() || next.glued) {
         let inside: f32 = unit.iter().skip(1).filter_map(|atom| atom.space).sum();
         let width = inside + unit.iter().map(|atom| atom.set.width).sum::<f32>();
-        let space = unit.first().and_then(|atom| atom.space).unwrap_or_default();
+        let space = unit[0].space.unwrap_or_default();
         if at > 0.0 && at + space + width > room {
             lines.push(Vec::new());
             at = 0.0;
@@ -110,7 +106,7 @@ pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
         }
     }
     let lead = 0.36 * look.size;
-    let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
+    let (ascent, descent) = (ASCENT * look.size, DESCENT * look.size);
     let heights: Vec<(f32, f32)> = lines
         .iter()
         .map(|line| line.iter().map(|atom| &atom.set))

@@ -1,6 +1,6 @@
-//! Colours and sizes: the only place that has any.
+//! Colours, dashes and fonts.
 
-use crate::export::figure::{Colour, Colours};
+use crate::export::figure::Colour;
 use eframe::egui::{self, Color32, FontData, FontFamily};
 use egui_plot::LineStyle;
 
@@ -83,12 +83,6 @@ fn rgb(digits: u32) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// Colour of a value between 0 and 1 in a field: perceptually uniform.
-pub fn field_colour(value: f64) -> Color32 {
-    let Colour(r, g, b) = Colours::Field.at(value);
-    Color32::from_rgb(r, g, b)
-}
-
 /// `colour` on a face that has this much light, 0 to 1.
 pub fn lit(colour: Color32, light: f32) -> Color32 {
     let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(|part| (f32::from(part) * light.clamp(0.0, 1.0)) as u8);
@@ -149,40 +143,6 @@ pub fn install_fonts(ctx: &egui::Context) {
         }
     }
     ctx.set_fonts(fonts);
-}
-
-/// The ring round what is highlighted.
-pub mod highlight {
-    /// Gap between the ring and the highlighted part.
-    pub const GAP: f32 = 3.0;
-    /// Its width.
-    pub const LINE: f32 = 2.0;
-    /// The width of its glow.
-    pub const GLOW: f32 = 6.0;
-    /// Its corners.
-    pub const CORNER: u8 = 6;
-}
-
-/// Sizes of formulas, relative to the text around them.
-pub mod mathematics {
-    /// A formula on its own.
-    pub const DISPLAY: f32 = 1.2;
-    /// Indices and exponents.
-    pub const SCRIPT: f32 = 0.72;
-    /// The sign of a sum on its own.
-    pub const SUM: f32 = 1.5;
-    /// Numerator and denominator of a fraction within text.
-    pub const FRACTION: f32 = 0.8;
-    /// Smallest size of glyphs \[points\].
-    pub const LEAST: f32 = 8.5;
-    /// Height of the middle of + and − above the baseline.
-    pub const AXIS: f32 = 0.27;
-    /// Height of a letter above the baseline.
-    pub const ASCENT: f32 = 0.74;
-    /// Depth of a letter below it.
-    pub const DESCENT: f32 = 0.21;
-    /// Width of lines: of fractions and roots.
-    pub const RULE: f32 = 0.07;
 }
 
 #[cfg(test)]

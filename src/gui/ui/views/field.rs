@@ -3,10 +3,11 @@
 use super::frame::Frame;
 use crate::digits::short;
 use crate::fidelity::Fidelity;
+use crate::gui::ui::cache::once;
 use crate::gui::ui::paint::{Axes, PlotStyle, pressure_colour};
 use crate::recording::Recording;
 use crate::recording::sample::{self, Plane, between};
-use eframe::egui::{Align2, Color32, ColorImage, Id, Rect, TextureHandle, TextureOptions, Ui, pos2};
+use eframe::egui::{Align2, Color32, ColorImage, Rect, TextureOptions, Ui, pos2};
 
 /// Texels across the width: the field is smooth, the graphics card interpolates.
 const MOST_ROWS: usize = 96;
@@ -28,14 +29,6 @@ pub(super) struct Stamp {
     pub(super) range: [f64; 2],
 }
 
-#[derive(Clone)]
-struct Picture {
-    stamp: Stamp,
-    ground: Color32,
-    size: [usize; 2],
-    texture: TextureHandle,
-}
-
 /// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `rect`: all of
 /// it, so that it needs no canvas below. Returns the axes, along x and across the width.
 pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording, name: &str, stamp: Stamp) -> Axes {
@@ -46,23 +39,10 @@ pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording
     let scale = style.painter.pixels_per_point();
     let texels = |length: f32, most: usize| ((length * scale).round().max(1.0) as usize).min(most);
     let size = [texels(rect.width(), MOST_COLUMNS), texels(rect.height(), MOST_ROWS)];
-    let id = Id::unique(("squeezefilm map", name));
-    let known = ui.data(|data| data.get_temp::<Picture>(id));
-    let texture = match known {
-        Some(known) if known.stamp == stamp && known.size == size && known.ground == ground => known.texture,
-        known => {
-            let image = ColorImage::new(size, pixels(recording, &stamp, size, ground));
-            let texture = match known {
-                Some(mut known) => {
-                    known.texture.set(image, TextureOptions::LINEAR);
-                    known.texture
-                }
-                None => ui.ctx().load_texture(name, image, TextureOptions::LINEAR),
-            };
-            ui.data_mut(|data| data.insert_temp(id, Picture { stamp, ground, size, texture: texture.clone() }));
-            texture
-        }
-    };
+    let texture = once(ui, &format!("map, {name}"), (stamp, ground, size), || {
+        let image = ColorImage::new(size, pixels(recording, &stamp, size, ground));
+        ui.ctx().load_texture(name, image, TextureOptions::LINEAR)
+    });
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     style.painter.image(texture.id(), rect, whole, Color32::WHITE);
     axes

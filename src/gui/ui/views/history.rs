@@ -13,7 +13,7 @@ use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{between, dots, level, line, upright};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
-use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Ui, pos2, vec2};
+use eframe::egui::{CursorIcon, Rect, Sense, Ui, pos2, vec2};
 use egui_plot::{Axis, LineStyle, Span};
 
 /// Cycles that the axis holds at least.
@@ -144,9 +144,7 @@ fn plot(
         cx.push(StartupCommand::Choose(cycle(x)));
     }
     let response = shown.response.on_hover_cursor(CursorIcon::PointingHand);
-    let at = |place: Pos2| shown.transform.value_from_position(place).x;
-    let hovered = response.hover_pos().and_then(|place| points.get(cycle(at(place)) - 1));
-    if let Some(row) = hovered {
+    if let Some(row) = shown.inner.and_then(|x| points.get(cycle(x) - 1)) {
         response.on_hover_text_at_pointer(words(row));
     }
 }

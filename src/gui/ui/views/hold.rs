@@ -21,8 +21,8 @@ use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke,
 use egui_plot::LineStyle;
 
 /// Parts of the drawing below the stator's face, and above the highest underside of the plate.
-const BELOW: f32 = 0.10;
-const ABOVE: f32 = 0.20;
+const BELOW: f64 = 0.10;
+const ABOVE: f64 = 0.20;
 /// Part of the drawing that is the plate.
 const PLATE: f32 = 0.15;
 /// Longest arrow, part of the drawing.
@@ -132,13 +132,8 @@ fn unit(plate: &Plate) -> (&'static str, f64) {
 
 fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
     let Reading { gap, force, error, ratio, mean_pressure, .. } = hold.shown().reading;
-    let highest = hold.reach()[1];
-    let part = f64::from(1.0 - BELOW - ABOVE);
-    let bottom = -highest * f64::from(BELOW) / part;
     let half = 0.5 * hold.plate.length;
-    let axes = Axes::new(rect, [-half, half], [bottom, bottom + highest / part]);
-    axes.canvas(style);
-    style.scale_bar(&axes);
+    let axes = Axes::of_heights(style, (rect, [-half, half]), [0.0, hold.reach()[1]], [BELOW, ABOVE]);
     let (name, unit) = unit(&hold.plate);
     let force_text = with_known_digits(force / unit, error / unit);
     let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));

@@ -25,7 +25,7 @@ impl<'a> Inset<'a> {
         ui: &mut egui::Ui,
         style: &PlotStyle,
         add: impl FnOnce(&mut PlotUi<'a>) + 'a,
-    ) -> PlotResponse<()> {
+    ) -> PlotResponse<Option<f64>> {
         let Self { name, rect, below, .. } = *self;
         let (gutter, axis) = (style.gutter, style.axis);
         let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
@@ -62,7 +62,6 @@ impl<'a> Inset<'a> {
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, chart), self.bounds, add);
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
         if let Some(name) = below {
             let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
             let place = style.write(corner, Align2::RIGHT_TOP, name, style.palette.quiet);
@@ -73,7 +72,7 @@ impl<'a> Inset<'a> {
 }
 
 /// The x of the chart `name` that was clicked, or that its vertical line was dragged to.
-pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<()>, line: Option<f64>, name: &str) -> Option<f64> {
+pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<Option<f64>>, line: Option<f64>, name: &str) -> Option<f64> {
     let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
     let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
     line.and_then(|x| dragged(ui, &shown.transform, x, name)).or(clicked)

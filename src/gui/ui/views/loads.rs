@@ -12,8 +12,8 @@ use egui_plot::{LineStyle, PlotResponse, PlotUi, Span};
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
 /// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
-pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<()> {
-    let kilo = 1e-3 / shown.of.contact_width;
+pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<Option<f64>> {
+    let width = shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = [
         "Pressure on the teeth, mean over the width, kPa gauge",
@@ -23,7 +23,7 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
     let mut legend = vec![("contact", contact), ("film", film)];
     legend.extend(style.at_first(shown.first.as_ref()));
     style.title(rect, "Gauge pressure", &title, &legend);
-    let [low, high] = shown.ranges.loads.map(|load| load * kilo);
+    let [low, high] = shown.ranges.loads.map(|load| load * 1e-3 / width);
     let margin = 0.06 * (high - low).max(1e-3);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];
     let inset = Inset { name: NAME, rect, bounds, below: None };
@@ -32,16 +32,10 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
         plot.span(column);
         plot.hline(level(0.0, style.palette.quiet, 1.0));
-        let width = shown.of.contact_width;
+        let quiet = (style.palette.quiet, LineStyle::Solid, 0.0);
         if let Some(Frame { recording, of: motor, lines, .. }) = shown.first.as_deref() {
             for field in [&lines.contact, &lines.film] {
-                pressure(
-                    plot,
-                    (recording, motor.contact_width),
-                    field,
-                    1e3,
-                    (style.palette.quiet, LineStyle::Solid, 0.0),
-                );
+                pressure(plot, (recording, motor.contact_width), field, 1e3, quiet);
             }
         }
         pressure(plot, (shown.recording, width), &shown.lines.contact, 1e3, (contact, LineStyle::Solid, 0.35));

@@ -7,10 +7,10 @@ use super::{field, loads, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::PlotStyle;
+use crate::gui::ui::paint::{Column, PlotStyle};
 use crate::problem::Motor;
 use crate::recording::sample::{self, Lines};
-use eframe::egui::{self, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, pos2};
+use eframe::egui::{self, CursorIcon, Pos2, Rangef, Rect, Sense, Stroke, StrokeKind, pos2};
 
 /// Where the parts go.
 #[derive(Clone, Copy, Debug)]
@@ -35,22 +35,16 @@ impl Layout {
         let rest = (body - below - 4.0).max(30.0);
         let end = area.right() - 0.5 * row;
         let with_side = area.width() > 44.0 * row && body - below > 20.0 * row;
-        let column = if with_side { (0.29 * area.width()).min(0.55 * rest) } else { 0.0 };
-        let plot = |top: f32, part: f32| {
-            let low = pos2(end - column, top + part * rest);
-            Rect::from_min_max(pos2(area.left() + gutter, top), low)
-        };
-        let wave = plot(area.top() + title, 0.50);
-        let loads = plot(wave.bottom() + title, 0.31);
-        let map = plot(loads.bottom() + title, 0.19);
-        let under = map.bottom() + axis;
+        let beside = if with_side { (0.29 * area.width()).min(0.55 * rest) } else { 0.0 };
+        let mut plots = Column { x: Rangef::new(area.left() + gutter, end - beside), bottom: area.top() };
+        let [wave, loads, map] = [0.50, 0.31, 0.19].map(|part| plots.next(title, part * rest));
         let side = with_side.then(|| {
             let left = wave.right() + row;
             let ring = Rect::from_min_max(pos2(left, wave.top()), pos2(end, wave.bottom()));
             [ring, Rect::from_min_max(pos2(left + gutter, loads.top()), pos2(end, map.bottom()))]
         });
-        let tooth =
-            with_tooth.then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(end, under + 2.0 + below)));
+        let under = map.bottom() + axis + 2.0;
+        let tooth = with_tooth.then(|| Rect::from_min_max(pos2(area.left(), under), pos2(end, under + below)));
         let readout = Rect::from_min_max(pos2(area.left(), area.bottom() - readout), area.right_bottom());
         Self { wave, loads, map, side, tooth, readout }
     }
@@ -125,7 +119,7 @@ fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_,
         Some(sample::between(&lines.film_thickness[lines.of(tooth)], sample::locate(&recording.x, xi)?))
     };
     let of = Place { shown, gas: &motor.gas, tooth, xi, walls: &walls, thickness: &thickness };
-    of.draw(ui, style, place, x);
+    of.draw(ui, style, place);
 }
 
 /// A row of values, as wide as it takes.

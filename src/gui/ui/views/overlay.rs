@@ -122,12 +122,6 @@ impl Along {
         if self.alike { 1e3 } else { 1.0 }
     }
 
-    /// A chart over the numbers that are written, and where on the axis the pointer is.
-    fn pointed(&self, chart: PlotResponse<()>) -> (Response, Option<f64>) {
-        let x = chart.response.hover_pos().map(|at| chart.transform.value_from_position(at).x / self.written());
-        (chart.response, x)
-    }
-
     /// Units of the axis per metre of the first run, to which the x shared by all views refers.
     fn of_first(&self) -> f64 {
         self.metre(self.first)
@@ -216,7 +210,6 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         Axes::new(*last, x, [0.0, 1.0]).x_labels(&inside, 1.0 / along.written(), name);
     }
 
-    let period = common_period(runs.iter().map(|run| run.recording.period));
     let middle = 0.5 * (area.left() + right);
     let halves = [(column.x.min, middle - 0.4 * style.row), (middle + 0.4 * style.row + style.gutter, right)];
     type Of = fn(&RunCurves) -> &Curve;
@@ -226,8 +219,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let place = Rect::from_x_y_ranges(left..=right, loads.y_range());
-        let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, of(&run.pin.curves))).collect();
-        over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
+        over_cycle(ui, &style, (place, title), runs, of, 1.0, cx);
     }
 
     let maps = maps.iter().copied().reduce(Rect::union).unwrap_or(wave);
@@ -239,34 +231,31 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
         (response, x)
     });
     let on_a_term = style.explain(ui);
+    let charts = charts.map(|chart| (chart.response, chart.inner.map(|x| x / along.written())));
     let heads = ["gap, nm", "contact, kPa", "film, kPa gauge"];
-    for (response, x) in painted.into_iter().chain(charts.map(|chart| along.pointed(chart))) {
+    for (response, x) in painted.into_iter().chain(charts) {
         let at = (response, x.filter(|_| !on_a_term));
         along.read(at, ("λ", &heads), runs, cx, |ui, run, x| values(ui, run, x / along.metre(run.recording.length)));
     }
 }
 
-/// The period that all have; not a number if they differ.
-fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
-    let first = periods.next().unwrap_or(f64::NAN);
-    if periods.all(|period| (period / first - 1.0).abs() < SAME) { first } else { f64::NAN }
-}
-
-/// Curves of all runs over the cycle, of which each has its own length.
-fn over_cycle(
+/// The curves `of` all runs over the cycle, of which each has its own length.
+fn over_cycle<T>(
     ui: &mut Ui,
     style: &PlotStyle,
-    place: Rect,
-    title: &str,
-    curves: &[(Color32, LineStyle, &Curve)],
-    (unit, period): (f64, f64),
+    (place, title): (Rect, &str),
+    runs: &[Pinned<'_, T>],
+    of: fn(&RunCurves) -> &Curve,
+    unit: f64,
     cx: &DrawContext<'_>,
 ) {
-    let traces: Vec<_> = curves
+    let traces: Vec<_> = runs
         .iter()
-        .map(|(colour, dash, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour, dash: *dash })
+        .map(|run| Trace { curve: of(&run.pin.curves), lag: 0.0, offset: 0.0, colour: run.colour, dash: run.dash })
         .collect();
-    let range = span(curves.iter().map(|(.., curve)| curve.range()).chain([[0.0, 0.0]]).flatten());
+    let range = span(traces.iter().map(|trace| trace.curve.range()).chain([[0.0, 0.0]]).flatten());
+    let period = Along::of(runs.iter().map(|run| run.recording.period));
+    let period = if period.alike { period.first } else { f64::NAN };
     let word = title.split(',').next().unwrap_or(title);
     let short = title.replace(" on one wave", "");
     let series =
@@ -288,10 +277,8 @@ fn draw_surfaces(
     });
     let [low, high] = span(heights.flatten());
     let margin = 0.08 * (high - low).max(1e-9);
-    let axes = Axes::new(rect, x, [low - margin, high + margin]);
+    let axes = Axes::of_heights(style, (rect, x), [low - margin, high + margin], [0.0, 0.0]);
     let vertical = times(axes.exaggeration() / along.of_first());
-    axes.canvas(style);
-    style.scale_bar(&axes);
     let titles = [
         format!("Rotor undersides (thick) over tooth tops (thin), vertical {vertical}"),
         format!("Rotor (thick), teeth (thin), {vertical}"),
@@ -302,12 +289,10 @@ fn draw_surfaces(
     axes.x_grid(style, 1.0 / along.written());
     for run in runs {
         let metre = along.metre(run.recording.length);
-        let at = |tooth: usize, node: usize, height: f64| {
-            axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
-        };
         for tooth in 0..run.recording.teeth {
-            let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
-            let top: Vec<_> = top.map(|(i, w)| at(tooth, i, *w)).collect();
+            let middle = tooth as f64 * run.recording.pitch;
+            let top = run.recording.x.iter().zip(&run.lines.stator[run.lines.of(tooth)]);
+            let top: Vec<_> = top.map(|(x, height)| axes.at((middle + x) * metre, *height)).collect();
             style.painter.extend(stroked(&top, Stroke::new(1.0, run.colour), run.dash));
         }
         let underside = run.lines.underside(run.recording);
@@ -326,7 +311,7 @@ fn draw_pressure(
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
     field: usize,
-) -> PlotResponse<()> {
+) -> PlotResponse<Option<f64>> {
     let kilo = |run: &Pinned<'_, Motor>| 1e-3 / run.of.contact_width;
     let ranges = runs.iter().map(|run| run.pin.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = span(ranges.chain([[0.0, 0.0]]).flatten());
@@ -421,15 +406,11 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let middle = 0.5 * (area.left() + right);
     let left = Rect::from_min_max(pos2(start, plots), pos2(middle - 2.2 * style.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + style.gutter, plots), pos2(right, bottom));
-    let period = common_period(runs.iter().map(|run| run.recording.period));
-    let kept: Vec<_> = runs.iter().map(|run| (run.colour, run.dash, &run.pin.curves.film)).collect();
-    let title = "Mean pressure, kPa gauge";
-    over_cycle(ui, &style, left, title, &kept, (1e3, period), cx);
+    over_cycle(ui, &style, (left, "Mean pressure, kPa gauge"), runs, |curves| &curves.film, 1e3, cx);
     draw_loops(ui, &style, right, runs, cx.state.view.phase);
 
     let on_a_term = style.explain(ui);
-    let (response, x) = along.pointed(charted);
-    let at = (response, x.filter(|_| !on_a_term));
+    let at = (charted.response, charted.inner.map(|x| x / written).filter(|_| !on_a_term));
     along.read(at, (lengths, &["p, kPa absolute"]), runs, cx, |ui, run, x| {
         let pressure = sample::middle_pressure(run.recording, 0, x / along.metre(run.of.length), run.place);
         ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));

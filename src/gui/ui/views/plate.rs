@@ -7,7 +7,7 @@ use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::gui::derived::format::{load_unit, number, times};
-use crate::gui::derived::scales::{Curve, with_margin};
+use crate::gui::derived::scales::with_margin;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, Column, PlotStyle};
 use crate::gui::ui::plot::{dots, level, line, under_pointer};
@@ -78,9 +78,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let painted = [Some(wall_response), map_response].into_iter().flatten();
     let painted =
         painted.filter_map(|response| axes.x_at(response.on_hover_cursor(CursorIcon::Crosshair).hover_pos()?.x));
-    let profile_response = charted.response.on_hover_cursor(CursorIcon::Crosshair);
-    let charted = profile_response.hover_pos().map(|at| 1e-3 * charted.transform.value_from_position(at).x);
-    if let Some(x) = painted.chain(charted).last() {
+    charted.response.on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = painted.chain(charted.inner.map(|x| 1e-3 * x)).last() {
         cx.point_at(x);
     }
     for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
@@ -95,12 +94,8 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
 /// The wall, the plate above it, the film between them.
 fn draw_gap(style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
     let highest = shown.ranges.thickness[1].max(1e-9);
-    let (below, above) = (0.16, 0.26);
-    let part = 1.0 - below - above;
-    let bottom = -highest * below / part;
-    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
-    axes.canvas(style);
-    style.scale_bar(&axes);
+    let above = 0.26;
+    let axes = Axes::of_heights(style, (rect, shown.x_range()), [0.0, highest], [0.16, above]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(axes.exaggeration()));
     let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
     let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
@@ -131,7 +126,7 @@ pub(super) fn wall_and_plate(style: &PlotStyle, axes: &Axes, of: &Plate, [wall, 
 }
 
 /// Pressure along x at y = 0, over x \[mm\].
-fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<()> {
+fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> PlotResponse<Option<f64>> {
     let ambient = shown.of.gas.ambient_pressure;
     let [low, high] = shown.ranges.pressure;
     let range = with_margin([low.min(ambient), high.max(ambient)], 0.06);
@@ -162,15 +157,14 @@ pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
 }
 
 fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
+    let Some((curves, lag)) = shown.scales.tooth(0) else { return };
     let [low, high] = shown.ranges.tooth_load;
     let (name, unit) = load_unit(high.max(-low), shown.of.is_strip());
-    let none = Curve::default();
-    let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let trace = |curve, lag, colour, dash| Trace { curve, lag, offset: 0.0, colour, dash };
     let first = shown.first.as_ref().and_then(|first| first.scales.tooth(0));
     let first = first.map(|(curves, lag)| trace(&curves.film, lag, style.palette.quiet, LineStyle::dashed_dense()));
     let legend = style.at_first(first.as_ref());
-    let present = trace(curve, lag, style.palette.film, LineStyle::Solid);
+    let present = trace(&curves.film, lag, style.palette.film, LineStyle::Solid);
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
@@ -196,7 +190,7 @@ fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Plat
     let frames = shown.recording.frames.max(1) as f64;
     let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
     let of = Place { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
-    of.draw(ui, style, place, xi);
+    of.draw(ui, style, place);
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.

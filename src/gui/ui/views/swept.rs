@@ -345,20 +345,13 @@ impl PlotItem for Cells {
         Color32::TRANSPARENT
     }
 
-    fn allow_hover(&self) -> bool {
-        false
-    }
-
     fn geometry(&self) -> PlotGeometry<'_> {
         PlotGeometry::None
     }
 
+    // The axes have ranges of their own.
     fn bounds(&self) -> PlotBounds {
-        let mut bounds = PlotBounds::NOTHING;
-        for [x, y] in self.cells.iter().flat_map(|(corners, _)| corners) {
-            bounds.extend_with(&PlotPoint::new(*x, *y));
-        }
-        bounds
+        PlotBounds::NOTHING
     }
 
     fn base(&self) -> &PlotItemBase {

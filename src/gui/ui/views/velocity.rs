@@ -50,14 +50,14 @@ impl<T> Place<'_, T> {
         if high - low < STILL { [-STILL, STILL] } else { [low, high] }
     }
 
-    /// Draws the profile at the instant shown into `rect`; `x`: its place as it is written \[m\].
-    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, x: f64) {
+    /// Draws the profile at the instant shown into `rect`.
+    pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect) {
         let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
         let (unit, size) = if high.max(-low) < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
         let across = with_margin([low, high], 0.08).map(|u| u / size);
         let up = [-MARGIN, 1.0 + MARGIN].map(|part| part * self.shown.ranges.thickness[1] * 1e6);
-        let place = number(x * 1e3);
+        let place = number((self.tooth as f64 * self.shown.recording.pitch + self.xi) * 1e3);
         let [long, middle] = ["Velocity across the film, z in µm, at x =", "Velocity, z in µm, x ="]
             .map(|text| format!("{text} {place} mm"));
         let palette = &style.palette;

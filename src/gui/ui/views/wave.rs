@@ -10,27 +10,21 @@ use eframe::egui::{Align2, Pos2, Rect, Stroke, pos2, vec2};
 use std::f64::consts::TAU;
 
 /// Part of the height below the lowest stator top, and of the teeth in it.
-const BELOW: f32 = 0.36;
+const BELOW: f64 = 0.36;
 pub(super) const TOOTH: f32 = 0.15;
 /// Lines of text between two marks on a rotor that turns.
 const MARKS: f32 = 3.0;
 const POINTS: u32 = 48;
 /// Part of the height above the highest point of the rotor's underside.
-const ABOVE: f32 = 0.16;
+const ABOVE: f64 = 0.16;
 
 /// Draws the wave into `rect`, with the rotor's `underside` as in [`Lines::underside`](crate::recording::sample::Lines). Returns the axes, whose
 /// y is height \[m\].
 pub(super) fn draw(style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>, underside: &[[f64; 2]]) -> Axes {
-    let minimum = shown.of.spacing();
     let low = shown.ranges.stator[0];
-    let high = (shown.ranges.rotor[1] - minimum).max(low);
-    let span = if high > low { high - low } else { 1e-7 };
-    let part = 1.0 - f64::from(BELOW) - f64::from(ABOVE);
-    let bottom = low - span * f64::from(BELOW) / part;
-    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + span / part]);
-
-    axes.canvas(style);
-    style.scale_bar(&axes);
+    let high = shown.ranges.rotor[1] - shown.of.spacing();
+    let high = if high > low { high } else { low + 1e-7 };
+    let axes = Axes::of_heights(style, (rect, shown.x_range()), [low, high], [BELOW, ABOVE]);
     let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
     let mut legend =
         vec![("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
@@ -163,27 +157,22 @@ fn outline(style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
 
 /// A thick line wherever the contact carries load.
 fn touching(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
-    let recording = shown.recording;
-    let nodes = recording.x.len();
+    let (recording, lines) = (shown.recording, &shown.lines);
     let stroke = Stroke::new(4.0, style.palette.contact);
     for tooth in 0..recording.teeth {
-        let line = shown.lines.of(tooth).start;
         let middle = tooth as f64 * recording.pitch;
-        let mut run: Vec<Pos2> = Vec::new();
-        for i in 0..=nodes {
-            if i < nodes && shown.lines.contact[line + i] > shown.of.touching_from() {
-                run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
-                continue;
-            }
-            if let [only] = run[..] {
+        let nodes: Vec<(usize, usize)> = lines.of(tooth).enumerate().collect();
+        let touches = |k: usize| lines.contact[k] > shown.of.touching_from();
+        for run in nodes.split(|(_, k)| !touches(*k)).filter(|run| !run.is_empty()) {
+            let mut points: Vec<Pos2> =
+                run.iter().map(|(i, k)| axes.at(middle + recording.x[*i], lines.stator[*k])).collect();
+            if let ([only], [(i, _)]) = (&points[..], run) {
                 // One node stands for its length of tooth.
-                let half = 0.5 * recording.node_length[i - 1];
-                let reach = ((axes.px(half) - axes.px(0.0)).max(1.0), 0.0).into();
-                run = vec![only - reach, only + reach];
+                let half = 0.5 * recording.node_length[*i];
+                let reach = vec2((axes.px(half) - axes.px(0.0)).max(1.0), 0.0);
+                points = vec![*only - reach, *only + reach];
             }
-            if run.len() > 1 {
-                style.painter.line(std::mem::take(&mut run), stroke);
-            }
+            style.painter.line(points, stroke);
         }
     }
 }
