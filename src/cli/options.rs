@@ -70,6 +70,7 @@ impl SceneOptions {
     }
 
     /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
+    #[cfg(feature = "gui")]
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let (original, _) = original(preset)?;
         let scene = self.changed(&original)?;
