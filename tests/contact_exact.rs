@@ -31,7 +31,7 @@ fn dry(
 ) -> (Vec<f64>, Instant, f64) {
     let x: Vec<f64> = (0..nodes).map(|i| WAVE * i as f64 / nodes as f64).collect();
     let length = WAVE / nodes as f64;
-    let modes = Modes::new(&resolved(rotor), harmonics, &x);
+    let modes = Modes::new(&resolved(rotor), harmonics, 0.0, &x);
     let mut contact = Contact::new(modes, vec![length; nodes], &vec![0.0; nodes], 101_325.0, SPACING, load);
     let stator: Vec<f64> = x.iter().map(|x| stator(*x)).collect();
     let mut out = Instant::default();
@@ -125,7 +125,7 @@ fn a_point_load_deflects_the_rotor_by_its_greens_function() {
     let rotor = RotorCompliance::Beam { decay_length, point_compliance, local_compliance: 0.0 };
     let nodes = 401;
     let x: Vec<f64> = (0..nodes).map(|i| WAVE * i as f64 / nodes as f64).collect();
-    let modes = Modes::new(&resolved(&rotor), 120, &x);
+    let modes = Modes::new(&resolved(&rotor), 120, 0.0, &x);
     let mut force = vec![0.0; nodes];
     force[200] = 1.0;
     let (mut projected, mut deflection) = (vec![0.0; modes.unknowns()], vec![0.0; nodes]);
@@ -246,7 +246,7 @@ proptest! {
         let x: Vec<f64> = (0..nodes).map(|i| WAVE * (i as f64 + 0.3) / nodes as f64).collect();
         let lengths: Vec<f64> = (0..nodes).map(|i| WAVE / nodes as f64 * if i % 10 < 7 { 1.0 } else { 0.3 }).collect();
         let (width, load, spacing) = (3e-4, ten(load), ten(spacing));
-        let modes = Modes::new(&resolved(&rotor), 24, &x);
+        let modes = Modes::new(&resolved(&rotor), 24, 0.0, &x);
         let mut contact = Contact::new(modes, lengths.clone(), &vec![width; nodes], ten(pressure), spacing, load);
         let stator: Vec<f64> = x.iter().map(|x| ten(amplitude) * (TAU * x / WAVE + f64::from(seed)).cos()).collect();
         let gas: Vec<f64> = (0..nodes).map(|i| width * ten(trapped) * (1.0 + 0.9 * (i as f64 * f64::from(seed)).sin())).collect();
@@ -280,7 +280,7 @@ proptest! {
         let x: Vec<f64> = (0..teeth * along).map(node).collect();
         let nodes = x.len();
         let lengths = vec![0.667 * WAVE / nodes as f64; nodes];
-        let modes = Modes::new(&resolved(&rotor), cutoff(&resolved(&rotor), 1e-2, most), &x);
+        let modes = Modes::new(&resolved(&rotor), cutoff(&resolved(&rotor), 1e-2, most), 0.0, &x);
         let mut contact = Contact::new(modes, lengths.clone(), &vec![width; nodes], 101_325.0, spacing, load);
         let stator: Vec<f64> = x.iter().map(|x| ten(amplitude) * (TAU * x / WAVE + f64::from(seed)).cos()).collect();
         let gas: Vec<f64> = (0..nodes).map(|i| width * ten(trapped) * (1.0 + 0.9 * (i as f64 * f64::from(seed)).sin())).collect();

@@ -58,7 +58,7 @@ impl Bench {
         let x: Vec<f64> = (0..nodes).map(|i| WAVE * i as f64 / nodes as f64).collect();
         let length = WAVE / nodes as f64;
         let widths = vec![if film { WIDTH } else { 0.0 }; nodes];
-        let modes = Modes::new(&beam(), HARMONICS, &x);
+        let modes = Modes::new(&beam(), HARMONICS, 0.0, &x);
         let contact = Contact::new(modes, vec![length; nodes], &widths, 101_325.0, spacing, load).on(surface, WIDTH);
         Self { x, length, contact }
     }
@@ -194,7 +194,7 @@ proptest! {
         let nodes = 120;
         let x: Vec<f64> = (0..nodes).map(|i| WAVE * (i as f64 + 0.3) / nodes as f64).collect();
         let load = ten(load);
-        let modes = Modes::new(&beam(), HARMONICS, &x);
+        let modes = Modes::new(&beam(), HARMONICS, 0.0, &x);
         let length = WAVE / nodes as f64;
         let mut contact = Contact::new(modes, vec![length; nodes], &vec![WIDTH; nodes], ten(pressure), ten(rms), load).on(Some(surface), WIDTH);
         let stator: Vec<f64> = x.iter().map(|x| ten(amplitude) * (TAU * x / WAVE + f64::from(seed)).cos()).collect();

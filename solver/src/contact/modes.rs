@@ -68,14 +68,9 @@ pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
 }
 
 impl Modes {
-    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance.
-    pub fn new(rotor: &Compliances, harmonics: usize, x: &[f64]) -> Self {
-        Self::down_to(rotor, harmonics, 0.0, x)
-    }
-
-    /// The same of a rotor whose C(k_N) differs by at most `fraction` from its limit, as a rule ([`cutoff`]): where it differs by less, the local
-    /// compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
-    pub fn down_to(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
+    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance. That differs by at most `fraction` from its limit, as a rule
+    /// ([`cutoff`]): where it differs by less, the local compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
+    pub fn new(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
         let wavelength = rotor.wavelength();
         let (last, limit) = (rotor.harmonic(harmonics), rotor.beyond(harmonics));
         let excess = (last - limit).abs() / limit;

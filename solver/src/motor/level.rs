@@ -114,7 +114,7 @@ impl MotorLevel {
                 .collect()
         });
         let harmonics = plan.harmonics(grid);
-        let modes = Modes::down_to(&plan.rotor, harmonics, grid.harmonic_fraction, &positions);
+        let modes = Modes::new(&plan.rotor, harmonics, grid.harmonic_fraction, &positions);
         let gas = &motor.gas;
         let (lengths, film_widths) = (film_grid.x.lengths.repeat(teeth), widths.repeat(teeth));
         let contact = Contact::new(modes, lengths, &film_widths, gas.ambient_pressure, motor.min_spacing, motor.load)
