@@ -9,15 +9,15 @@ use crate::problem::{Outline, Plate};
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
-/// ⟨f(H)⟩ over a cycle of H = 1 + ε cos τ, by the trapezoid rule (spectrally accurate for |ε| < 1).
-fn cycle_mean(excursion: f64, f: impl Fn(f64) -> f64) -> f64 {
+/// The invariant of every periodic state: ⟨H (Z²/2 + 6mZ)⟩ at any point, Z = PH; equals ⟨H³/2 + 6mH²⟩ for all σ. By the trapezoid rule
+/// (spectrally accurate for |ε| < 1).
+fn invariant(excursion: f64, knudsen: f64) -> f64 {
     const SAMPLES: usize = 4096;
-    (0..SAMPLES).map(|i| f(1.0 + excursion * (TAU * i as f64 / SAMPLES as f64).cos())).sum::<f64>() / SAMPLES as f64
-}
-
-/// The invariant of every periodic state: ⟨H (Z²/2 + 6mZ)⟩ at any point, Z = PH; equals ⟨H³/2 + 6mH²⟩ for all σ.
-pub fn invariant(excursion: f64, knudsen: f64) -> f64 {
-    cycle_mean(excursion, |h| 0.5 * h * h * h + 6.0 * knudsen * h * h)
+    let term = |i: usize| {
+        let h = 1.0 + excursion * (TAU * i as f64 / SAMPLES as f64).cos();
+        0.5 * h * h * h + 6.0 * knudsen * h * h
+    };
+    (0..SAMPLES).map(term).sum::<f64>() / SAMPLES as f64
 }
 
 /// Trapped height Z for σ → ∞ away from the edges, constant in time and space: Z²/2 + slip Z = invariant_mean/gap_mean,
