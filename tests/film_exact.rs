@@ -238,17 +238,8 @@ fn the_plate_of_two_other_codes() {
     // 1.735 mm × 0.3 mm, h = 1 µm (1 + 0.5 cos ωt), 30 kHz: mean gauge load 13.850 mN without slip (two independent
     // codes, mesh-extrapolated), 12.26 mN with first-order slip at λ_a = 65 nm.
     for (mean_free_path, expected, digits) in [(0.0, 13.850e-3, 2e-6), (65e-9, 12.26e-3, 6e-6)] {
-        let plate = Plate {
-            length: 1.735e-3,
-            width: Some(0.3e-3),
-            hole: None,
-            load: None,
-            min_spacing: 0.0,
-            mean_gap: 1e-6,
-            amplitude: 0.5e-6,
-            frequency: 30e3,
-            gas: air(mean_free_path),
-        };
+        let (length, width, gas) = (1.735e-3, Some(0.3e-3), air(mean_free_path));
+        let plate = Plate { length, width, frequency: 30e3, gas, ..plate(1.0, 0.5, 0.0, None) };
         let Estimate { value: load, error } = solve(&plate, Fidelity::Standard).result.film_load;
         println!("plate benchmark: {:.4} ± {:.4} mN", 1e3 * load, 1e3 * error);
         assert!((load - expected).abs() < digits, "{load:.6e} ± {error:.1e}, expected {expected}");
