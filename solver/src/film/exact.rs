@@ -156,20 +156,13 @@ pub fn viscous_strip_force(viscosity: f64, length: f64, gap: f64, rate: f64, mea
 
 /// Force of an incompressible film under a rectangle \[N\], of `width` along y \[m\] beside what the strip has: the strip's, times
 /// the width, times 1 − (192/π⁵)(b/w) Σ tanh(nπw/2b)/n⁵, n odd, by which a duct's flow falls short of a slit's.
-pub fn viscous_rectangle_force(
-    viscosity: f64,
-    length: f64,
-    width: f64,
-    gap: f64,
-    rate: f64,
-    mean_free_path: f64,
-) -> f64 {
+fn viscous_rectangle_force(viscosity: f64, length: f64, width: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
     width * rectangle_to_strip(width / length) * viscous_strip_force(viscosity, length, gap, rate, mean_free_path)
 }
 
 /// Force of an incompressible film under a ring of radii `inner` and `outer` \[m\], or under a disc (inner = 0; Reynolds 1886), \[N\]:
 /// −(3πμḣ/2h³) [r_o⁴ − r_i⁴ − (r_o² − r_i²)²/ln(r_o/r_i)]/(1 + 6 λ_a/h).
-pub fn viscous_ring_force(viscosity: f64, inner: f64, outer: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
+fn viscous_ring_force(viscosity: f64, inner: f64, outer: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
     let squares = (outer - inner) * (outer + inner);
     let pumped = if inner > 0.0 { squares * squares / (outer / inner).ln() } else { 0.0 };
     let shape = squares * (outer * outer + inner * inner) - pumped;
@@ -190,7 +183,7 @@ pub fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
 }
 
 /// Incompressible load of a rectangle of length 1 and width `aspect`, for each unit of width, over that of a strip.
-pub fn rectangle_to_strip(aspect: f64) -> f64 {
+fn rectangle_to_strip(aspect: f64) -> f64 {
     if aspect < 1.0 {
         // Of the same plate, turned: the sum would nearly cancel 1.
         return aspect * aspect * rectangle_to_strip(aspect.recip());

@@ -403,7 +403,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
 }
 
 /// Cycle means and extremes of a recording; no error of the mean is known.
-pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
+fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let frames = recording.frames as f64;
     let (loads, errors) = (&recording.film_load, &recording.film_load_error);
     let load = |greater| recording.extreme(LineLoads::film_loads, loads, errors, greater, f64::INFINITY);
