@@ -35,7 +35,7 @@ fn dry(
     let mut contact = Contact::new(modes, vec![length; nodes], &vec![0.0; nodes], 101_325.0, SPACING, load);
     let stator: Vec<f64> = x.iter().map(|x| stator(*x)).collect();
     let mut out = Instant::default();
-    contact.solve(&stator, &vec![0.0; nodes], &mut Shape::unknown(), &mut out).unwrap();
+    contact.solve(&stator, &vec![0.0; nodes], &mut Shape::default(), &mut out).unwrap();
     (x, out, length)
 }
 
@@ -244,7 +244,7 @@ fn balances(
     let stator: Vec<f64> = x.iter().map(|x| amplitude * (TAU * x / WAVE + seed).cos()).collect();
     let gas: Vec<f64> = (0..nodes).map(|i| width * trapped * (1.0 + 0.9 * (i as f64 * seed).sin())).collect();
     let mut out = Instant::default();
-    let solved = contact.solve(&stator, &gas, &mut Shape::unknown(), &mut out);
+    let solved = contact.solve(&stator, &gas, &mut Shape::default(), &mut out);
     prop_assert!(solved.is_ok(), "{solved:?}");
     let (mut total, mut scale) = (0.0, load);
     for i in 0..nodes {

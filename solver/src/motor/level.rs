@@ -140,7 +140,7 @@ impl MotorLevel {
             films: vec![film; stored],
             trapped_film,
             states: vec![FilmState::at_rest(vec![motor.min_spacing; unknowns]); stored],
-            shapes: vec![Shape::unknown(); instants],
+            shapes: vec![Shape::default(); instants],
             stator,
             speed,
             trapped: vec![0.0; stored * steps * nx],
@@ -284,7 +284,7 @@ impl MotorLevel {
     /// Solves the contact problems of the first `count` instants, one after the other, as if there were no gas.
     pub(super) fn dry(&mut self, count: usize, cancel: &Cancel) -> Result<(), Stop> {
         let (mut contact, nodes) = (self.contact.dry(), self.contact.nodes());
-        let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::unknown(), Instant::default());
+        let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::default(), Instant::default());
         for s in 0..count {
             if cancel.is_cancelled() {
                 return Err(Stop::Cancelled);

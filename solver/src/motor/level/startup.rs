@@ -36,7 +36,7 @@ impl MotorLevel {
     /// [`MotorError::Contact`] if the dry contact problem has no solution to working precision.
     pub(in crate::motor) fn rest(&mut self) -> Result<(), MotorError> {
         unless_cancelled(self.dry(1, &Cancel::new()))?;
-        self.shapes.fill(Shape::unknown());
+        self.shapes.fill(Shape::default());
         let (nx, columns) = (self.nx, self.grid().y.unknown().len());
         for tooth in 0..self.teeth {
             let to = tooth * self.steps * nx;
@@ -131,7 +131,7 @@ impl MotorLevel {
                 present[tooth * nx + ix] = if then > 0.0 { now * (now / then).clamp(0.5, 2.0) } else { now };
             }
         }
-        if self.shapes[m] == Shape::unknown() {
+        if self.shapes[m] == Shape::default() {
             self.shapes[m] = self.shapes[last].clone();
         }
         let inside: Vec<usize> = (0..nodes).filter(|i| self.grid().x.unknown().contains(&(i % nx))).collect();
