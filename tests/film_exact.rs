@@ -3,6 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
+mod scenes;
+
 use squeezefilm::analysis::exact::ExactComparison;
 use squeezefilm::control::Cancel;
 use squeezefilm::estimate::Estimate;
@@ -13,8 +15,7 @@ use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::{Film, FilmState};
 use squeezefilm::plan::Plan;
 use squeezefilm::plate::{self, Periodic};
-use squeezefilm::problem::{Gas, Numerics, Plate, Problem, Scenario, Slip};
-use squeezefilm::scene::presets;
+use squeezefilm::problem::{Gas, Numerics, Plate, Slip};
 use squeezefilm::solution::Status;
 
 const GAP: f64 = 1e-6;
@@ -250,10 +251,9 @@ fn the_plate_of_two_other_codes() {
 fn the_published_stiffness_and_damping_of_a_plate() {
     // The benchmark of a commercial code prints 28.65e3 N/m and 15.29e-3 N s/m. One unit of the last digit is allowed, as
     // the last digit of the damping is cut, not rounded: the linear film, which the benchmark is about, has 15.298e-3.
-    let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
-    let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
-    let found = solve(plate, Fidelity::Reference);
-    let compared = ExactComparison::of(plate, &found.result, &found.recording);
+    let plate = scenes::plate("plate-mems", &[]);
+    let found = solve(&plate, Fidelity::Reference);
+    let compared = ExactComparison::of(&plate, &found.result, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();
     for (what, solved, published, digit, exact) in [
         ("stiffness", solved.spring, 28.65e3, 0.01e3, compared.linear.spring * compared.unit.spring),
@@ -398,8 +398,7 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
         ("film.slip", "none"),
         ("plate.frequency_khz", "60.628"),
     ];
-    let scene = presets::find("plate-crossover").unwrap().with(set).unwrap();
-    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
+    let plate = scenes::plate("plate-crossover", &set);
     let found = solve(&plate, Fidelity::Draft);
     let compared = ExactComparison::of(&plate, &found.result, &found.recording);
     let damping = compared.solved.unwrap().damping;
@@ -408,8 +407,7 @@ fn the_nodes_across_a_long_plate_are_in_the_error_of_its_damping() {
 
 /// A plate, changed from `plate-mems`, solved at a draft and at reference.
 fn draft_and_reference(changes: &[(&str, &str)]) -> [(ExactComparison, Periodic); 2] {
-    let scene = presets::find("plate-mems").unwrap().with(changes).unwrap();
-    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
+    let plate = scenes::plate("plate-mems", changes);
     [Fidelity::Draft, Fidelity::Reference].map(|fidelity| {
         let found = solve(&plate, fidelity);
         (ExactComparison::of(&plate, &found.result, &found.recording), found)
