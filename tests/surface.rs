@@ -220,8 +220,8 @@ proptest! {
 fn the_films_invariant_holds_with_flow_factors() {
     let gas = Gas::default();
     let slip = 6.0 * gas.mean_free_path;
-    for (asperities, share) in [(None, 0.5), (Some(plain(2e-7)), 0.5)] {
-        let roughness = Roughness { rms: 2e-7, lay: 1.0, stator_share: share, asperities };
+    for asperities in [None, Some(plain(2e-7))] {
+        let roughness = Roughness { rms: 2e-7, lay: 1.0, stator_share: 0.5, asperities };
         let axis = || Axis::clustered(0.25e-3, Start::Mirror, 8, 0.0);
         let (grid, steps) = (FilmGrid { x: axis(), y: axis() }, 64);
         let (nx, unknowns) = (grid.x.len(), grid.unknowns());
