@@ -68,12 +68,12 @@ fn contact_solve(bencher: Bencher<'_, '_>) {
     let stator: Vec<f64> = nodes().zip(&positions).map(|((_, xi), x)| motor.stator_displacement(*x, xi, 0.0)).collect();
     let lengths: Vec<f64> = (0..motor.teeth).flat_map(|_| x.lengths.iter().copied()).collect();
     let harmonics = plan.harmonics(&grid);
-    let modes = Modes::new(&plan.rotor, harmonics, &positions);
+    let modes = Modes::new(&plan.rotor, harmonics, 0.0, &positions);
     let widths = vec![motor.contact_width; positions.len()];
     let trapped = vec![motor.contact_width * motor.min_spacing; positions.len()];
     let mut contact = Contact::new(modes, lengths, &widths, motor.gas.ambient_pressure, motor.min_spacing, motor.load);
     let mut out = Instant::default();
-    bencher.bench_local(|| contact.solve(black_box(&stator), &trapped, &mut Shape::unknown(), &mut out));
+    bencher.bench_local(|| contact.solve(black_box(&stator), &trapped, &mut Shape::default(), &mut out));
 }
 
 /// Compliances of 96 harmonics of a ring with a flange, a rim and a lining, on two meshes, the finer of up to 2000 elements.

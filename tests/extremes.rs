@@ -57,6 +57,15 @@ fn periodic(problem: &Problem, fidelity: Fidelity, changed: impl Fn(Plan) -> Pla
 /// step's extrapolation and a film step that is solved to a hundredth of it are a part.
 const MASS: f64 = 4.0;
 
+/// Whether all numbers are finite, and all pressures positive as well; in words what is not.
+fn finite(numbers: &[f64], pressures: &[f64]) -> Result<(), String> {
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return Err("a number that is not finite".to_owned());
+    }
+    let wrong = pressures.iter().find(|p| !(p.is_finite() && **p > 0.0));
+    wrong.map_or(Ok(()), |pressure| Err(format!("p = {pressure}")))
+}
+
 /// What cannot be of a result; in words if it is.
 fn check(motor: &Motor, plan: &Plan, found: &Periodic) -> Result<(), String> {
     let (result, recording) = (&found.result, &found.recording);
@@ -73,18 +82,13 @@ fn check(motor: &Motor, plan: &Plan, found: &Periodic) -> Result<(), String> {
         result.min_film_thickness.value,
         result.max_pressure.value,
     ];
-    if numbers.iter().any(|number| !number.is_finite()) {
-        return fault("a number that is not finite".to_owned());
-    }
+    finite(&numbers, &recording.pressure).or_else(fault)?;
     for i in 0..recording.contact.len() {
         let (c, gap) = (recording.contact[i], recording.film_thickness[i] - motor.least_thickness());
         let rough = motor.surface.asperities.is_some();
         if !(c >= 0.0 && gap >= 0.0 && (rough || c * gap == 0.0)) {
             return fault(format!("c = {c}, g = {gap}"));
         }
-    }
-    if let Some(pressure) = recording.pressure.iter().find(|p| !(p.is_finite() && **p > 0.0)) {
-        return fault(format!("p = {pressure}"));
     }
     match found.status {
         Status::Converged => {}
@@ -216,12 +220,7 @@ fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
         result.max_pressure.value,
         result.min_film_thickness.value,
     ];
-    if numbers.iter().any(|number| !number.is_finite()) {
-        return fault("a number that is not finite".to_owned());
-    }
-    if let Some(pressure) = recording.pressure.iter().find(|p| !(p.is_finite() && **p > 0.0)) {
-        return fault(format!("p = {pressure}"));
-    }
+    finite(&numbers, &recording.pressure).or_else(fault)?;
     match solution.status {
         Status::Converged => {}
         Status::NotResolved { error } if error >= 1.0 && result.film_load.error >= result.film_load.value.abs() => {}

@@ -3,17 +3,21 @@
 use proptest::prelude::*;
 use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::{Film, FilmState};
+use squeezefilm::numerics::grading::clustering;
 use squeezefilm::problem::{Gas, Slip};
 
 fn air(slip: Slip) -> Gas {
     Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path: 64e-9, slip, ..Gas::default() }
 }
 
+/// An axis of `intervals` whose intervals at an ambient edge are `edge_spacing` [m], or uniform, if that is smaller.
+fn graded(half: f64, start: Start, intervals: usize, edge_spacing: f64) -> Axis {
+    let length = if start == Start::Mirror { half } else { 2.0 * half };
+    Axis::clustered(half, start, intervals, clustering(edge_spacing * intervals as f64 / length))
+}
+
 fn tooth(along: usize, across: usize) -> FilmGrid {
-    FilmGrid {
-        x: Axis::graded(0.87e-3, Start::Ambient, along, 10e-6),
-        y: Axis::graded(0.15e-3, Start::Mirror, across, 10e-6),
-    }
+    FilmGrid { x: graded(0.87e-3, Start::Ambient, along, 10e-6), y: graded(0.15e-3, Start::Mirror, across, 10e-6) }
 }
 
 fn start(film: &Film, h: &[f64]) -> FilmState {
@@ -165,7 +169,7 @@ fn edge_outflow(film: &Film, h: &[f64], gas: &Gas) -> f64 {
 #[test]
 fn the_mirrored_half_is_the_whole() {
     let gas = air(Slip::FirstOrder);
-    let x = Axis::graded(0.87e-3, Start::Ambient, 16, 10e-6);
+    let x = graded(0.87e-3, Start::Ambient, 16, 10e-6);
     let half = FilmGrid { x: x.clone(), y: Axis::clustered(0.15e-3, Start::Mirror, 6, 1.0) };
     let whole = FilmGrid { x, y: Axis::clustered(0.15e-3, Start::Ambient, 12, 1.0) };
     let (mut half, mut whole) = (Film::new(half, &gas), Film::new(whole, &gas));
@@ -216,8 +220,8 @@ proptest! {
             ..Gas::default()
         };
         let grid = FilmGrid {
-            x: Axis::graded(10f64.powf(length), Start::Ambient, 12, 1e-6),
-            y: Axis::graded(10f64.powf(width), Start::Mirror, 4, 1e-6),
+            x: graded(10f64.powf(length), Start::Ambient, 12, 1e-6),
+            y: graded(10f64.powf(width), Start::Mirror, 4, 1e-6),
         };
         let mut film = Film::new(grid, &gas);
         let mut state = start(&film, &[1e-6; 13]);

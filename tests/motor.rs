@@ -108,37 +108,23 @@ fn the_papers_film_mesh_is_what_makes_its_load_three_per_cent_low() {
 }
 
 #[test]
-fn one_tooth_stands_for_all_and_half_the_width_for_the_whole() {
+fn fields_of_one_tooth_stand_for_those_of_all() {
+    // (α, with half the width for the whole as well, is compared in `plan`.)
     let motor = motor_with(&[("film.min_spacing_nm", "120"), ("stator.tooth_radius_m", "5")]);
-    let mut coarse = plan(&motor, Fidelity::Draft);
-    coarse.tolerance = 1e-10;
-    let one = solve_plan(&motor, &coarse);
-    let all = solve_plan(&motor, &Plan { every_tooth: true, ..coarse.clone() });
-    let whole = solve_plan(&motor, &Plan { half_width: false, ..coarse.clone() });
-    for other in [&all, &whole] {
-        let [alpha, other] = [&one, other].map(|found| found.result.alpha);
-        assert!((alpha.value - other.value).abs() < 1e-9, "{alpha} {other}");
-    }
-    same_on_every_tooth(&one, &all);
-    let trapped = Plan { trapped: true, ..coarse };
-    same_on_every_tooth(
-        &solve_plan(&motor, &trapped),
-        &solve_plan(&motor, &Plan { every_tooth: true, ..trapped.clone() }),
-    );
-}
-
-/// Of nine teeth, of which `one` has been solved or `all`.
-fn same_on_every_tooth(one: &Periodic, all: &Periodic) {
-    let (one, all) = (&one.recording, &all.recording);
-    assert_eq!((one.stored_teeth, all.stored_teeth), (1, 9));
-    for frame in 0..one.frames {
-        let (x, y) = (one.max_pressure[frame], all.max_pressure[frame]);
-        assert!((x / y - 1.0).abs() < 1e-7, "frame {frame}: {x} {y} Pa");
-        for tooth in 0..9 {
-            let (a, b) = (one.line_offset(tooth, frame), all.line_offset(tooth, frame));
-            for i in 0..one.x.len() {
-                let (x, y) = (one.film_thickness[a + i], all.film_thickness[b + i]);
-                assert!((x / y - 1.0).abs() < 1e-7, "tooth {tooth}, frame {frame}, node {i}: {x} {y}");
+    for trapped in [false, true] {
+        let coarse = Plan { tolerance: 1e-10, trapped, ..plan(&motor, Fidelity::Draft) };
+        let [one, all] =
+            [false, true].map(|every_tooth| solve_plan(&motor, &Plan { every_tooth, ..coarse.clone() }).recording);
+        assert_eq!((one.stored_teeth, all.stored_teeth), (1, 9));
+        for frame in 0..one.frames {
+            let (x, y) = (one.max_pressure[frame], all.max_pressure[frame]);
+            assert!((x / y - 1.0).abs() < 1e-7, "frame {frame}: {x} {y} Pa");
+            for tooth in 0..9 {
+                let (a, b) = (one.line_offset(tooth, frame), all.line_offset(tooth, frame));
+                for i in 0..one.x.len() {
+                    let (x, y) = (one.film_thickness[a + i], all.film_thickness[b + i]);
+                    assert!((x / y - 1.0).abs() < 1e-7, "tooth {tooth}, frame {frame}, node {i}: {x} {y}");
+                }
             }
         }
     }
@@ -178,11 +164,9 @@ fn a_light_load_floats() {
 }
 
 #[test]
-fn the_film_vanishes_with_the_gas_and_with_the_frequency() {
-    for changes in [("film.ambient_pressure_kpa", "0.01"), ("stator.frequency_khz", "0.001")] {
-        let alpha = solve(&motor_with(&[changes]), Fidelity::Standard).result.alpha.value;
-        assert!(alpha.abs() < 1e-4, "{changes:?}: {alpha}");
-    }
+fn the_film_vanishes_with_the_frequency_and_with_the_vibration() {
+    let slow = solve(&motor_with(&[("stator.frequency_khz", "0.001")]), Fidelity::Standard).result.alpha;
+    assert!(slow.value.abs() < 1e-4, "{slow}");
     // No vibration, no squeezing: every tooth rests on the rotor.
     let motor = motor_with(&[("stator.normal_amplitude_um", "0")]);
     let still = solve_plan(&motor, &Plan { tolerance: 1e-7, ..plan(&motor, Fidelity::Standard) });

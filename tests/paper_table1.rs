@@ -1,32 +1,18 @@
 //! Table I of the paper by the paper's own method (`solver/src/paper`), on the paper's own meshes.
+#![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
+
+mod scenes;
+
 use rayon::prelude::*;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::drive::Scaled;
 use squeezefilm::paper;
-use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario, Slip};
-use squeezefilm::scene::{presets, table1};
+use squeezefilm::problem::{Motor, Numerics, Slip};
+use squeezefilm::scene::table1;
 use squeezefilm::solution::{MotorResult, Solution, Status};
 
 fn fundamental() -> Motor {
-    Motor {
-        contact_radius: 29e-3,
-        waves: 7,
-        load: 2.45,
-        dry_friction: 0.7,
-        rotor_speed: 0.0,
-        frequency: 30e3,
-        normal_amplitude: 1.30e-6,
-        tangential_amplitude: 1.0e-6,
-        teeth: 9,
-        tooth_width: 1.7353e-3,
-        tooth_radius: None,
-        contact_width: 0.3e-3,
-        rotor: RotorCompliance::Beam { decay_length: 4.0e-3, point_compliance: 0.64e-6, local_compliance: 1.05e-10 },
-        min_spacing: 200e-9,
-        surface: Default::default(),
-        gas: Gas::default(),
-        shear: true,
-    }
+    scenes::motor("fundamental", &[])
 }
 
 fn solve(motor: &Motor, numerics: &Numerics) -> (Solution, MotorResult) {
@@ -57,9 +43,8 @@ fn rows_of_table_1() {
     let results: Vec<_> = table1::published()
         .into_par_iter()
         .map(|row| {
-            let problem = Problem::try_from(&presets::find(&row.preset).unwrap()).unwrap();
-            let Scenario::Motor(motor) = &problem.scenario else { panic!("{} is a motor", row.row) };
-            let (solution, result) = solve(motor, &problem.numerics);
+            let problem = scenes::problem(&row.preset, &[]);
+            let (solution, result) = solve(problem.scenario.motor().unwrap(), &problem.numerics);
             (row, solution, result)
         })
         .collect();
@@ -81,9 +66,8 @@ fn rows_of_table_1() {
     }
     // The torque's curves have the bound that the result states.
     let (row, solution, result) = &results[0];
-    let problem = Problem::try_from(&presets::find(&row.preset).unwrap()).unwrap();
-    let Scenario::Motor(motor) = &problem.scenario else { panic!("{} is a motor", row.row) };
-    let bound = Scaled::with_film(motor, result, &solution.recording).performance(&[]).max_torque.value;
+    let motor = scenes::motor(&row.preset, &[]);
+    let bound = Scaled::with_film(&motor, result, &solution.recording).performance(&[]).max_torque.value;
     assert!((bound / result.max_torque.value - 1.0).abs() < 1e-14, "{bound}: {result:?}");
     for (row, solution, result) in &results {
         let off = (result.film_load.value / row.published_load_n - 1.0).abs();

@@ -29,7 +29,7 @@ fn a_wave_of_many_decay_lengths_has_as_many_harmonics_as_it_needs() {
         ("stator.frequency_khz", "90.84"),
         ("film.min_spacing_nm", "169.2"),
     ];
-    // Short waves have a compliance of their own, or none.
+    // Also where short waves have no compliance of their own.
     for local in ["1.05e-10", "0"] {
         let changes = [&changes[..], &[("rotor.local_compliance_m2_per_n", local)]].concat();
         is_within_its_error(&scenes::motor("fundamental", &changes));

@@ -238,11 +238,10 @@ fn the_error_of_every_cycle_is_what_was_asked_or_it_is_said_why_not() {
 
 #[test]
 fn a_compliance_that_does_not_cover_the_wave_is_told() {
-    let row = |harmonic: f64, compliance: f64| (harmonic, compliance);
     let mut problem = problem("fundamental", &[]);
     let Scenario::Motor(motor) = &mut problem.scenario else { panic!("a motor") };
     let wave = std::f64::consts::TAU / motor.wavelength();
-    motor.rotor = RotorCompliance::Table(vec![row(3.0 * wave, 4e-10), row(40.0 * wave, 1e-10)]);
+    motor.rotor = RotorCompliance::Table(vec![(3.0 * wave, 4e-10), (40.0 * wave, 1e-10)]);
     let told = motor.compliance_not_covered();
     assert!(told.is_some());
     let (_, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 2, ..Settings::default() });

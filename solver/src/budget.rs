@@ -136,7 +136,8 @@ impl Pool {
     }
 
     fn take(&self, need: Need, cancel: &Cancel) -> Result<Taken<'_>, Excess> {
-        let bytes = self.check(need)?;
+        self.check(need)?;
+        let bytes = need.bytes;
         let mut state = self.lock();
         while state.1.saturating_add(bytes) > state.0.unwrap_or(bytes) && state.1 > 0 {
             if cancel.is_cancelled() {
@@ -149,9 +150,9 @@ impl Pool {
         Ok(Taken { pool: self, bytes })
     }
 
-    fn check(&self, need: Need) -> Result<u64, Excess> {
+    fn check(&self, need: Need) -> Result<(), Excess> {
         let allowed = self.allowed();
-        if need.bytes > allowed { Err(Excess { need, allowed }) } else { Ok(need.bytes) }
+        if need.bytes > allowed { Err(Excess { need, allowed }) } else { Ok(()) }
     }
 }
 
@@ -170,7 +171,7 @@ pub fn allowed() -> u64 {
 /// # Errors
 /// [`Excess`] if it is not.
 pub fn check(need: Need) -> Result<(), Excess> {
-    POOL.check(need).map(|_| ())
+    POOL.check(need)
 }
 
 /// Takes what a solve needs, as soon as others have left so much.

@@ -114,12 +114,13 @@ pub fn fall(
     let period = 1.0 / plate.frequency;
     let mut heights = vec![start.value];
     let mut status = Status::NotConverged { residual: f64::INFINITY, tolerance };
+    let ended = |status, cycles| Ok(Some(Fall { status, cycles, floats, outcome }));
     each(Cycle { number: 0, time: 0.0, height: start, speed: 0.0, rests: false });
     for number in 1..=cycles {
         let rested = ways[1].free().rests;
         for way in &mut ways {
             if cancel.is_cancelled() {
-                return Ok(Some(Fall { status: Status::Cancelled, cycles: number - 1, floats, outcome }));
+                return ended(Status::Cancelled, number - 1);
             }
             let failed = |source| SolveError::Plate(Interrupted::Failed { step: number, source });
             way.fall(period, true).map_err(failed)?;
@@ -132,8 +133,7 @@ pub fn fall(
         each(Cycle { number, time: finer.reading().time, height, speed, rests });
         heights.push(height.value);
         if height.error > RESOLVED * height.value {
-            let status = Status::NotResolved { error: height.error / height.value };
-            return Ok(Some(Fall { status, cycles: number, floats, outcome }));
+            return ended(Status::NotResolved { error: height.error / height.value }, number);
         }
         if let Some(first) = heights.len().checked_sub(2 * SETTLED + 1) {
             let change = |heights: &[f64]| {
@@ -143,13 +143,13 @@ pub fn fall(
             let (before, after) = (change(&heights[first..=first + SETTLED]), change(&heights[first + SETTLED..]));
             let residual = after.max(left(before, after, SLOWEST, CREEP));
             if residual < tolerance {
-                return Ok(Some(Fall { status: Status::Converged, cycles: number, floats, outcome }));
+                return ended(Status::Converged, number);
             }
             status = Status::NotConverged { residual, tolerance };
         }
         if cancel.is_spent() {
-            return Ok(Some(Fall { status, cycles: number, floats, outcome }));
+            return ended(status, number);
         }
     }
-    Ok(Some(Fall { status, cycles, floats, outcome }))
+    ended(status, cycles)
 }

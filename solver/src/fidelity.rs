@@ -196,14 +196,13 @@ impl Spec {
     /// The same target error, but starting from coarse grids, so that there soon is a result that can be refined.
     pub fn from_coarse(&self) -> Self {
         let Self { across, tolerance, plate_tolerance, plate_edge_fraction, target_error, .. } = *self;
-        let least_factor = EARLY;
         Self {
             across,
             tolerance,
             plate_tolerance,
             plate_edge_fraction,
             target_error,
-            least_factor,
+            least_factor: EARLY,
             ..Fidelity::Draft.spec()
         }
     }

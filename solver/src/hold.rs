@@ -79,6 +79,14 @@ pub fn leak_time(plate: &Plate, gap: f64) -> f64 {
     1.0 / (diffusivity * mode)
 }
 
+/// The first of equal steps, of `most` at most, from `done` to `duration`, so that none is a crumb; `done` is moved on by it.
+fn even_step(done: &mut f64, duration: f64, most: f64) -> f64 {
+    let left = duration - *done;
+    let count = (left / most).ceil().max(1.0);
+    *done = if count == 1.0 { duration } else { *done + left / count };
+    left / count
+}
+
 /// A plate held above its stator.
 #[derive(Clone, Debug)]
 pub struct Hold {
@@ -201,13 +209,8 @@ impl Hold {
         let moves = ((to / from).ln().abs() / LONGEST_MOVE).ceil().max(1.0);
         let mut done = 0.0;
         while done < duration {
-            let most = self.longest_step(duration / moves, 0.0);
-            // Equal steps to the end, so that none is a crumb.
-            let left = duration - done;
-            let count = (left / most).ceil().max(1.0);
-            let step = left / count;
-            done = if count == 1.0 { duration } else { done + step };
-            let (now, next) = (self.gap, if count == 1.0 { to } else { from + (to - from) * (done / duration) });
+            let step = even_step(&mut done, duration, self.longest_step(duration / moves, 0.0));
+            let (now, next) = (self.gap, if done == duration { to } else { from + (to - from) * (done / duration) });
             self.step([0.5 * (now + next), next], step)?;
         }
         Ok(())
@@ -259,11 +262,7 @@ impl Hold {
             let approach = LONGEST_MOVE * self.gap / closing.max(f64::MIN_POSITIVE);
             let most = cycle.min(bounce).min(approach);
             // A film that leaks much faster than the plate moves follows at once.
-            let most = self.longest_step(most, LEAST_STEP * most);
-            let left = duration - done;
-            let count = (left / most).ceil().max(1.0);
-            let step = left / count;
-            done = if count == 1.0 { duration } else { done + step };
+            let step = even_step(&mut done, duration, self.longest_step(most, LEAST_STEP * most));
             let ramp = self.plate.amplitude * omega * step / (TAU * RAMP);
             let towards = |share: f64| free.amplitude + (wanted - free.amplitude).clamp(-share * ramp, share * ramp);
             let speed = free.speed + 0.5 * step * (force / mass - GRAVITY);
@@ -393,14 +392,6 @@ impl Hold {
     /// a step of the scheme balances.
     pub fn carried_gas(&self) -> f64 {
         self.fine.sum(&self.fine.state.carried)
-    }
-
-    /// Free energy of the trapped gas above that at ambient pressure \[J; of a strip J/m\]: ∫ [p h ln(p/p_a) − (p − p_a) h] dA, the work that
-    /// isothermal gas can still do on the plate.
-    pub fn free_energy(&self) -> f64 {
-        let (gap, ambient) = (self.gap, self.plate.gas.ambient_pressure);
-        let of = |z: &f64| ambient * (z * (z / gap).ln() - (z - gap));
-        self.fine.sum(&self.fine.state.trapped.iter().map(of).collect::<Vec<_>>())
     }
 
     /// Largest |p/p_a − 1|.

@@ -77,8 +77,6 @@ pub struct SolvedGrids<L> {
     pub status: Status,
     /// States on the grids that converged.
     pub levels: Vec<L>,
-    /// The headline on each.
-    pub headlines: Vec<Mean>,
     /// The grids that converged.
     pub grids: Vec<Grid>,
     /// Whether across them a field is a polynomial.
@@ -118,12 +116,17 @@ impl<R: Default> Periodic<R> {
 }
 
 impl<L: GridState> SolvedGrids<L> {
+    /// The headline on each grid.
+    pub fn headlines(&self) -> Vec<Mean> {
+        self.levels.iter().map(L::headline).collect()
+    }
+
     /// How it was reached, without numbers and fields; `stats` is what it cost.
     pub fn reached<R: Default>(&self, mut stats: Stats) -> Periodic<R> {
         if let Some(level) = self.levels.last() {
             level.count(&mut stats);
         }
-        let headlines = self.headlines.iter().map(|mean| mean.all).collect();
+        let headlines = self.headlines().iter().map(|mean| mean.all).collect();
         Periodic { headlines, stats, ..Periodic::ended(self.status) }
     }
 
@@ -145,11 +148,10 @@ impl<L: GridState> SolvedGrids<L> {
         if self.levels.len() < 2 {
             return Nested { fine, coarse: None };
         }
-        let finest = (self.levels.pop(), self.headlines.pop(), self.grids.pop());
+        let finest = (self.levels.pop(), self.grids.pop());
         let coarse = Some(given(self));
         self.levels.extend(finest.0);
-        self.headlines.extend(finest.1);
-        self.grids.extend(finest.2);
+        self.grids.extend(finest.1);
         Nested { fine, coarse }
     }
 }
@@ -195,8 +197,8 @@ pub fn climb_once<S: GridSolver>(
     cancel: &Cancel,
 ) -> Result<SolvedGrids<S::Level>, S::Error> {
     let (status, spectral) = (Status::Converged, plan.spectral);
-    let (levels, headlines, grids) = (Vec::new(), Vec::new(), Vec::new());
-    let mut found = SolvedGrids { status, levels, headlines, grids, spectral, narrower: None, before: 0.0 };
+    let (levels, grids) = (Vec::new(), Vec::new());
+    let mut found = SolvedGrids { status, levels, grids, spectral, narrower: None, before: 0.0 };
     let mut across = plan.grids.first().map_or(0, |grid| grid.across);
     if plan.spectral && plan.grids.len() > 1 {
         let first = last.map_or(across, |last| last.levels[0].across()).max(2);
@@ -223,11 +225,9 @@ pub fn climb_once<S: GridSolver>(
         found.status = status;
         if status != Status::Converged && number < plan.grids.len() {
             // A coarse grid without a periodic state says nothing about the next one.
-            found.headlines.clear();
             found.levels.clear();
             found.grids.clear();
         } else {
-            found.headlines.push(level.headline());
             found.levels.push(level);
             found.grids.push(grid);
         }
@@ -344,14 +344,12 @@ fn settle_across<S: GridSolver>(
         }
         found.before = before;
         found.status = status;
-        found.headlines = vec![level.headline()];
         found.levels = vec![level];
         found.grids = vec![Grid { across, ..coarsest }];
         found.narrower = Some((narrower, error));
         return Ok(across);
     }
     found.status = status;
-    found.headlines = vec![narrower.headline()];
     found.levels = vec![narrower];
     found.grids = vec![Grid { across: across - 1, ..coarsest }];
     Ok(across)

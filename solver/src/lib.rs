@@ -21,34 +21,8 @@
 //! trapped height Z = hP in metres: the layer that the gas above a point would make at ambient pressure. The numbers that
 //! tell the regime, σ, Λ and Kn, are in [`dimensionless`].
 //!
-//! # Map
-//!
-//! Each module may use those above it in this table, and none below.
-//!
-//! | module | what it holds |
-//! | --- | --- |
-//! | [`numerics`] | film systems by elimination and multigrid, graded nodes, Anderson acceleration; no physics |
-//! | [`control`], [`digits`] | cancellation and progress; numbers for people |
-//! | [`budget`] | the memory that all solves of the process share |
-//! | [`estimate`] | a number with its error; extrapolation from nested grids |
-//! | [`rotor::ring`] | the cross-section of a rotor that is a ring, and its compliances |
-//! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |
-//! | [`surface`] | rough faces: what their asperities carry, how gas flows between them |
-//! | [`problem`] | what is to be solved: checked, in SI units |
-//! | [`dimensionless`] | σ, Λ and Kn without solving |
-//! | [`film`] | the gas film: slip laws, one time step, one cycle, exact results |
-//! | [`rotor`], [`contact`] | the compliance; contact and load balance at one instant |
-//! | [`fidelity`], [`plan`] | how much accuracy; what this scene needs |
-//! | [`recording`], [`solution`] | what a solve returns: plain data |
-//! | [`ladder`] | finer grids until the error is what was asked for |
-//! | [`drive`] | torque, power and efficiency over speed, from where the contact load is |
-//! | [`memory`] | what a solve needs of it |
-//! | [`motor`], [`plate`] | the periodic state of either scene |
-//! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
-//! | [`mod@solve`] | one call for all of it |
-//! | [`mod@startup`], [`hold`], [`fall`] | the transient from rest; a plate held by hand; a plate that is dropped |
-//!
-//! The equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
+//! Which module uses which is in `ARCHITECTURE.md`, the equations with their derivation are in `docs/theory.md`, measured errors in
+//! `docs/validation.md`.
 
 pub mod budget;
 pub mod contact;

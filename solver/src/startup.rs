@@ -248,7 +248,7 @@ impl<'a> Way<'a> {
     fn march(&mut self, plan: &Plan, again: Option<usize>, cancel: &Cancel) -> Result<bool, SolveError> {
         let _taken = memory::take(need(self.problem, plan, self.settings.kept), cancel)?;
         let mut stats = self.found.stats;
-        let mut transient = SceneTransient::at_rest(self.problem, plan, self.unit, &mut stats, cancel)?;
+        let mut next = from_rest(self.problem, plan, self.unit, &mut stats, cancel)?;
         if again.is_none() {
             self.errors.clear();
         }
@@ -257,7 +257,7 @@ impl<'a> Way<'a> {
         // Where the last cycle is marched again it may turn out not to be the last.
         let again = again.filter(|cycles| *cycles < self.errors.len());
         for number in 1..=again.unwrap_or(self.settings.cycles) {
-            let turned = transient.cycle(&mut stats, cancel)?;
+            let turned = next(&mut stats, cancel)?;
             self.found.stats = stats;
             let Some(TransientCycle { outcome, recording, change, elsewhere, unsettled }) = turned else {
                 return Ok(true);
@@ -350,64 +350,59 @@ fn extremes(outcome: &Outcome) -> [f64; 4] {
     [headline(outcome).value, least, greatest, pressure]
 }
 
-/// Either scene on its way.
-enum SceneTransient<'a> {
-    Motor(Box<motor::MotorTransient<'a>>),
-    Plate(Box<plate::PlateTransient>),
+/// The next cycle of either scene; `None` if cancelled.
+type March<'a> = Box<dyn FnMut(&mut Stats, &Cancel) -> Result<Option<TransientCycle>, SolveError> + 'a>;
+
+/// From rest, with as many nodes across as the first cycle needs, which is the hardest; what that takes is added to `stats`.
+fn from_rest<'a>(
+    problem: &'a Problem,
+    plan: &Plan,
+    unit: f64,
+    stats: &mut Stats,
+    cancel: &Cancel,
+) -> Result<March<'a>, SolveError> {
+    if !plan.spectral || plan.grids.len() < 2 {
+        return on(problem, plan, [0.0; 4], stats);
+    }
+    let coarsest = plan.grids[0];
+    let with = |across: usize, grid: &Grid| Grid { across, ..*grid };
+    let first = |across: usize| -> Result<[f64; 4], SolveError> {
+        let grids = vec![with(across, &coarsest)];
+        let (plan, mut stats) = (Plan { grids, maps: false, ..plan.clone() }, Stats::default());
+        let cycle = on(problem, &plan, [0.0; 4], &mut stats)?(&mut stats, cancel)?;
+        Ok(cycle.map_or([0.0; 4], |cycle| extremes(&cycle.outcome)))
+    };
+    let mut across = coarsest.across.max(2);
+    let (mut narrower, mut before) = (first(across - 1)?, [0.0; 4]);
+    let errors = loop {
+        let wider = first(across)?;
+        let changes: [f64; 4] = std::array::from_fn(|k| (wider[k] - narrower[k]).abs());
+        let errors: [f64; 4] = std::array::from_fn(|k| error_across(changes[k], before[k]));
+        if errors[0] <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
+            break errors;
+        }
+        (narrower, before) = (wider, changes);
+        across += 1;
+    };
+    let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();
+    on(problem, &Plan { grids, ..plan.clone() }, errors, stats)
 }
 
-impl<'a> SceneTransient<'a> {
-    /// With as many nodes across as the first cycle needs, which is the hardest; what that takes is added to `stats`.
-    fn at_rest(
-        problem: &'a Problem,
-        plan: &Plan,
-        unit: f64,
-        stats: &mut Stats,
-        cancel: &Cancel,
-    ) -> Result<Self, SolveError> {
-        if !plan.spectral || plan.grids.len() < 2 {
-            return Self::on(problem, plan, [0.0; 4], stats);
+/// From rest on the grids of `plan`; `width_errors` are those of the nodes across, of the headline and of the other [`extremes`].
+fn on<'a>(
+    problem: &'a Problem,
+    plan: &Plan,
+    width_errors: [f64; 4],
+    stats: &mut Stats,
+) -> Result<March<'a>, SolveError> {
+    Ok(match &problem.scenario {
+        Scenario::Motor(motor) => {
+            let mut transient = motor::MotorTransient::at_rest(motor, plan, width_errors[0])?;
+            Box::new(move |stats, cancel| Ok(transient.cycle(stats, cancel)?))
         }
-        let coarsest = plan.grids[0];
-        let with = |across: usize, grid: &Grid| Grid { across, ..*grid };
-        let first = |across: usize| -> Result<[f64; 4], SolveError> {
-            let grids = vec![with(across, &coarsest)];
-            let (plan, mut stats) = (Plan { grids, maps: false, ..plan.clone() }, Stats::default());
-            let cycle = Self::on(problem, &plan, [0.0; 4], &mut stats)?.cycle(&mut stats, cancel)?;
-            Ok(cycle.map_or([0.0; 4], |cycle| extremes(&cycle.outcome)))
-        };
-        let mut across = coarsest.across.max(2);
-        let (mut narrower, mut before) = (first(across - 1)?, [0.0; 4]);
-        let errors = loop {
-            let wider = first(across)?;
-            let changes: [f64; 4] = std::array::from_fn(|k| (wider[k] - narrower[k]).abs());
-            let errors: [f64; 4] = std::array::from_fn(|k| error_across(changes[k], before[k]));
-            if errors[0] <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
-                break errors;
-            }
-            (narrower, before) = (wider, changes);
-            across += 1;
-        };
-        let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();
-        Self::on(problem, &Plan { grids, ..plan.clone() }, errors, stats)
-    }
-
-    /// On the grids of `plan`; `width_errors` are those of the nodes across, of the headline and of the other [`extremes`].
-    fn on(problem: &'a Problem, plan: &Plan, width_errors: [f64; 4], stats: &mut Stats) -> Result<Self, SolveError> {
-        Ok(match &problem.scenario {
-            Scenario::Motor(motor) => {
-                Self::Motor(Box::new(motor::MotorTransient::at_rest(motor, plan, width_errors[0])?))
-            }
-            Scenario::Plate(plate) => {
-                Self::Plate(Box::new(plate::PlateTransient::at_rest(plate, plan, width_errors, stats)?))
-            }
-        })
-    }
-
-    fn cycle(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<Option<TransientCycle>, SolveError> {
-        Ok(match self {
-            Self::Motor(transient) => transient.cycle(stats, cancel)?,
-            Self::Plate(transient) => transient.cycle(stats, cancel)?,
-        })
-    }
+        Scenario::Plate(plate) => {
+            let mut transient = plate::PlateTransient::at_rest(plate, plan, width_errors, stats)?;
+            Box::new(move |stats, cancel| Ok(transient.cycle(stats, cancel)?))
+        }
+    })
 }

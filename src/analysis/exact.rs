@@ -176,8 +176,8 @@ pub fn crossover(outline: Outline) -> f64 {
 
 /// Spring and damping for ε → 0 at σ/Q.
 pub fn linear(effective_squeeze_number: f64, outline: Outline) -> Harmonic<f64> {
-    let (real, imaginary) = linear_load(effective_squeeze_number, 0.0, outline);
-    Harmonic { spring: -real, damping: -imaginary }
+    let load = linear_load(effective_squeeze_number, outline);
+    Harmonic { spring: -load.re, damping: -load.im }
 }
 
 /// σ over the slip's factor at the mean gap and ambient pressure.

@@ -30,22 +30,17 @@ pub struct Modes {
     stiffest: f64,
 }
 
-/// The unknowns of one instant, kept as the start of the next solve.
-#[derive(Clone, Debug, PartialEq)]
+/// The unknowns of one instant, kept as the start of the next solve; by default nothing is known yet.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
     /// z₀ \[m\], then the scaled cosine and sine amplitudes; empty before the first solve.
     pub(super) amplitudes: Vec<f64>,
 }
 
 impl Shape {
-    /// Nothing known yet.
-    pub fn unknown() -> Self {
-        Self { amplitudes: Vec::new() }
-    }
-
     /// The same shape with the number of these modes, cut or padded.
     pub fn resized(&self, modes: &Modes) -> Self {
-        let Some(old) = self.amplitudes.len().checked_sub(1).map(|both| both / 2) else { return Self::unknown() };
+        let Some(old) = self.amplitudes.len().checked_sub(1).map(|both| both / 2) else { return Self::default() };
         let mut amplitudes = vec![0.0; modes.unknowns()];
         amplitudes[0] = self.amplitudes[0];
         for n in 0..old.min(modes.count) {
@@ -68,14 +63,9 @@ pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
 }
 
 impl Modes {
-    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance.
-    pub fn new(rotor: &Compliances, harmonics: usize, x: &[f64]) -> Self {
-        Self::down_to(rotor, harmonics, 0.0, x)
-    }
-
-    /// The same of a rotor whose C(k_N) differs by at most `fraction` from its limit, as a rule ([`cutoff`]): where it differs by less, the local
-    /// compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
-    pub fn down_to(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
+    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance. That differs by at most `fraction` from its limit, as a rule
+    /// ([`cutoff`]): where it differs by less, the local compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
+    pub fn new(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
         let wavelength = rotor.wavelength();
         let (last, limit) = (rotor.harmonic(harmonics), rotor.beyond(harmonics));
         let excess = (last - limit).abs() / limit;

@@ -31,13 +31,6 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis of `intervals` over half-length `half` \[m\], whose intervals at an ambient edge are `edge_spacing` \[m\]
-    /// (or uniform, if that is smaller).
-    pub fn graded(half: f64, start: Start, intervals: usize, edge_spacing: f64) -> Self {
-        let length = if start == Start::Mirror { half } else { 2.0 * half };
-        Self::clustered(half, start, intervals, grading::clustering(edge_spacing * intervals as f64 / length))
-    }
-
     /// An axis of `intervals` over half-length `half` \[m\], clustered by β (`numerics::grading`; 0 is uniform).
     pub fn clustered(half: f64, start: Start, intervals: usize, beta: f64) -> Self {
         let nodes = match start {

@@ -22,7 +22,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {
         let mut level = MotorLevel::new(motor, &plan, &Grid { steps: 2 * grid.steps, ..*grid });
-        let Some(()) = unless_cancelled(level.dry_cycle(cancel))? else { return Ok(None) };
+        let Some(()) = unless_cancelled(level.dry(level.instants(), cancel))? else { return Ok(None) };
         let lines = level.line_loads(motor);
         cycles.push(LineLoads {
             film: vec![0.0; lines.film.len()],

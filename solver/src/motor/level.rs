@@ -114,7 +114,7 @@ impl MotorLevel {
                 .collect()
         });
         let harmonics = plan.harmonics(grid);
-        let modes = Modes::down_to(&plan.rotor, harmonics, grid.harmonic_fraction, &positions);
+        let modes = Modes::new(&plan.rotor, harmonics, grid.harmonic_fraction, &positions);
         let gas = &motor.gas;
         let (lengths, film_widths) = (film_grid.x.lengths.repeat(teeth), widths.repeat(teeth));
         let contact = Contact::new(modes, lengths, &film_widths, gas.ambient_pressure, motor.min_spacing, motor.load)
@@ -140,7 +140,7 @@ impl MotorLevel {
             films: vec![film; stored],
             trapped_film,
             states: vec![FilmState::at_rest(vec![motor.min_spacing; unknowns]); stored],
-            shapes: vec![Shape::unknown(); instants],
+            shapes: vec![Shape::default(); instants],
             stator,
             speed,
             trapped: vec![0.0; stored * steps * nx],
@@ -172,7 +172,7 @@ impl MotorLevel {
         self.contact_load.iter().copied().fold(mean, f64::min) / mean.max(f64::MIN_POSITIVE)
     }
 
-    fn instants(&self) -> usize {
+    pub(super) fn instants(&self) -> usize {
         self.shapes.len()
     }
 
@@ -281,11 +281,11 @@ impl MotorLevel {
         }
     }
 
-    /// Solves the contact problems of all instants, one after the other, as if there were no gas.
-    pub(super) fn dry_cycle(&mut self, cancel: &Cancel) -> Result<(), Stop> {
+    /// Solves the contact problems of the first `count` instants, one after the other, as if there were no gas.
+    pub(super) fn dry(&mut self, count: usize, cancel: &Cancel) -> Result<(), Stop> {
         let (mut contact, nodes) = (self.contact.dry(), self.contact.nodes());
-        let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::unknown(), Instant::default());
-        for s in 0..self.instants() {
+        let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::default(), Instant::default());
+        for s in 0..count {
             if cancel.is_cancelled() {
                 return Err(Stop::Cancelled);
             }

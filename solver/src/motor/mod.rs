@@ -345,7 +345,7 @@ fn may_open(found: &SolvedGrids<MotorLevel>) -> bool {
 
 /// α with what the grids tell of its error.
 fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
-    let Estimate { value, error } = extrapolate_means(&found.headlines);
+    let Estimate { value, error } = extrapolate_means(&found.headlines());
     Estimate { value, error: error * plan.irregular }
 }
 
@@ -359,7 +359,7 @@ fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
         return Estimate { value: 1.0, error };
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
-    let value = found.headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
+    let value = found.headlines().iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
     let left_out = plan.left_out * value.abs();
     let error = estimate.error.min(1.0) + astray + level.astray() + found.width_error() + left_out;
     Estimate { value, error: claimed(plan, value, error) }
@@ -378,7 +378,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, plan, &coarser);
     let estimate = stated(plan, found);
-    let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
+    let elsewhere = (estimate.error - extrapolate_means(&found.headlines()).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
     // A pressure changes by what is left out also where the mean load has no share of it.
     recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
@@ -403,7 +403,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
 }
 
 /// Cycle means and extremes of a recording; no error of the mean is known.
-pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
+fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let frames = recording.frames as f64;
     let (loads, errors) = (&recording.film_load, &recording.film_load_error);
     let load = |greater| recording.extreme(LineLoads::film_loads, loads, errors, greater, f64::INFINITY);

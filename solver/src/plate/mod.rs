@@ -107,7 +107,7 @@ fn gas_force(plate: &Plate, load: f64) -> f64 {
 
 /// Mean load \[N\] with the error of its grids alone.
 fn of_grids(plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estimate {
-    let found = extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, PlateLevel::unit));
+    let found = extrapolate_smooth(&found.headlines(), found.levels.last().map_or(0.0, PlateLevel::unit));
     Estimate { error: found.error * plan.irregular, ..found }
 }
 

@@ -122,7 +122,7 @@ impl LineLoads {
     }
 
     /// Contact load of each frame \[N\].
-    pub fn contact_loads(&self) -> Vec<f64> {
+    fn contact_loads(&self) -> Vec<f64> {
         self.series(|nodes| self.load(&self.contact[nodes]), Add::add)
     }
 

@@ -48,16 +48,9 @@ pub fn tooth_at(x: f64, pitch: f64, teeth: usize) -> (usize, f64) {
 
 /// One plane of pressure as stored, with its mirror planes.
 pub struct Plane<'a> {
-    /// Nodes along x \[m\].
-    pub x: &'a [f64],
-    /// Nodes along y \[m\].
-    pub y: &'a [f64],
+    recording: &'a Recording,
     /// Absolute pressure \[Pa\], `[ix][iy]`.
-    pub values: &'a [f64],
-    /// Whether negative x mirrors positive x.
-    pub mirror_x: bool,
-    /// Whether negative y mirrors positive y.
-    pub mirror_y: bool,
+    values: &'a [f64],
 }
 
 impl<'a> Plane<'a> {
@@ -69,20 +62,14 @@ impl<'a> Plane<'a> {
             _ => (&recording.pressure, frame),
         };
         let values = maps.get(number * size..(number + 1) * size)?;
-        (size > 0).then_some(Self {
-            x: &recording.map_x,
-            y: &recording.map_y,
-            values,
-            mirror_x: recording.half_length,
-            mirror_y: recording.half_width,
-        })
+        (size > 0).then_some(Self { recording, values })
     }
 
     /// Adds `share` times the values along y at `x` to `out` (one for each stored y); false outside.
-    pub fn column(&self, x: f64, share: f64, out: &mut [f64]) -> bool {
-        let x = if self.mirror_x { x.abs() } else { x };
-        let Some((left, weight)) = locate(self.x, x) else { return false };
-        let ny = self.y.len();
+    fn column(&self, x: f64, share: f64, out: &mut [f64]) -> bool {
+        let x = if self.recording.half_length { x.abs() } else { x };
+        let Some((left, weight)) = locate(&self.recording.map_x, x) else { return false };
+        let ny = self.recording.map_y.len();
         let near = &self.values[left * ny..(left + 1) * ny];
         let far = if weight > 0.0 { &self.values[(left + 1) * ny..(left + 2) * ny] } else { near };
         for ((out, near), far) in out.iter_mut().zip(near).zip(far) {
@@ -93,7 +80,7 @@ impl<'a> Plane<'a> {
 
     /// Where `y` lies in a column.
     pub fn row(&self, y: f64) -> Option<(usize, f64)> {
-        locate(self.y, if self.mirror_y { y.abs() } else { y })
+        locate(&self.recording.map_y, if self.recording.half_width { y.abs() } else { y })
     }
 }
 

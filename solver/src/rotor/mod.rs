@@ -144,7 +144,7 @@ static RESONATING: Cache<(Section, u32), [f64; RESONANCES]> = Cache::new();
 fn of_ring(section: &Section, wave: &Wave, cancel: &Cancel) -> Result<Compliances, RotorError> {
     RINGS.or((section.clone(), *wave), |_| {
         let _taken = budget::take(need(section, wave.band)?, cancel)?;
-        let ring::RingCompliances { harmonics: found, resolved, .. } =
+        let ring::RingCompliances { harmonics: found, resolved } =
             section.compliances(wave.band, wave.waves, MOST_HARMONICS, cancel)?;
         let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
         let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();

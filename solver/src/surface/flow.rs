@@ -103,7 +103,7 @@ pub fn pressure_factor(ratio: f64, lay: f64) -> f64 {
 }
 
 /// φ_s at H = h/σ = `ratio` of one rough face for a lay along the sliding.
-pub fn shear_factor(ratio: f64, lay: f64) -> f64 {
+fn shear_factor(ratio: f64, lay: f64) -> f64 {
     interpolated(lay, |row| row.shear(ratio))
 }
 

@@ -51,57 +51,49 @@ const RAREFIED_END: f64 = 0.01;
 /// Kn at which it does, √π/(2D).
 pub(super) const FIT_ENDS: f64 = 88.622_692_545_275_8;
 
-/// F(D) = ∫ Q_P dD, up to a constant: cubics in ln D between nodes, and in closed form beyond either end.
-struct FlowPotential {
-    /// F and dF/d ln D at the nodes.
-    nodes: Vec<(f64, f64)>,
+/// D up to which F(D) = ∫ Q_P dD is a table, and the intervals of that, even in ln D.
+const LAST: f64 = 10.0;
+const INTERVALS: usize = 800;
+
+fn step() -> f64 {
+    (LAST / RAREFIED_END).ln() / INTERVALS as f64
 }
 
-impl FlowPotential {
-    const FIRST: f64 = RAREFIED_END;
-    const LAST: f64 = 10.0;
-    const INTERVALS: usize = 800;
-
-    fn step() -> f64 {
-        (Self::LAST / Self::FIRST).ln() / Self::INTERVALS as f64
+/// F, up to a constant, and dF/d ln D at the nodes of the table.
+static NODES: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let slope = |s: f64| s.exp() * flow_rate(s.exp()).0;
+    let mut sum = 0.0;
+    let mut nodes = Vec::with_capacity(INTERVALS + 1);
+    for i in 0..=INTERVALS {
+        let here = RAREFIED_END.ln() + i as f64 * step();
+        nodes.push((sum, slope(here)));
+        sum += gauss_legendre(here, here + step(), slope);
     }
+    nodes
+});
 
-    fn new() -> Self {
-        let slope = |s: f64| s.exp() * flow_rate(s.exp()).0;
-        let mut sum = 0.0;
-        let mut nodes = Vec::with_capacity(Self::INTERVALS + 1);
-        for i in 0..=Self::INTERVALS {
-            let here = Self::FIRST.ln() + i as f64 * Self::step();
-            nodes.push((sum, slope(here)));
-            sum += gauss_legendre(here, here + Self::step(), slope);
-        }
-        Self { nodes }
-    }
-
-    fn at(&self, x: f64) -> f64 {
-        let (first, last) = (self.nodes[0], self.nodes[Self::INTERVALS]);
-        if x <= Self::FIRST {
-            // ∫ of end − fall ln(D/D₀).
-            let (end, fall) = (piece(RAREFIED, RAREFIED_END).0, std::f64::consts::PI.sqrt().recip());
-            let ratio = x / Self::FIRST;
-            let whole = |ratio: f64| Self::FIRST * ratio * (end - fall * (ratio.ln() - 1.0));
-            first.0 + whole(ratio) - whole(1.0)
-        } else if x >= Self::LAST {
-            let [a, b, c, d] = CONTINUUM;
-            let whole = |x: f64| x * (0.5 * a * x + b) + c * x.ln() - d / x;
-            last.0 + whole(x) - whole(Self::LAST)
-        } else {
-            let place = (x / Self::FIRST).ln() / Self::step();
-            let left = (place as usize).min(Self::INTERVALS - 1);
-            let t = place - left as f64;
-            let ((a, slope_a), (b, slope_b)) = (self.nodes[left], self.nodes[left + 1]);
-            let (rise, start, end) = (b - a, slope_a * Self::step(), slope_b * Self::step());
-            a + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
-        }
+/// F(D): cubics in ln D between nodes, and in closed form beyond either end.
+fn flow_potential(x: f64) -> f64 {
+    let (first, last) = (NODES[0], NODES[INTERVALS]);
+    if x <= RAREFIED_END {
+        // ∫ of end − fall ln(D/D₀).
+        let (end, fall) = (piece(RAREFIED, RAREFIED_END).0, std::f64::consts::PI.sqrt().recip());
+        let ratio = x / RAREFIED_END;
+        let whole = |ratio: f64| RAREFIED_END * ratio * (end - fall * (ratio.ln() - 1.0));
+        first.0 + whole(ratio) - whole(1.0)
+    } else if x >= LAST {
+        let [a, b, c, d] = CONTINUUM;
+        let whole = |x: f64| x * (0.5 * a * x + b) + c * x.ln() - d / x;
+        last.0 + whole(x) - whole(LAST)
+    } else {
+        let place = (x / RAREFIED_END).ln() / step();
+        let left = (place as usize).min(INTERVALS - 1);
+        let t = place - left as f64;
+        let ((a, slope_a), (b, slope_b)) = (NODES[left], NODES[left + 1]);
+        let (rise, start, end) = (b - a, slope_a * step(), slope_b * step());
+        a + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
     }
 }
-
-static FLOW_POTENTIAL: LazyLock<FlowPotential> = LazyLock::new(FlowPotential::new);
 
 impl FukuiKaneko {
     /// D of a trapped height `z` \[m\].
@@ -126,6 +118,6 @@ impl Mobility for FukuiKaneko {
     fn potential(self, z: f64) -> f64 {
         // ψ = 6 (2λ_a/√π) Q_P(D), and dZ = (2λ_a/√π) dD.
         let unit = 2.0 * self.mean_free_path / std::f64::consts::PI.sqrt();
-        6.0 * unit * unit * FLOW_POTENTIAL.at(z / unit)
+        6.0 * unit * unit * flow_potential(z / unit)
     }
 }

@@ -12,7 +12,6 @@ mod affine;
 mod fukui_kaneko;
 mod mobility;
 mod second_order;
-mod specular;
 
 use crate::problem::{Gas, Slip};
 pub use accommodated::Accommodated;

@@ -10,7 +10,7 @@ use crate::contact::{Instant, Shape};
 use crate::control::{Cancel, Reporter};
 use crate::estimate::left;
 use crate::film::stepper::FilmState;
-use crate::motor::ending::{MotorError, Stop};
+use crate::motor::ending::{MotorError, Stop, unless_cancelled};
 use crate::numerics::anderson::Anderson;
 use crate::plan::Plan;
 use crate::solution::{Stats, Status};
@@ -35,20 +35,12 @@ impl MotorLevel {
     /// # Errors
     /// [`MotorError::Contact`] if the dry contact problem has no solution to working precision.
     pub(in crate::motor) fn rest(&mut self) -> Result<(), MotorError> {
-        let nodes = self.contact.nodes();
-        let mut fields = Instant::default();
-        self.shapes.fill(Shape::unknown());
-        let mut shape = Shape::unknown();
-        self.contact
-            .dry()
-            .solve(&self.stator[..nodes], &vec![0.0; nodes], &mut shape, &mut fields)
-            .map_err(|source| MotorError::Contact { instant: 0, source })?;
-        let (nx, steps) = (self.nx, self.steps);
-        let columns = self.grid().y.unknown().len();
-        self.keep(0, &fields);
+        unless_cancelled(self.dry(1, &Cancel::new()))?;
+        self.shapes.fill(Shape::default());
+        let (nx, columns) = (self.nx, self.grid().y.unknown().len());
         for tooth in 0..self.teeth {
-            let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
-            let to = tooth * steps * nx;
+            let to = tooth * self.steps * nx;
+            let gap = &self.film_thickness[to..to + nx];
             let trapped: Vec<f64> =
                 self.grid().x.unknown().flat_map(|ix| std::iter::repeat_n(gap[ix], columns)).collect();
             let line = &mut self.line[to..to + nx];
@@ -139,7 +131,7 @@ impl MotorLevel {
                 present[tooth * nx + ix] = if then > 0.0 { now * (now / then).clamp(0.5, 2.0) } else { now };
             }
         }
-        if self.shapes[m] == Shape::unknown() {
+        if self.shapes[m] == Shape::default() {
             self.shapes[m] = self.shapes[last].clone();
         }
         let inside: Vec<usize> = (0..nodes).filter(|i| self.grid().x.unknown().contains(&(i % nx))).collect();

@@ -57,8 +57,6 @@ pub struct RingCompliances {
     /// How many of them the finite elements resolve. Beyond, each continues the last that is resolved as an elastic
     /// half-space under the same band does: the local part, which no longer depends on the shape of the section.
     pub resolved: usize,
-    /// Elements of the finer mesh.
-    pub elements: usize,
 }
 
 /// How the section moves under a line load of 1 N/m (amplitude) of one order, node by node of [`Section::mesh`]:
@@ -147,7 +145,7 @@ impl Section {
                 Estimate { value, error: value * (known.error / known.value + (edges / from_edges - 1.0).abs()) }
             }));
         }
-        Ok(RingCompliances { harmonics, resolved, elements: meshes[1].elements.len() })
+        Ok(RingCompliances { harmonics, resolved })
     }
 
     /// How the section moves under a unit line load of each of the `orders` on the contact `band`.
