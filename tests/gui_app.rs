@@ -469,6 +469,19 @@ fn a_redraw_paints_the_ground_once_and_less_than_the_window_besides() {
 }
 
 #[test]
+fn unsaved_work_survives_a_crash() {
+    let mut window = window("tooth-radius-3m");
+    edit_spacing(&mut window, "123");
+    let memory = left(&mut window);
+    drop(window);
+    let window = reopen(memory, 700.0, Platform::default());
+    let document = &window.known().document;
+    assert_eq!(spacing(window.state()), Value::Number(123.0));
+    assert_eq!(document.scene().get("stator.tooth_radius_m"), Some(Value::Number(3.0)));
+    assert!(document.is_dirty());
+}
+
+#[test]
 fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
     let large = [
         ("numerics.film_nodes_along", "2001"),

@@ -120,9 +120,14 @@ const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_'
 mod tests {
     use super::*;
 
+    /// The scene of a link, which is unsaved if it is none of the presets, and the tab.
     fn read(text: &str) -> (Scene, Option<Tab>) {
         match Link::read(text).unwrap() {
-            Link::Scene { document, tab } => (document.scene().clone(), tab),
+            Link::Scene { document, tab } => {
+                let built_in = BUILT_IN.iter().any(|preset| preset.scene().unwrap() == *document.scene());
+                assert_eq!(document.is_dirty(), !built_in, "{text}");
+                (document.scene().clone(), tab)
+            }
             lesson => panic!("{lesson:?}"),
         }
     }
