@@ -69,7 +69,7 @@ impl Sensitivity {
     ) -> Result<Option<Self>, AnalysisError> {
         let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
-        let centre = Centre::new(&problem, settings, None, cancel)?;
+        let centre = Centre::new(&problem, settings, cancel)?;
         let Some(Jacobian { numbers, columns }) = variation.jacobian(&centre, &read, cancel, solved) else {
             return Ok(None);
         };
@@ -176,7 +176,7 @@ impl Sensitivity {
     ) -> Option<MonteCarlo> {
         // The gap at which a plate floats may be far from that in the middle: it is sought anew, and needs no centre.
         let floats = self.problem.scenario.plate().is_some_and(|plate| plate.load.is_some());
-        let centre = if floats { None } else { Some(Centre::new(&self.problem, &self.settings, None, cancel).ok()?) };
+        let centre = if floats { None } else { Some(Centre::new(&self.problem, &self.settings, cancel).ok()?) };
         let one = |number: usize| {
             if cancel.is_cancelled() {
                 return None;

@@ -110,26 +110,20 @@ fn float(plate: &Plate, plan: &Plan, floating: Option<&Afloat>, cancel: &Cancel)
 }
 
 impl Centre {
-    /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect; `last` is one to start from.
+    /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect.
     ///
     /// # Errors
     /// As [`super::solve`].
-    pub fn new(
-        problem: &Problem,
-        settings: &Settings,
-        last: Option<&Self>,
-        cancel: &Cancel,
-    ) -> Result<Self, SolveError> {
+    pub fn new(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Self, SolveError> {
         let settings = Settings { record: Record::Numbers, method: Method::Auto, ..*settings };
         let spec = settings.fidelity.spec();
         let cold = Warm::default();
-        let warm = last.map_or(&cold, |last| &last.warm);
         // First to find the grids that the accuracy needs; then by them, until the cycle repeats.
         match &problem.scenario {
             Scenario::Motor(motor) => {
                 let plan = motor_plan(motor, problem, &settings, &spec, cancel)?;
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
-                let (mut found, mut warm, mut plan) = motor::periodic_near(warm, motor, &plan, cancel)?;
+                let (mut found, mut warm, mut plan) = motor::periodic_near(&cold, motor, &plan, cancel)?;
                 if is_settled(found.fine.status) {
                     let (again, state, exact) = motor::periodic_near(&warm, motor, &tight(&plan), cancel)?;
                     if is_settled(again.fine.status) && alike(&plan, &exact) {

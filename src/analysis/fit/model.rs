@@ -220,7 +220,7 @@ impl<'a> Model<'a> {
         let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
         let variation = Variation::new(&scene, &keys).ok()?;
         let problem = Problem::try_from(&scene).ok()?;
-        let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
+        let centre = caught(|| Centre::new(&problem, &self.settings, cancel)).ok()?.ok()?;
         let numbers = |problem: &Problem, solution: &Solution| -> Vec<Estimate> {
             let unknown = Estimate { value: f64::NAN, error: f64::NAN };
             read(problem, solution, asked).into_iter().map(|found| found.unwrap_or(unknown)).collect()
