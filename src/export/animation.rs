@@ -168,7 +168,7 @@ pub fn frame_name(number: usize) -> String {
     format!("frame-{number:04}.png")
 }
 
-/// How many frames [`write`] makes. If the options ask for fewer than the usual number, an MP4 has no more than the other formats.
+/// How many frames [`write()`] makes. If the options ask for fewer than the usual number, an MP4 has no more than the other formats.
 pub fn count(recording: &Recording, options: &Options, format: Format) -> usize {
     let count = frames(recording, options.frames);
     if format != Format::Mp4 || count == 0 || options.frames < Options::default().frames {
