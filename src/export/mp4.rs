@@ -21,6 +21,8 @@ const HEADER: usize = 8;
 
 /// A video has whole cycles, and lasts at least this \[s\].
 const LONG_ENOUGH: f64 = 12.0;
+/// Shortest cycle for which that is taken at its word \[s\]: shorter ones would have to be repeated without end.
+const SHORTEST: f64 = 0.02;
 
 /// Writes a cycle of `count` pictures of a size, each called for by its number, as often as [`LONG_ENOUGH`] asks, with a comment.
 /// `done` is called after each picture.
@@ -35,7 +37,7 @@ pub(super) fn write(
     // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
     let step = (1000.0 * seconds).round() as u32;
     let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
-    let cycles = (LONG_ENOUGH / seconds).ceil() as u32;
+    let cycles = (LONG_ENOUGH / seconds.max(SHORTEST)).ceil() as u32;
     let packets = encode(count, picture, size, [step, timescale], done, &|| cancel.is_cancelled())?;
     if cancel.is_cancelled() {
         return Err(io::ErrorKind::Interrupted.into());

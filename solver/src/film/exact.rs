@@ -18,8 +18,8 @@ pub fn trapped_height(invariant_mean: f64, gap_mean: f64, slip: f64) -> f64 {
     2.0 * right / (slip + (slip * slip + 2.0 * right).sqrt())
 }
 
-/// Amplitude of a plate's net load for ε → 0, divided by p_a·area·ε: the load at κ² = iσ, σ/(1+6m) with slip, based on
-/// [`Plate::squeezed_length`]. The real part is the spring, negative if it restores; the imaginary part is minus the damping, negative if it
+/// Amplitude of a plate's net load for ε → 0, divided by p_a·area·ε: the load at κ² = iσ, σ based on
+/// [`Plate::squeezed_length`] and, with first-order slip, divided by 1 + 6m. The real part is the spring, negative if it restores; the imaginary part is minus the damping, negative if it
 /// dissipates.
 pub fn linear_load(squeeze_number: f64, outline: Outline) -> Complex<f64> {
     let square = Complex::new(0.0, squeeze_number);
