@@ -22,6 +22,9 @@ use eframe::egui::accesskit::{Action, ActionRequest, TreeId};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// Time from the beginning of one frame of a motion to the next: a little less than a sixtieth of a second, since waking up takes time as well.
+const FRAME: Duration = Duration::from_millis(15);
+
 /// Interval at which unsaved work is stored.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
@@ -139,7 +142,7 @@ impl eframe::App for App {
         // A frame after a pause must not leap.
         let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
         if self.updater.animate(elapsed) {
-            ctx.request_repaint_after(Duration::from_millis(16));
+            ctx.request_repaint_after(FRAME);
         }
         self.last_frame = Some(now);
         self.updater.follow_torque();
