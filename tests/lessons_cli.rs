@@ -102,6 +102,11 @@ fn lessons_are_printed_a_page_for_each() {
             && answers.contains("The program gives 241 kPa")
             && !answers.contains("class=\"room\"")
     );
+    // Braces are those of the text, not marks of an index.
+    let own = self::folder(&GOOD.replacen("pushing wins", r"\{the ratio\} at $h_0$", 1));
+    done(&["lessons", "print", own.path().to_str().unwrap(), "--out", own.path().join("out").to_str().unwrap()]);
+    let own = std::fs::read_to_string(own.path().join("out/answers.html")).unwrap();
+    assert!(own.contains("{the ratio} at h_0"), "{own}");
     // The text of a step is on the worksheet.
     let body = "Here a plate lies on a film of air that is 1 µm thick";
     assert!(worksheets.contains(body) && !answers.contains(body), "{worksheets}");

@@ -177,7 +177,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
         drawn(&other).contains("error of the stall torque up to 0.0") && !drawn(&other).contains("share of the load")
     );
     let wrong = [&COMMAND[..], &["--quantity", "torque"]].concat();
-    refused(&into(&wrong, &other), 2, &["torque: no such number; allowed: alpha"]);
+    refused(&into(&wrong, &other), 2, &["torque: no such number; did you mean max_torque_nm? Allowed: alpha"]);
 
     // The CSV by a reader of its own: columns by name.
     let text = fs::read_to_string(folder.join("sweep.csv")).unwrap();

@@ -47,13 +47,13 @@ const OF_SHAPE: f64 = 0.5;
 const OF_SPEED: f64 = 0.5;
 /// Relative error of the film's power over that of its mean load, for want of nodes across (measured: 1.7 of the fundamental case with two).
 const OF_WIDTH: f64 = 2.0;
-/// Factor on what grids tell of the film's power (calibrated: docs/validation.md).
+/// Safety factor on the error of the film's power that the grids give (calibrated: docs/validation.md).
 const OF_POWER: f64 = 2.0;
 /// Least share of the load on contact that a change of it is compared with.
 const LEAST_SHARE: f64 = 1e-6;
 /// Factor on what grids tell of contact without film (calibrated: docs/validation.md).
 const DRY: f64 = 1.3;
-/// Over such a difference of speed ratios the error of a curve changes by its own size.
+/// Difference of speed ratios over which the error of a curve may change by its own size: it gives the error of a slope.
 const VARIES: f64 = 0.05;
 
 /// Where in the wave the contact load is, on one grid.

@@ -61,22 +61,24 @@ impl Display for Estimate {
 /// Share of |e₂₃ − e₁₂| that is taken as the error where the results converge at second order or faster (calibrated, as are all
 /// constants here: docs/validation.md).
 const SPREAD: f64 = 0.25;
-/// Least share of the last correction that is taken as error.
+/// The error is at least this multiple of the last Richardson correction, |d₂|/3.
 const CORRECTION: f64 = 0.35;
-/// Share of what a slower approach leaves that is taken as error, and the slowest one that it is taken for.
+/// Below second order, the error is `REST` times the remainder of a geometric series with the observed ratio d₁/d₂, which is taken to be at
+/// least `SLOWEST`.
 const REST: f64 = 1.3;
 const SLOWEST: f64 = 1.3;
 /// Least share of the change before the last that is taken as error: the last one may be small by chance.
 const BEFORE: f64 = 0.025;
-/// Of a smooth approach, what a term of third order leaves of the spread.
+/// Share of the spread that a third-order term leaves where the error is a power series in the spacing.
 const THIRD_ORDER: f64 = 1.0 / 7.0;
 /// Share of the spread, and of the last correction, for the orders after the third, times the spacing.
 const HIGHER_ORDERS: f64 = 0.6;
-/// Ratio of changes above which an approach counts as smooth.
+/// Ratio d₁/d₂ above which the convergence of a smooth film counts as second order.
 const NEARLY_SECOND_ORDER: f64 = 3.5;
-/// Least share of the spread where the approach turns back.
+/// The error is at least this share of the spread where successive changes have opposite signs.
 const TURNING: f64 = 0.4;
-/// Least share of what the mean on the middle grid gained by its new instants, and that of a film that nothing touches.
+/// The error is at least this share of the change of the middle grid's mean due to the instants that the coarsest grid lacks: with contact, and
+/// for a film without contact.
 const SAMPLING: f64 = 0.07;
 const SMOOTH_SAMPLING: f64 = 0.1;
 /// Likewise for the first grid.

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
-/// How much accuracy to buy. The more accurate is the greater one.
+/// Requested accuracy of a solve. Levels are ordered: a more accurate level is greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Fidelity {
     /// For dragging a slider: 2 %.

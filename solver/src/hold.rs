@@ -39,8 +39,9 @@ const GROWTH: f64 = 2.0;
 /// Least W over Z after a change of the step.
 const CARRIED_FLOOR: f64 = 0.1;
 
-/// What is to be known of a plate that was struck ([`Free::struck`]).
-pub const STRUCK: &str = "The vibrating face has struck the plate, which took the face's speed: how a real plate comes off is not part of the model";
+/// Warning about a plate that the vibrating face has struck ([`Free::struck`]).
+pub const STRUCK: &str = "The vibrating face has struck the plate, which took the face's speed; the model does not describe how a real
+plate rebounds";
 
 /// Steps in a cycle of the vibration, and the longest step over the time in which the gas under a plate that falls turns it round.
 const STEPS_IN_CYCLE: f64 = 96.0;
@@ -394,7 +395,7 @@ impl Hold {
         self.fine.sum(&self.fine.state.carried)
     }
 
-    /// Largest |p/p_a − 1|.
+    /// Largest deviation of the pressure from ambient at any node, |p/p_a − 1|.
     pub fn unrest(&self) -> f64 {
         let ratios = self.fine.state.trapped.iter().map(|z| z / self.gap);
         ratios.fold(0.0, |most: f64, ratio| most.max((ratio - 1.0).abs()))

@@ -17,7 +17,8 @@ const WIDTH_SHARE: f64 = 0.15;
 /// taken for.
 const BY_CHANCE: f64 = 0.1;
 const SLOWEST_ACROSS: f64 = 0.6;
-/// Relative error asked for below which the first change has one before it to be compared with.
+/// Requested relative error below which the coarsest grid is also solved with two nodes fewer across, so that the first change can be
+/// compared with an earlier one.
 pub const EXACTING: f64 = 4e-3;
 
 /// The state of a scene on one grid.

@@ -1,4 +1,5 @@
-//! One call for either scene: problem and settings in, solution out. [`near`]: solves whose differences mean something.
+//! Solves a motor or a plate: takes a problem and settings, and returns a solution. [`near`] solves neighbouring problems with one plan, so that
+//! differences of their results are accurate.
 
 pub mod near;
 

@@ -1,4 +1,4 @@
-//! One solve among many: whatever becomes of it, the others go on.
+//! Runs one solve of many; an error or a panic in it does not stop the others.
 
 use crate::control::{Cancel, Observer};
 use crate::problem::Problem;
@@ -59,7 +59,7 @@ pub fn attempt(
     told(|| solve(problem, settings, observer, cancel))
 }
 
-/// Runs `solve`; its error, or its panic, in words.
+/// Runs `solve`, and turns its error or panic into a message.
 pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
     caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }

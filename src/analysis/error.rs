@@ -1,6 +1,6 @@
 //! Why an analysis of a scene is not made.
 
-use crate::scene::SceneError;
+use crate::scene::{SceneError, nearest, show_text};
 use crate::solve::SolveError;
 
 /// Why there is no sweep, comparison, fit, optimum or sensitivity. Found before anything is solved, but for errors of the solver and the last.
@@ -29,6 +29,15 @@ pub enum AnalysisError {
 }
 
 impl AnalysisError {
+    /// The fault of a name that results of the scene do not have, given for `option`; `allowed`: those that they have, separated by commas.
+    pub fn no_such_number(option: &str, name: &str, allowed: &str) -> Self {
+        let allowed = match nearest(name, allowed.split(", ")) {
+            Some(near) => format!("did you mean {near}? Allowed: {allowed}"),
+            None => format!("allowed: {allowed}"),
+        };
+        Self::Input(format!("{option} {}: no such number; {allowed}", show_text(name)))
+    }
+
     /// Whether the input asked for what is not allowed.
     pub fn is_bad_input(&self) -> bool {
         match self {

@@ -142,7 +142,7 @@ numbers! {
 use Quantity::*;
 
 impl Quantity {
-    /// What says most of a result: the first of them that there is.
+    /// The headline result: the first of these that the result has.
     pub const HEADLINES: [Self; 3] = [Alpha, MeanGap, LoadRatio];
 
     /// Those that a scene of this problem has.
@@ -184,7 +184,7 @@ impl Quantity {
         }
     }
 
-    /// For people: with its error if it is of those that have one, a count as a whole number; nothing if it is not known.
+    /// Text for people: the value with its error, if it has one; a count as a whole number; empty if unknown.
     pub fn text(self, found: Option<Estimate>) -> String {
         match found {
             None => String::new(),

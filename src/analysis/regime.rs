@@ -85,7 +85,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
                 Scenario::Motor(motor) if mach(motor) > 1.0 => ", where the faces slide beyond the speed of sound",
                 _ => "",
             };
-            format!("here it sucks: its mean pressure is below ambient{fast}, and it pulls with {percent} of {of}")
+            format!("here its mean pressure is below ambient{fast}: it pulls the faces together with {percent} of {of}")
         }
         _ if share.abs() <= error => "here its load cannot be distinguished from zero".to_owned(),
         _ if share < HARDLY => format!("here it hardly matters: it carries {percent} of {of}{rest}"),
@@ -103,8 +103,8 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
     match (numbers.bearing_number, numbers.bearing_to_squeeze) {
         (0.0, _) => "nothing slides",
         (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in almost no gas",
-        (_, ratio) if ratio < 0.3 => "< σ: sliding drags in a little of what squeezing moves",
-        _ => "not ≪ σ: sliding drags in as much as squeezing moves",
+        (_, ratio) if ratio < 0.3 => "< σ: sliding carries less gas than squeezing displaces",
+        _ => "not ≪ σ: sliding carries as much gas as squeezing displaces",
     }
 }
 
@@ -131,7 +131,7 @@ pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
         kn if (1.0..kn).contains(&SlipLaw::of(gas).knudsen_limit()) => {
             "the gas is so rarefied that its slip law is extrapolated"
         }
-        _ => "the gas is rarefied; of the slip laws, fukui-kaneko is made for this",
+        _ => "the gas is rarefied; of the slip laws only fukui-kaneko is valid here",
     };
     format!("{at}: {says}")
 }

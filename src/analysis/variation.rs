@@ -33,7 +33,7 @@ const STEP: f64 = 0.01;
 const SCALE_AT_ZERO: f64 = 0.1;
 /// Share of the stated error of a number that its derivative has at least, times the scale of the key (calibrated by random plates and motors).
 const EXPECTED: f64 = 0.3;
-/// Rounding of a number that a solution tells, relative: how exactly what follows from its fields is looked for.
+/// Relative rounding error of a result that is computed from the fields, such as the no-load speed.
 const ROUNDING: f64 = 1e-9;
 /// Steps away from the middle at which is solved: on both sides, or on one.
 const BOTH: [i32; 4] = [-2, -1, 1, 2];

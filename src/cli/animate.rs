@@ -42,8 +42,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = within(0.2..=120.0, "a number of seconds"))]
     seconds: f64,
 
-    /// Maximum number of frames; the number used divides the time steps evenly. An MP4 has at least 24 a second, between time
-    /// steps if needed, unless fewer than 60 are asked for
+    /// Maximum number of frames; the frames are evenly spaced time steps. An MP4 has at least 24 frames a second, interpolated between
+    /// time steps if necessary, unless fewer than 60 frames are requested
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u16>(2..=1000))]
     frames: u16,
 

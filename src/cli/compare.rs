@@ -42,7 +42,7 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; one alone gives a report
+    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; a single preset is reported on its own
     #[arg(value_name = "PRESET", required = true, num_args = 1..)]
     presets: Vec<String>,
 

@@ -88,7 +88,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LINE", conflicts_with_all = ["maximise", "minimise"])]
     skip: Vec<String>,
 
-    /// Number of starts: the values of the preset, which are refined, and points spread over the bounds, of which up to three are, the best that are apart
+    /// Number of starting points: the values of the preset and, if more than one, points spread over the bounds. Those are solved as
+    /// drafts; the search then starts from the preset and from up to three of the best drafts that are far enough apart
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS))]
     starts: u16,
 
@@ -249,7 +250,7 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
                 if most < 1.01 * least { percent(least) } else { format!("{} to {}", percent(least), percent(most)) };
             format!(
                 "{counts}. No errors were given: the residuals say that one standard error of a measurement is {size} of its value, \
-                 and all standard errors rest on that."
+                 and all standard errors below are based on this estimate."
             )
         }
         None => format!("{counts}. No errors were given, and nothing tells how large they are."),
@@ -272,7 +273,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let mut columns = Columns::new();
     let before = found.before.map_or_else(
         || "cannot be solved where the search began".to_owned(),
-        |before| format!("{before} where the search began"),
+        |before| format!("{before} at the start of the search"),
     );
     columns.row([found.goal.quantity.name().to_owned(), found.value.to_string(), before]);
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {

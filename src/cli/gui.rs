@@ -87,7 +87,7 @@ fn no_window(reason: String) -> CliError {
         ""
     };
     CliError::System(format!(
-        "no window can be opened here: {reason}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help{advice}"
+        "no window can be opened: {reason}\nwithout a window, try squeezefilm solve fundamental or squeezefilm --help{advice}"
     ))
 }
 

@@ -17,7 +17,7 @@ Examples:
   squeezefilm join a/sweep.part-1-of-2.csv b/sweep.part-2-of-2.csv --json";
 
 const FILES: &str = "\
-Files of --out: those of squeezefilm sweep, byte for byte what one machine
+Files of --out: the same as those of squeezefilm sweep, byte for byte what one machine
 would write.";
 
 /// Joins the parts of a sweep that were solved with sweep --part

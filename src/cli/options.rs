@@ -421,7 +421,7 @@ fn fidelity_help() -> String {
          Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
          until the work reaches a limit. The result states its error. Where the film carries less than a hundredth of the \
          load, the error is compared with that hundredth instead.\n\n\
-         [default: {}; for table1 and reproduce fine; in the window the last choice there, which this option replaces]",
+         [default: {}; fine for table1 and reproduce; for gui, the level last chosen in the window]",
         named.join(", "),
         Fidelity::default()
     )

@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let mut names = Vec::new();
     let mut path = |preset: &String| {
-        let name = own(preset, &mut names);
+        let name = folder_name(preset, &mut names);
         let path = folder.as_ref()?.path;
         Some(if several { path.join(name) } else { path.to_owned() })
     };
@@ -179,7 +179,7 @@ fn one(
 }
 
 /// The folder of one preset among several: its name, or that of its file, once.
-fn own(preset: &str, names: &mut Vec<String>) -> String {
+fn folder_name(preset: &str, names: &mut Vec<String>) -> String {
     let built_in = BuiltIn::find(preset).is_some();
     let name = match Path::new(preset).file_stem() {
         _ if preset == STANDARD_INPUT => "standard-input".to_owned(),

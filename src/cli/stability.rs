@@ -27,9 +27,10 @@ Examples:
 
 /// Maps where each method (ours and the paper's) finds a solution, over the full ranges of the parameters
 ///
-/// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
-/// a pressure or contact force below 0, loads that do not add up), failed or refused. About a minute and a half on two cores, nearly all
-/// for the paper's method, which --method auto leaves out. A map of a key that the motor does not have, such as the minimum
+/// Every cell is solved by itself and judged: solved, not converged, non-physical (α outside 0 … 1 by more than its stated error, a
+/// negative pressure or contact force,
+/// or loads that do not add up to the applied load), failed or refused. This takes about a minute and a half on two cores, nearly all of it
+/// for the paper's method, which --method auto omits. A map of a key that the motor does not have, such as the minimum
 /// spacing of rough faces, is left out, with the reason.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

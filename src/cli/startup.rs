@@ -39,8 +39,10 @@ Files of --out:
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
 /// At t = 0 the wave is frozen at full amplitude, with the rotor pressed on it and the gas at ambient pressure; then it starts to travel.
-/// A plate rests at its mean gap, then moves away from the wall first; its cycles begin a quarter of a period later, where the gap is widest. Every tooth is solved. The result is compared
-/// with the periodic solve, which does not march in time: they agree within their stated errors and the change still to come (--tolerance). Grids
+/// A plate starts at rest at its mean gap and first moves away from the wall. Its cycles are counted from a quarter of a period later,
+/// when the gap is widest. Every tooth is solved. The result is compared
+/// with the periodic solve, which does not march in time: the two agree within their stated errors plus the remaining change, which
+/// --tolerance bounds. Grids
 /// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
 /// A plate under a load is dropped instead, from twice the gap at which it floats, while the vibration comes up within four cycles, and followed until its height no longer changes. It shakes a
@@ -56,8 +58,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=100_000))]
     cycles: Option<u32>,
 
-    /// The cycle counts as repeating when ln(p h) will change by less than this, and α or the mean load by less than this fraction; a
-    /// dropped plate as floating when its height will change by less than this fraction
+    /// Remaining relative change below which the cycle counts as repeating: of the gas p h at every node, and of α or the mean load. For a
+    /// dropped plate, remaining relative change of its height below which it counts as floating
     #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = within(1e-8..=0.1, "a number"))]
     tolerance: f64,
 
@@ -144,7 +146,7 @@ fn text(
         &format!("film load, {unit}"),
         "least film thickness, nm",
         "highest p, kPa",
-        "changed by",
+        "change of ln(p h)",
     ]);
     for row in rows {
         let last = row.cycle == rows.len();
@@ -158,15 +160,15 @@ fn text(
             row.numbers.text(Quantity::FilmLoad),
             row.numbers.text(Quantity::MinGap),
             row.numbers.text(Quantity::MaxPressure),
-            format!("{:.1e}", row.change),
+            significant(row.change, 2),
         ]);
     }
     text.push_str(&columns.text(&[0, 1, 2, 3, 4, 5, 6]));
     if let Some(found) = steady {
-        let mut told = format!("The periodic solve, which does not march there: {main} = {found}.");
+        let mut told = format!("The periodic solve, without marching, gives {main} = {found}.");
         let off = |last: Estimate| (last.value - found.value).abs() > last.error + found.error;
         if rows.last().is_some_and(|row| off(row.numbers.main())) {
-            told.push_str(" What the last cycle will still change is not in its ±.");
+            told.push_str(" The ± of the last cycle does not include the change still to come.");
         }
         text.push_str(&paragraph(&told, "\n", ""));
     }
@@ -179,14 +181,14 @@ fn text(
 
 /// The stated error and the one asked for, in a sentence.
 fn exactness(accuracy: &Accuracy) -> String {
-    let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
+    let mut text = format!("The stated error of each cycle mean is at most {} of the largest mean", percent(accuracy.stated));
     if accuracy.asked > 0.0 {
         text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));
     }
     text.push_str(match accuracy.stopped_by {
         StoppedBy::Accuracy => ".",
         StoppedBy::Budget => "; the time allowed was up.",
-        StoppedBy::Limit if accuracy.asked > 0.0 => "; finer grids would not do, or take too much.",
+        StoppedBy::Limit if accuracy.asked > 0.0 => "; finer grids would not reduce it, or would take too long.",
         StoppedBy::Limit => ", on the grids of the scene.",
     });
     text

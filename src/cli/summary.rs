@@ -194,7 +194,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floati
         "",
         &format!("{} µm", shown(plate.trapped_gap(load) * 1e6)),
         &format!(
-            "if gas were trapped and did not slip; a √(1.25 p_a A/F) = {} µm for a small load",
+            "if the gas were trapped and did not slip; the small-load limit a √(1.25 p_a A/F) is {} µm",
             shown(small_load_gap(plate, load) * 1e6)
         ),
     ]);

@@ -7,6 +7,7 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
+use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Sweep, SweepRow, Values, Vary};
 use crate::atomic::{Lock, WriteError, remove_file, write_file};
@@ -169,7 +170,7 @@ fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
     sweep.quantities().into_iter().find(|quantity| quantity.name() == name || column(quantity) == name).ok_or_else(
         || {
             let allowed: Vec<String> = sweep.quantities().iter().map(column).collect();
-            CliError::Input(format!("--quantity {}: no such number; allowed: {}", show_text(name), allowed.join(", ")))
+            AnalysisError::no_such_number("--quantity", name, &allowed.join(", ")).into()
         },
     )
 }

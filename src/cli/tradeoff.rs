@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     preset: String,
 
     /// Recommends the cheapest setting with at most this error: 1% or 0.01
-    #[arg(long, value_name = "SHARE", value_parser = parse_accuracy, allow_hyphen_values = true)]
+    #[arg(long, value_name = "ERROR", value_parser = parse_accuracy, allow_hyphen_values = true)]
     accuracy: Option<f64>,
 
     /// Recommends the most accurate setting within this time: 16ms, 2s or 1min

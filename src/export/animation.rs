@@ -222,7 +222,7 @@ fn slow_motion(recording: &Recording, seconds: f64) -> String {
     match rounded(seconds / recording.period, 2) {
         times @ ..1e4 => format!("slowed down {times:.0} times"),
         times @ ..1e6 => format!("slowed down {:.0} 000 times", times / 1e3),
-        times => format!("slowed down {times:.1e} times"),
+        times => format!("slowed down {:.0} million times", times / 1e6),
     }
 }
 

@@ -31,9 +31,9 @@ use std::path::{Path, PathBuf};
 /// How far an export is, and whether it is to go on.
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
-    /// Looked at between pictures.
+    /// Checked between pictures.
     pub cancel: &'a Cancel,
-    /// Told how many pictures of how many are drawn, from several threads.
+    /// Called with the number of pictures drawn and their total, from several threads.
     pub drawn: &'a (dyn Fn(usize, usize) + Sync),
 }
 

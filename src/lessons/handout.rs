@@ -84,7 +84,7 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
 fn choices(pieces: &mut Vec<Piece>, question: &Question, answers: bool) {
     if let Answer::Choice { choices, right } = &question.answer {
         let boxes = choices.iter().enumerate();
-        pieces.extend(boxes.map(|(i, choice)| Piece::Choice(on_a_line(&choice.text), answers && i == *right)));
+        pieces.extend(boxes.map(|(i, choice)| Piece::Choice(plain(&choice.text), answers && i == *right)));
     }
 }
 
@@ -96,7 +96,7 @@ fn lines<'a>(
     blocks.into_iter().map(move |block| match block {
         Block::Paragraph(parts) => with_numbers(parts, known),
         Block::Item(parts) => format!("•  {}", with_numbers(parts, known)),
-        Block::Formula(formula) => lowered(&formula.plain()),
+        Block::Formula(formula) => formula.plain(),
         Block::Picture(picture) => format!("({})", picture.alternative),
     })
 }
@@ -104,25 +104,7 @@ fn lines<'a>(
 fn with_numbers(parts: &[Inline], known: &BTreeMap<String, f64>) -> String {
     let value =
         |reading: &Reading| known.get(&reading.source).map_or_else(|| "…".to_owned(), |value| reading.text(*value));
-    on_a_line(&filled(parts, &value))
-}
-
-fn on_a_line(parts: &[Inline]) -> String {
-    lowered(&plain(parts))
-}
-
-/// Indices and exponents of one character in braces, as in the texts of figures.
-fn lowered(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut rest = text.chars().peekable();
-    while let Some(c) = rest.next() {
-        out.push(c);
-        if let (true, Some(next)) = (matches!(c, '_' | '^'), rest.peek().filter(|next| next.is_alphanumeric())) {
-            out.push_str(&format!("{{{next}}}"));
-            rest.next();
-        }
-    }
-    out
+    plain(&filled(parts, &value))
 }
 
 /// Sheets as one web page, which prints each sheet on a new page.
@@ -132,9 +114,9 @@ pub fn to_html(title: &str, sheets: &[Vec<Piece>]) -> String {
         match piece {
             Piece::Title(text) => page.section(text),
             Piece::Heading(text) => page.heading(text),
-            Piece::Text(text) => page.text(&flat(text)),
-            Piece::Answer(text) => page.note(&flat(text)),
-            Piece::Choice(text, ticked) => page.choices([(flat(text).as_str(), *ticked)]),
+            Piece::Text(text) => page.text(text),
+            Piece::Answer(text) => page.note(text),
+            Piece::Choice(text, ticked) => page.choices([(text.as_str(), *ticked)]),
             Piece::Room(lines) => page.room(*lines),
             Piece::Axes([along, up]) => {
                 let [x, y] = [along, up].map(|name| Axis { names: vec![(-1.0, String::new())], ..Axis::new(name, "") });
@@ -144,9 +126,4 @@ pub fn to_html(title: &str, sheets: &[Vec<Piece>]) -> String {
         }
     }
     page.finish("Printed by squeezefilm lessons print")
-}
-
-/// A text without the braces of indices and exponents.
-fn flat(text: &str) -> String {
-    text.replace(['{', '}'], "")
 }

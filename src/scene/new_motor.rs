@@ -330,13 +330,13 @@ impl NewMotor {
                 rounded(normal / ELLIPSE, DIGITS),
                 "the normal amplitude divided by 1.3, as in the motor of Maeno and Bogy",
             ),
-            (None, None) => (1.0, "as in the motor of Maeno and Bogy; the film hardly feels it"),
+            (None, None) => (1.0, "as in the motor of Maeno and Bogy; it hardly affects the film"),
         };
         draft.assume("stator.tangential_amplitude_um", tangential, why);
         let why = "1.3 times the tangential one, as in the motor of Maeno and Bogy";
         draft.take("stator.normal_amplitude_um", "normal-amplitude-um", ELLIPSE * tangential, why);
         let lip = (0.03 * diameter).min(10.0);
-        let why = "3 % of the diameter, up to 10 mm: how wide the lip of a rotor is";
+        let why = "3 % of the diameter, at most 10 mm: a typical width of a rotor's lip";
         draft.take("rotor.contact_width_mm", "contact-width-mm", lip, why);
         draft.pairs.push(("rotor.model", "section".to_owned()));
         let why = "a fortieth of the diameter: a thin flange";

@@ -51,8 +51,8 @@ impl Shape {
     }
 }
 
-/// How many harmonics N a rotor needs: the first from which on all differ by at most `fraction` from the local compliance that they
-/// would leave behind, at least 4 and at most `most`.
+/// Number of harmonics N that a rotor needs: the smallest N from which on the compliances of all harmonics differ by at most `fraction` from
+/// the local compliance that they would leave behind, at least 4 and at most `most`.
 ///
 /// Harmonics from N on are given the local compliance: off by at most `fraction`, or, at the limit `most`, by what the
 /// differences between grids show.

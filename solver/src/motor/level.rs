@@ -63,7 +63,7 @@ pub(super) struct MotorLevel {
     contact_load: Vec<f64>,
     /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
     stiffness: f64,
-    /// What further rounds would change, in ln ζ, as the last two tell, or the last imbalance if that is greater; of a transient, the largest
+    /// Estimated remaining change of ln ζ, from the last two rounds, or the last imbalance if that is larger; for a transient, the largest
     /// residual of a step of the last cycle.
     pub(super) residual: f64,
     /// Change of the film's load due to the change of the gas in the last round \[N\].

@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 /// Effect on α, relative, of an error of the rotor's compliance, as a multiple of [`Compliances::relative_error`] (measured, and bounded by
 /// `tests/plan.rs`).
 pub const ROTOR_EFFECT: f64 = 2.0;
-/// Where the intervals in the middle of a crowned tooth have to be r times as short as uniform ones, it gets more of them than a flat tooth:
-/// this number times ln r as many in addition.
+/// Additional intervals along a crowned tooth, as a multiple of ln r times those of a flat tooth, where the intervals in its middle have to be
+/// shorter than uniform ones by the factor r.
 const MIDDLE: f64 = 1.0;
 /// Grids beyond those of the plan, at most: each costs about four times the one before.
 const MORE_GRIDS: usize = 3;

@@ -1,7 +1,7 @@
 //! A plate that floats: the mean gap at which the film carries, in the mean of the cycle, the load that lies on the plate.
 //!
 //! The plate is too heavy to shake, so that its gap stays harmonic. The load F that a film carries falls with the mean gap h at a given
-//! amplitude a, from as much as one likes where the plate nearly touches to nothing. In x = ln(h − a) its logarithm is nearly straight:
+//! amplitude a, from arbitrarily large values where the plate nearly touches, down to zero. In x = ln(h − a) its logarithm is nearly straight:
 //! of slope −1/2 near touching, where a peak as narrow as √(h − a) carries all, −2 of trapped gas far away (F ≈ 1.25 p_a A (a/h)²), and up
 //! to −6 of a viscous film. So ln F(x) is followed by the secant, within a bracket: below, the gap at which the plate rests on its
 //! roughness; above, that at which no film could carry as much, since P is nowhere more than the greatest gap leaves in the least. First
@@ -36,9 +36,9 @@ const MOST_SOLVES: usize = 60;
 /// Step of x to either side over which dF/dh is taken, and how well a cycle repeats for it.
 const STEP: f64 = 0.03;
 const REPEATING: f64 = 1e-6;
-/// ln F/load of a film that carries next to nothing, or sucks.
+/// Value used for ln(F/load) where the film load F is close to zero or negative.
 const NOTHING: f64 = -30.0;
-/// How exactly the amplitude is told that is needed to float, relative.
+/// Relative accuracy of the least amplitude with which the plate floats.
 const NEEDED: f64 = 0.02;
 /// By how much larger an amplitude is tried at least.
 const LEAST_GROWTH: f64 = 1.2;

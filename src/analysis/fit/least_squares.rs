@@ -1,4 +1,4 @@
-//! The values of the unknowns that agree best with what was measured, and how sure they are.
+//! Least-squares fit: the values of the unknowns that agree best with the measurements, and their standard errors.
 
 use super::measured::Measured;
 use super::model::{Computed, Curve, Model};
@@ -26,7 +26,7 @@ const MOST_STEPS: u64 = 60;
 const MOST_ATTEMPTS: usize = 8;
 /// An unknown this close in x to a bound that χ² falls towards is at the bound.
 const AT_BOUND: f64 = 5e-3;
-/// From this correlation on two unknowns are told to be hard to tell apart.
+/// Correlation above which a warning says that two unknowns can hardly be distinguished.
 const ALIKE: f64 = 0.98;
 /// Minima whose unknowns differ by less than this in x are the same.
 const SAME: f64 = 0.02;

@@ -148,15 +148,6 @@ pub(super) fn named(problem: &Problem, name: &str) -> Option<Quantity> {
     measurable(problem).into_iter().find(|quantity| quantity.name() == name || quantity.column(problem) == name)
 }
 
-/// The fault of a name that results of the scene do not have, given for `option`; `allowed`: those that they have, separated by commas.
-pub(super) fn no_such_number(option: &str, name: &str, allowed: &str) -> AnalysisError {
-    let allowed = match nearest(name, allowed.split(", ")) {
-        Some(near) => format!("did you mean {near}? Allowed: {allowed}"),
-        None => format!("allowed: {allowed}"),
-    };
-    AnalysisError::Input(format!("{option} {}: no such number; {allowed}", show_text(name)))
-}
-
 impl Measured {
     /// The table of a `--data` argument, [`TABLE1`] or the path of a CSV file, for a fit of `scene`.
     pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, AnalysisError> {
@@ -346,7 +337,7 @@ impl Measured {
             if !names.contains(&name) {
                 names.sort_unstable();
                 names.dedup();
-                return Err(no_such_number("error", name, &names.join(", ")));
+                return Err(AnalysisError::no_such_number("error", name, &names.join(", ")));
             }
         }
         for one in &mut self.measurements {

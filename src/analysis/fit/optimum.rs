@@ -1,6 +1,6 @@
 //! The values of the unknowns at which one number is greatest or least, within limits on others.
 
-use super::measured::{Observable, named, names, no_such_number};
+use super::measured::{Observable, named, names};
 use super::model::{Computed, Model};
 use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
@@ -28,11 +28,11 @@ const RADIUS: (f64, f64) = (0.2, 5e-4);
 const MOST_POINTS: u64 = 600;
 /// An unknown this close in x to a bound is at the bound.
 const AT_BOUND: f64 = 2e-3;
-/// Places that differ by more than this share of a range are two optima.
+/// Optima whose unknowns differ by more than this share of the bounds are different optima.
 const ANOTHER: f64 = 0.05;
 /// Points of a line through the optimum.
 const LINE: usize = 21;
-/// A share of the optimum that a designer does not mind.
+/// Relative loss against the optimum that is still acceptable; it defines the range `Scan::flat`.
 const FLAT: f64 = 0.01;
 /// Share of the bounds over which a number that changes less makes a plateau.
 const PLATEAU: f64 = 0.1;
@@ -117,7 +117,7 @@ impl Goal {
     pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, AnalysisError> {
         let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
-            named(&problem, name).ok_or_else(|| no_such_number(option, name, &names(&problem)))
+            named(&problem, name).ok_or_else(|| AnalysisError::no_such_number(option, name, &names(&problem)))
         };
         let limits = limits.iter().map(|limit| Ok((limit.clone(), find("limit", &limit.name)?)));
         let limits = limits.collect::<Result<Vec<_>, AnalysisError>>()?;
@@ -432,7 +432,7 @@ fn describe(
         let beyond = match plateau.map(|to| parameter.with_unit(short(to, 3))) {
             Some(flat) if lower => format!("up to {flat} {name} changes by less than {}", percent(little)),
             Some(flat) => format!("from {flat} on {name} changes by less than {}", percent(little)),
-            None => "a better value lies beyond it, if anywhere".to_owned(),
+            None => "a better value, if there is one, lies beyond it".to_owned(),
         };
         let (side, value) = (bound.name(), parameter.with_unit(short(line.value, 6)));
         warnings.push(format!("{} is at its {side} bound, {value}: {beyond}", parameter.key));

@@ -32,7 +32,7 @@ const HARDNESS: f64 = 2.8;
 const PLASTIC: f64 = 1.0;
 /// Greatest rms roughness over the separation of the faces.
 const ROUGHNESS: f64 = 1.0 / LEAST_RATIO;
-/// Least separation, over the rms roughness, that is told.
+/// Least separation, as a multiple of the rms roughness, that a message states.
 const LEAST_TOLD: f64 = 0.01;
 /// Greatest gap over the shorter side.
 const THINNESS: f64 = 0.025;

@@ -51,6 +51,7 @@ pub enum Piece {
 pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
     let mut pages = Vec::new();
     for sheet in sheets {
+        let sheet = &sheet.iter().map(with_braces).collect::<Vec<_>>();
         let fitting = SIZES.iter().map(|size| set(sheet, *size)).find(|pages| pages.len() < 2);
         pages.extend(fitting.unwrap_or_else(|| set(sheet, SIZES[SIZES.len() - 1])));
     }
@@ -63,6 +64,27 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
     };
     let pages: Vec<(Drawing, String)> = pages.into_iter().map(page).collect();
     render::pdf(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
+}
+
+/// With indices and exponents of one character in braces, by which a figure knows them.
+fn with_braces(piece: &Piece) -> Piece {
+    let braced = |text: &str| {
+        let mut out = String::with_capacity(text.len());
+        let mut rest = text.chars().peekable();
+        while let Some(c) = rest.next() {
+            out.push(c);
+            if matches!(c, '_' | '^') && let Some(next) = rest.next_if(|next| next.is_alphanumeric()) {
+                out.push_str(&format!("{{{next}}}"));
+            }
+        }
+        out
+    };
+    match piece {
+        Piece::Text(text) => Piece::Text(braced(text)),
+        Piece::Answer(text) => Piece::Answer(braced(text)),
+        Piece::Choice(text, ticked) => Piece::Choice(braced(text), *ticked),
+        other => other.clone(),
+    }
 }
 
 /// A sheet in type of this size: the body of each of its pages.

@@ -1,4 +1,4 @@
-//! The held plate as the window has it: where it is held, how it was lately, which of that is shown, and the ranges of its axes.
+//! State of the held plate in the window: its gap, the recent recording, the instant shown, and the ranges of the axes.
 
 use crate::gui::derived::scales::span;
 use crate::hold::{Hold, Reading};

@@ -48,7 +48,7 @@ impl Link {
             let (lesson, mut step) = (counted("lesson", lesson)?, 1);
             for part in parts {
                 let Some(number) = part.strip_prefix("step=") else {
-                    return Err(format!("{part:?} in a link to a lesson: allowed is step="));
+                    return Err(format!("{part:?} in a link to a lesson is not valid: expected step=NUMBER"));
                 };
                 step = counted("step", number)?;
             }
@@ -63,11 +63,11 @@ impl Link {
         let (mut pairs, mut tab) = (Vec::new(), None);
         for part in parts {
             let (key, value) =
-                part.split_once('=').ok_or_else(|| format!("{part:?} in a link: allowed is key=value"))?;
+                part.split_once('=').ok_or_else(|| format!("{part:?} in a link is not valid: expected key=value"))?;
             if key == "tab" {
                 tab = Some(Tab::named(value).ok_or_else(|| {
                     let tabs = Tab::ALL.iter().map(|(_, name)| name.to_lowercase()).collect::<Vec<_>>().join(", ");
-                    format!("tab={value} in a link: allowed is {tabs}")
+                    format!("tab={value} in a link is not valid: expected one of {tabs}")
                 })?);
             } else {
                 pairs.push((key.to_owned(), value.to_owned()));
@@ -108,7 +108,7 @@ impl Link {
 
 fn counted(key: &str, found: &str) -> Result<usize, String> {
     let number = found.parse().ok().filter(|number| *number > 0);
-    number.ok_or_else(|| format!("{key}={found} in a link: allowed is a whole number from 1 on"))
+    number.ok_or_else(|| format!("{key}={found} in a link is not valid: expected a whole number of at least 1"))
 }
 
 /// Characters to be percent-encoded: all but letters, digits and a few signs.

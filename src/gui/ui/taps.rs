@@ -2,7 +2,7 @@
 
 use eframe::egui::{Context, Event, Plugin, RawInput};
 
-/// Leaves what follows a press for the next frame, if a release is among it: a slider takes no notice of a drag that ends in the frame that it
+/// Defers the events after a press to the next frame if they include the release: a slider ignores a drag that ends in the frame that it
 /// begins in (emilk/egui#5770).
 #[derive(Default)]
 pub struct Taps(Vec<Event>);

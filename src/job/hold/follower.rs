@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// Interval at which the film is marched.
 pub(super) const TICK: Duration = Duration::from_millis(20);
-/// Longest time of the clock that is made up for at once.
+/// Longest interval of clock time that one tick catches up with.
 const MOST: Duration = Duration::from_millis(60);
 /// Most snapshots that are kept: those of 10 s of the clock, or of a longer time if marching takes longer than a tick.
 pub const SNAPSHOTS: usize = 512;

@@ -36,7 +36,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
 }
 
 /// A button that has the keyboard until something else takes it.
-fn first_button(ui: &mut Ui, text: &str) -> Response {
+fn button_with_keyboard(ui: &mut Ui, text: &str) -> Response {
     let button = ui.button(text);
     if ui.memory(|memory| memory.focused().is_none()) {
         button.request_focus();
@@ -51,7 +51,7 @@ fn error(ui: &mut Ui, message: &str) -> Answer {
         ui.add(egui::Label::new(message).wrap());
     });
     ui.add_space(12.0);
-    first_button(ui, "Close").clicked().then(Vec::new)
+    button_with_keyboard(ui, "Close").clicked().then(Vec::new)
 }
 
 fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
@@ -78,7 +78,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         cx.on_click(&ui.button("Copy citation"), Command::CopyCitation);
-        first_button(ui, "Close").clicked().then(Vec::new)
+        button_with_keyboard(ui, "Close").clicked().then(Vec::new)
     })
     .inner
 }
@@ -111,7 +111,7 @@ fn buttons<const N: usize>(ui: &mut Ui, first: usize, answers: [(&str, Vec<Comma
     ui.horizontal_wrapped(|ui| {
         let mut clicked = None;
         for (i, (text, commands)) in answers.into_iter().enumerate() {
-            let button = if i == first { first_button(ui, text) } else { ui.button(text) };
+            let button = if i == first { button_with_keyboard(ui, text) } else { ui.button(text) };
             if button.clicked() {
                 clicked = Some(commands);
             }

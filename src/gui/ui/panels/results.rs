@@ -39,7 +39,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         if let Some(words) = beside_headline(&run.validity) {
             cx.say(ui, capitalised(&words), cx.colours.contact);
         }
-        let shown = Shown { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
+        let shown = RunNumbers { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
         match (&run.problem.scenario, &run.solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, &shown, motor, result, cx),
             (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, &shown, plate, result, cx),
@@ -66,7 +66,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &MotorResult, cx: &DrawContext<'_>) {
+fn motor_numbers(ui: &mut egui::Ui, shown: &RunNumbers<'_>, motor: &Motor, result: &MotorResult, cx: &DrawContext<'_>) {
     if result.levitated {
         banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant: the rotor floats on air");
     }
@@ -90,7 +90,7 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &M
     shown.extremes(ui, cx, motor.gas.ambient_pressure);
 }
 
-fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
+fn plate_numbers(ui: &mut egui::Ui, shown: &RunNumbers<'_>, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
     if let Some(floating) = result.floating {
         headline(ui, "", "Mean gap", &shown.text(MeanGap), "µm");
         cx.note(ui, "mean gap at which the film carries the load");
@@ -123,12 +123,12 @@ fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &P
 }
 
 /// The numbers of a run, each with its error.
-struct Shown<'a> {
+struct RunNumbers<'a> {
     problem: &'a Problem,
     numbers: Numbers,
 }
 
-impl Shown<'_> {
+impl RunNumbers<'_> {
     fn text(&self, quantity: Quantity) -> String {
         self.numbers.estimate(quantity).map_or_else(String::new, uncertain)
     }
@@ -217,7 +217,7 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     }
     if !run.history.is_empty() {
         ui.add_space(6.0);
-        cx.note(ui, "What further rounds would change, one line for each grid; dashed, where it may stop");
+        cx.note(ui, "Change that further rounds would make, one line for each grid; the dashed line is the limit below which the rounds end");
         let panel = &convergence(&run.history).panels[0];
         let height = ROUNDS * ui.text_style_height(&TextStyle::Body);
         let words = (Some("Rounds"), "Remaining change");
@@ -252,7 +252,7 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
         Status::NotResolved { .. } => {
             banner(ui, cx.colours.alarm, "Not resolved", "The stated error is as large as the result itself");
         }
-        Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
+        Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These are intermediate values, not the result"),
     }
 }
 

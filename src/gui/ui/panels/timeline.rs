@@ -135,7 +135,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 ui.label(running.text());
             } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !cx.state.stale(run)) {
                 let text = "Solve for reference";
-                let hover = "Some seconds: the error falls to a few millionths";
+                let hover = "Takes some seconds and reduces the error to a few millionths";
                 cx.on_click(&ui.small_button(text).hint(hover), Command::Refine(Fidelity::Reference));
             }
         });

@@ -263,7 +263,7 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
         let rows: Vec<&ParameterRow> =
             pins.parameters.iter().filter(|row| pins.all_parameters || row.differs()).collect();
         if rows.is_empty() {
-            let text = if pins.runs.len() < 2 { "There is nothing to differ from" } else { "None differs" };
+            let text = if pins.runs.len() < 2 { "Pin a second run to see differences" } else { "None differs" };
             ui.label(quiet(text));
         } else {
             parameters(ui, &rows, cx);

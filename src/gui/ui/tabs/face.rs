@@ -146,5 +146,5 @@ fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
             ui.end_row();
         }
     });
-    cx.note(ui, "At the right what follows if both faces are like it; summits are those of this resolution");
+    cx.note(ui, "On the right: what follows if both faces are like this one. The summits depend on the resolution of the measurement");
 }

@@ -181,8 +181,8 @@ fn key(ui: &mut Ui, form: &mut FitForm, i: usize, cx: &DrawContext<'_>) -> bool 
         parameter: [if i == 0 { "Choose" } else { "and" }, "What is chosen", &capitalised(&of)],
         groups: &|| vec![("", scene.parameters().filter(|parameter| chooses(scene, parameter)).collect())],
         values: [
-            (&format!("Lower bound of {of}"), "Lower bound: it is not chosen beyond it"),
-            (&format!("Upper bound of {of}"), "Upper bound: it is not chosen beyond it"),
+            (&format!("Lower bound of {of}"), "No value below this is tried"),
+            (&format!("Upper bound of {of}"), "No value above this is tried"),
         ],
         width: 4.0,
         count: None,
@@ -198,7 +198,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     let agreement = state.form.sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.work.running() {
-            cx.button(ui, "Cancel the fit", "Ends it; nothing comes of it", Command::CancelTab);
+            cx.button(ui, "Cancel the fit", "Ends it and discards what was found", Command::CancelTab);
             ui.spinner();
             let what = if agreement { "χ²" } else { "best" };
             ui.label(match state.told {
