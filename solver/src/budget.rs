@@ -66,7 +66,8 @@ impl fmt::Display for Excess {
                 write!(
                     f,
                     "{along} × {across} film nodes{teeth} and {steps} steps a cycle need {bytes} of memory: allowed {allowed}; lower \
-                     numerics.film_nodes_along, numerics.film_nodes_across or numerics.steps_per_cycle, or allow more with --memory"
+                     the accuracy, or numerics.film_nodes_along, numerics.film_nodes_across or numerics.steps_per_cycle if given, or allow \
+                     more with --memory"
                 )
             }
             Purpose::Ring { elements } => write!(

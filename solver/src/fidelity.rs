@@ -95,7 +95,7 @@ impl Fidelity {
 
     /// Relative error of the headline that is asked for.
     pub fn accuracy(self) -> f64 {
-        if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().target_error }
+        if let Self::To(millionths) = self { f64::from(millionths) / 1e6 } else { self.spec().target_error }
     }
 
     /// Grids and tolerances of the level. Between the named levels they are interpolated in the logarithm of the error.

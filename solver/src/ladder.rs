@@ -244,6 +244,12 @@ pub fn climb_once<S: GridSolver>(
     Ok(found)
 }
 
+/// Whether to refine no further a headline with the error `whole`, of which `grids` is due to the grids: it is as accurate as `asked`, or a finer grid,
+/// which leaves a quarter of its part, would neither make it so nor reduce the error by much.
+pub fn enough(whole: f64, grids: f64, asked: f64) -> bool {
+    whole <= asked || grids < 0.3 * whole && whole - 0.75 * grids > asked
+}
+
 /// One cycle of a transient, on all grids of a plan.
 #[derive(Debug)]
 pub struct TransientCycle {

@@ -224,14 +224,19 @@ impl Sweep {
         digest(texts.iter().map(String::as_str))
     }
 
-    /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at any value of
-    /// those.
+    /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at values of those inside the ranges that are
+    /// swept.
     pub fn published(&self) -> Vec<Published> {
         if self.axes.iter().any(|axis| !axis.words.is_empty()) {
             return Vec::new();
         }
         let keys: Vec<&str> = self.axes.iter().map(|axis| axis.parameter.key).collect();
-        published_at(&self.scene, &keys)
+        let inside = |point: &Published| {
+            self.axes.iter().zip(&point.values).all(|(axis, value)| {
+                axis.values.iter().any(|swept| swept <= value) && axis.values.iter().any(|swept| value <= swept)
+            })
+        };
+        published_at(&self.scene, &keys).into_iter().filter(inside).collect()
     }
 
     /// Solves every point that is not in `done`, several at a time on rayon's pool, and returns all rows there are, those
@@ -498,6 +503,7 @@ mod tests {
         let over = sweep("fundamental", &["stator.frequency_khz=3:100:5"]).unwrap();
         assert_eq!(frequencies(&over), [30.0, 30.0, 3.0, 20.0, 40.0, 60.0, 100.0]);
         assert_eq!(frequencies(&sweep("min-spacing-100nm", &["stator.frequency_khz=3:100:5"]).unwrap()), [30.0]);
+        assert_eq!(frequencies(&sweep("fundamental", &["stator.frequency_khz=25:50:2"]).unwrap()), [30.0, 30.0, 40.0]);
         assert!(sweep("levitating", &["stator.frequency_khz=3:100:5"]).unwrap().published().is_empty());
         let crowned = sweep("fundamental", &["stator.tooth_radius_m=1:20:5"]).unwrap();
         assert_eq!(frequencies(&crowned), [3.0, 6.5, 10.0]);

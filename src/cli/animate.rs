@@ -6,11 +6,12 @@ use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::{check_file, check_writable};
-use crate::digits::counted;
+use crate::digits::{counted, percent};
 use crate::export::animation::{Format, Options, count, frame_name};
 use crate::export::files::{self, Control, Solved};
+use crate::export::json::TIME_UP;
 use crate::problem::Problem;
-use crate::solution::{Status, settled};
+use crate::solution::{Accuracy, Status, StoppedBy, settled};
 use crate::solve::solve;
 use clap::Args;
 use std::path::PathBuf;
@@ -84,7 +85,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let control = Control { cancel: &cancel, drawn: &|_, _| bar.point_done("frames") };
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);
-    terminal::note(&format!("wrote {}: {count} frames", arguments.out.display()));
+    let Accuracy { stated, stopped_by, .. } = solution.accuracy;
+    let late = if stopped_by == StoppedBy::Budget { format!("; {TIME_UP}, stated error {}", percent(stated)) } else { String::new() };
+    terminal::note(&format!("wrote {}: {count} frames{late}", arguments.out.display()));
     let is_there = |number: &usize| arguments.out.join(frame_name(*number)).is_file();
     let older = (count + 1..).take_while(is_there).count();
     if format == Format::Folder && older > 0 {

@@ -243,7 +243,7 @@ impl SolveOptions {
         let over = |budget: &Duration| self.method != Some(Method::Paper) && wall_s > OVER * budget.as_secs_f64();
         if let Some(budget) = self.accuracy.budget.filter(over) {
             terminal::warning(&format!(
-                "--budget {budget:?}: {work} took {}; the first grids, without which there is no result, are always completed",
+                "--budget {budget:?}: {work} took {}; the first grids are always completed, and later ones end after the present round",
                 duration(wall_s)
             ));
         }
@@ -419,7 +419,7 @@ fn fidelity_help() -> String {
     format!(
         "Accuracy level\n\n\
          Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
-         until the work reaches a limit. The result states its error. Where the film carries less than a hundredth of the \
+         until the work reaches a limit; the finite elements of a ring allow about 0.3 %. The result states its error. Where the film carries less than a hundredth of the \
          load, the error is compared with that hundredth instead.\n\n\
          [default: {}; fine for table1 and reproduce; for gui, the level last chosen in the window]",
         named.join(", "),

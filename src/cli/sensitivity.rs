@@ -28,11 +28,12 @@ Examples:
 
 const FILES: &str = "\
 Files of --out:
-  sensitivity.csv   a row for each result and key: derivative, elasticity, errors, part of the uncertainty
+  sensitivity.csv   a row for each result and key: derivative, elasticity, errors, share of the uncertainty
   sensitivity.json  what --json prints
   sensitivity.svg   a tornado chart for each result: its change for 1 % more of each key; and sensitivity.png
   uncertainty.svg   with --uncertainty: the same for one standard deviation more of each uncertain key; and uncertainty.png
-  monte-carlo.csv   with --monte-carlo: a row for each draw, its results with their errors; and monte-carlo.svg, a histogram of each result, and .png
+  monte-carlo.csv   with --monte-carlo: a row for each draw, its results with their errors
+  monte-carlo.svg   with --monte-carlo: a histogram of each result; and monte-carlo.png
   scene.toml        the scene, as a preset";
 
 /// Shows how the results depend on each parameter, and how parameter uncertainties affect them
@@ -41,7 +42,7 @@ Files of --out:
 /// solves on one set of grids. Each has its own error. 1 % of a temperature is 1 % of its value in kelvins. Parameter
 /// uncertainties give an uncertainty of each result, apart from the numerical error.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"), mut_arg("budget", |budget| budget.hide(true)))]
 pub(super) struct Arguments {
     #[arg(value_name = "PRESET", help = PRESET)]
     preset: String,

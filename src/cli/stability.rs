@@ -120,7 +120,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
         terminal::wrote(folder.path, &paths);
     }
-    Ok(if complete { Exit::Solved } else { Exit::Other })
+    let solved = cells.iter().any(|cell| !matches!(cell.verdict, Verdict::Failed(_)));
+    Ok(if complete && solved { Exit::Solved } else { Exit::Other })
 }
 
 /// Why there is no such map.

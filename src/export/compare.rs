@@ -9,7 +9,7 @@ use super::estimates;
 use super::figure::{Figure, Provenance, Style};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
-use super::json::{self, beside_limit, status_name};
+use super::json::{self, TIME_UP, accuracy_entries, beside_limit, mark_of, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::{effort, exactness, sentences};
 use crate::analysis::quantity::{Quantity, force_unit, labelled};
@@ -22,7 +22,7 @@ use crate::estimate::Estimate;
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene;
-use crate::solution::{Performance, Status, StoppedBy};
+use crate::solution::Performance;
 use crate::solve::{Method, Settings};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -38,16 +38,8 @@ pub fn status(run: &ComparedRun) -> String {
 
 /// How a solve ended, if that is to be known at once: it did not converge, or had not the time to become as accurate as was asked for.
 pub fn mark(run: &ComparedRun) -> String {
-    match &run.solved {
-        Ok(solution) if solution.status == Status::Converged && solution.accuracy.stopped_by == StoppedBy::Budget => {
-            TIME_UP.to_owned()
-        }
-        _ => json::mark(&status(run)),
-    }
+    run.solved.as_ref().map_or_else(|_| json::mark(&status(run)), mark_of)
 }
-
-/// Of a result that is less exact than was asked for, since the time allowed for it was up.
-pub const TIME_UP: &str = "time was up";
 
 /// The object of `--json`: runs of which the first is what the others differ from, and the keys in which their scenes differ.
 pub fn object(runs: &[ComparedRun], settings: &Settings) -> Value {
@@ -75,6 +67,10 @@ fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
         "converged": run.converged(),
         "force_unit": force_unit(&run.problem),
     });
+    let solution = run.solved.as_ref().ok();
+    for (name, value) in accuracy_entries(solution.map(|solution| solution.accuracy)) {
+        object[name] = value;
+    }
     for (name, value) in estimates::named(Quantity::of(&run.problem), &run.numbers()) {
         object[name] = value;
     }
@@ -85,7 +81,6 @@ fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
     };
     object["difference_percent"] = of(|found| found.value);
     object["difference_error_percent"] = of(|found| found.error);
-    let solution = run.solved.as_ref().ok();
     object["why"] = solution.map(|solution| sentences(&solution.model)).into();
     object["validity"] = json!(solution.map(|solution| outside(&run.problem, solution)));
     object["warnings"] = json!(solution.map(|solution| &solution.warnings));
@@ -107,6 +102,7 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
                 "label": run.label,
                 "scene": run.scene.scene(),
                 "status": status(run),
+                "stopped_by": run.solved.as_ref().ok().map(|solution| solution.accuracy.stopped_by.name()),
                 "validity": run.outside().join(";"),
                 "quantity": row.quantity.name(),
                 "unit": cell.unit,
@@ -170,6 +166,9 @@ fn headline(run: &ComparedRun) -> String {
 pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
     let unsolved = runs.iter().filter(|run| !run.converged()).count();
+    let late = runs.iter().filter(|run| mark(run) == TIME_UP).count();
+    let notes = [(unsolved, "NOT CONVERGED".to_owned()), (late, format!("where {TIME_UP}"))];
+    let notes = notes.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let main = |run: &ComparedRun| {
         let numbers = run.numbers();
         let (quantity, name) = match &run.problem.scenario {
@@ -183,7 +182,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     Provenance {
         fidelity: fidelity.unwrap_or_default(),
         error: runs.iter().filter_map(main).collect::<Vec<_>>().join(", "),
-        note: if unsolved == 0 { String::new() } else { format!("{unsolved} NOT CONVERGED") },
+        note: notes.collect::<Vec<_>>().join(", "),
         ..Provenance::named(&runs.iter().map(headline).collect::<Vec<_>>().join(", "))
     }
 }
@@ -327,6 +326,8 @@ pub fn report(
     for run in runs {
         if !run.converged() {
             page.warning(&format!("{}: {}", run.label, status(run)));
+        } else if mark(run) == TIME_UP {
+            page.warning(&format!("{}: {TIME_UP} before the result was as accurate as requested", run.label));
         }
     }
 

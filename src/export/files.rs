@@ -5,7 +5,7 @@ use super::animation::{self, Movie, Options};
 use super::compare::{self, all_figures, movies, report};
 pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
-use super::json::{self, Summary};
+use super::json::{self, Summary, TIME_UP};
 use super::{csv, fall, figures, fit, npz, sensitivity, startup, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
@@ -20,7 +20,7 @@ use crate::input::read_so_far;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::Scene;
-use crate::solution::Solution;
+use crate::solution::{Solution, StoppedBy};
 use crate::solve::Settings;
 use crate::startup::Startup;
 use rayon::prelude::*;
@@ -384,6 +384,9 @@ pub fn startup(
     let loads = cycles.iter().map(|cycle| cycle.recording.film_load.as_slice());
     let mut drawn = startup::figure(problem, &rows, startup::steady(problem, ended), loads);
     drawn.provenance.fidelity = settings.fidelity.to_string();
+    if ended.accuracy.stopped_by == StoppedBy::Budget {
+        drawn.provenance.note = TIME_UP.to_owned();
+    }
     if let Some(last) = rows.last() {
         drawn.provenance.error = format!("ends at {}", last.numbers.main());
     }

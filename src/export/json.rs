@@ -12,7 +12,7 @@ use crate::digits::{short, significant};
 use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::scene::is_unseen;
-use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
+use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, StoppedBy, settled};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 
@@ -108,10 +108,9 @@ impl Serialize for Summary {
         map.serialize_entry("status", status_name(&self.status))?;
         map.serialize_entry("residual", &self.numbers.get(Quantity::Residual))?;
         map.serialize_entry("tolerance", &self.numbers.get(Quantity::Tolerance))?;
-        let Accuracy { asked, stated, stopped_by } = self.accuracy;
-        map.serialize_entry("accuracy_asked", &(asked > 0.0).then_some(asked))?;
-        map.serialize_entry("accuracy_stated", &stated)?;
-        map.serialize_entry("stopped_by", stopped_by.name())?;
+        for (name, value) in accuracy_entries(Some(self.accuracy)) {
+            map.serialize_entry(name, &value)?;
+        }
         for quantity in RESULTS {
             // Between the numbers, what is none, or is not one of every solve.
             match quantity {
@@ -133,6 +132,16 @@ impl Serialize for Summary {
         map.serialize_entry("command", &self.command)?;
         map.end()
     }
+}
+
+/// The accuracy of a solve, by the names of `solve --json`; null where there is none.
+pub(super) fn accuracy_entries(accuracy: Option<Accuracy>) -> [(&'static str, Value); 3] {
+    let asked = accuracy.map(|accuracy| accuracy.asked).filter(|asked| *asked > 0.0);
+    [
+        ("accuracy_asked", asked.into()),
+        ("accuracy_stated", accuracy.map(|accuracy| accuracy.stated).into()),
+        ("stopped_by", accuracy.map(|accuracy| accuracy.stopped_by.name()).into()),
+    ]
 }
 
 /// The kind of scene, as its file names it.
@@ -326,6 +335,17 @@ pub fn mark(status: &str) -> String {
         _ if status == status_name(&Status::Converged) => String::new(),
         Some((status, reason)) => format!("{}: {reason}", status.to_uppercase()),
         None => status.to_uppercase(),
+    }
+}
+
+/// Of a result that is less accurate than requested, because the time allowed for it was up.
+pub const TIME_UP: &str = "time was up";
+
+/// How a solve ended, as it is marked beside its numbers: that it did not converge, or that its time was up; empty where all is well.
+pub fn mark_of(solution: &Solution) -> String {
+    match solution.accuracy.stopped_by {
+        StoppedBy::Budget if solution.status == Status::Converged => TIME_UP.to_owned(),
+        _ => mark(status_name(&solution.status)),
     }
 }
 

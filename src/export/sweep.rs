@@ -148,13 +148,17 @@ pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
             .to_owned()
     };
     let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
+    let late = |row: &&SweepRow| row.status == RunStatus::Converged && row.stopped_by == Some(StoppedBy::Budget);
+    let notes = [(missing, "points not solved"), (rows.iter().filter(late).count(), "points where time was up")];
+    let of = sweep.len();
+    let notes = notes.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} of {of} {what}"));
     let provenance = Provenance {
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
         error: quantity.error().map_or_else(String::new, worst),
-        note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
+        note: notes.collect::<Vec<_>>().join(", "),
         ..Provenance::named(&show_text(&sweep.headline()))
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
@@ -262,24 +266,13 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
         Quantity::FilmLoad => Some(point.film_load),
         _ => None,
     };
-    let published: Vec<[f64; 2]> = within(sweep).filter_map(|point| Some([point.values[0], value(&point)?])).collect();
+    let published: Vec<[f64; 2]> = sweep.published().into_iter().filter_map(|point| Some([point.values[0], value(&point)?])).collect();
     with_points(panel, "published (Table I)", published, Colour::BLACK, Marker::hollow(Shape::Square))
 }
 
 /// With points of this name, if there are any.
 fn with_points(panel: Panel, name: &str, points: Vec<[f64; 2]>, colour: Colour, marker: Marker) -> Panel {
     if points.is_empty() { panel } else { panel.layer(Points::new(name, points, colour, marker)) }
-}
-
-/// Published points inside the range that is swept.
-fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
-    let inside = move |point: &Published| {
-        sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
-            let [least, most] = extent(axis.values.iter().copied());
-            (least..=most).contains(value)
-        })
-    };
-    sweep.published().into_iter().filter(inside)
 }
 
 /// `rows` are those of the map, with the values of its two axes alone.
@@ -325,7 +318,7 @@ pub(crate) fn map_panel(
     let panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0).layer(map);
     let panel = with_points(panel, name, unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
-    let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
+    let published: Vec<[f64; 2]> = sweep.published().into_iter().filter_map(here).collect();
     with_points(panel, "rows of Table I", published, Colour::BLACK, Marker::hollow(Shape::Square))
 }
 

@@ -18,7 +18,7 @@ pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_means};
-use crate::ladder::{self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, march_cycle};
+use crate::ladder::{self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, enough, march_cycle};
 use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
@@ -260,8 +260,7 @@ impl GridSolver for Search<'_> {
             return false;
         }
         let whole = stated(plan, found);
-        let grids = of_grids(plan, found).error;
-        whole.error <= plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
+        enough(whole.error, of_grids(plan, found).error, plan.accuracy * unit(whole.value))
     }
 }
 

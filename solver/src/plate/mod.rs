@@ -15,7 +15,7 @@ pub use transient::PlateTransient;
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_smooth};
 use crate::film::cycle::Interrupted;
-use crate::ladder::{self, GridSolver, GridState, Nested, SolvedGrids, climb};
+use crate::ladder::{self, GridSolver, GridState, Nested, SolvedGrids, climb, enough};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::solution::{PlateResult, Stats, Status};
@@ -170,7 +170,7 @@ impl GridSolver for Search<'_> {
     fn settled(&self, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> bool {
         let whole = stated(self.plate, plan, found);
         let unit = found.levels.last().map_or(0.0, PlateLevel::unit);
-        whole.error <= plan.accuracy * unit || of_grids(plan, found).error < 0.3 * whole.error
+        enough(whole.error, of_grids(plan, found).error, plan.accuracy * unit)
     }
 }
 

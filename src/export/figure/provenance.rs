@@ -1,7 +1,7 @@
 //! Where the numbers of a figure come from.
 
 use crate::analysis::quantity::force_unit;
-use crate::export::json::{mark, status_name};
+use crate::export::json::mark_of;
 use crate::problem::Problem;
 use crate::solution::{Outcome, Solution};
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Provenance {
         Self {
             fidelity: solution.model.fidelity.clone(),
             error,
-            note: mark(status_name(&solution.status)),
+            note: mark_of(solution),
             ..Self::named(&crate::scene::show_text(&problem.name))
         }
     }

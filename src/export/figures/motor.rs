@@ -199,7 +199,8 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
 /// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
 pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
     let grid = whole_plane(recording, &tooth_map(recording, recording.teeth / 2, frame), scale);
-    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, range) };
+    let error = recording.max_pressure_error.get(frame).copied().unwrap_or(0.0);
+    let map = Map { contours: Some(error * scale), ..pressure_map(grid, &unit, range) };
     Panel::new("", Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm")).layer(map).height(38.0)
 }
 

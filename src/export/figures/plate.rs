@@ -164,7 +164,8 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
         let title = format!("pressure at t/T = {:.3}", phase(recording, most));
         (title, Axis::new("y", "mm"), whole_plane(recording, plane, scale))
     };
-    let map = Map { contours: Some(0.0), ..pressure_map(grid, &unit, Range::Auto) };
+    let error = recording.max_pressure_error.iter().copied().fold(0.0, f64::max);
+    let map = Map { contours: Some(error * scale), ..pressure_map(grid, &unit, Range::Auto) };
     let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(map).height(60.0);
     let caption = if strip {
         format!("Absolute pressure of the film along the {along} and over one cycle.")

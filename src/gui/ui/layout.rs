@@ -122,7 +122,11 @@ fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             Scenario::Motor(_) => tabs::torque::show(ui, run, cx),
             Scenario::Plate(_) => tabs::exact::show(ui, run, cx),
         },
-        (Tab::Motion | Tab::Torque, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+        (Tab::Motion | Tab::Torque, None) => {
+            let failed = cx.state.activity.failure.is_some();
+            let text = if failed { "This scene is not solved; the reason is below" } else { "Solving…" };
+            ui.centered_and_justified(|ui| ui.label(text));
+        }
         (Tab::Compare, _) => tabs::compare::show(ui, cx),
         (Tab::Sweep, _) => tabs::sweep::show(ui, cx),
         (Tab::Startup, _) => tabs::startup::show(ui, cx),
