@@ -137,7 +137,7 @@ impl Plan {
     }
 }
 
-/// Compliance of a rotor over that of the closed film, H_m/(p_a b), below which it might as well be rigid. What is stiffer by many orders
+/// Compliance of a rotor over that of the closed film, H_m/(p_a w), below which it might as well be rigid. What is stiffer by many orders
 /// than all else is lost in rounding.
 const RIGID: f64 = 1e-5;
 
