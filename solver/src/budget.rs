@@ -1,27 +1,27 @@
 //! The memory budget that all solves of the process share.
 //!
-//! Every solve first takes its share of the one budget ([`take`]): one that needs more than all of it is refused, one that needs more than
-//! is left waits for others to end, so that the results of a sweep do not depend on how many threads share the budget. It is a quarter of the
-//! machine's memory unless [`allow`] says otherwise, because results are kept, and drawn, beside it.
+//! Every solve first takes its share of this budget ([`take`]). A solve that needs more than the whole budget is refused; one that needs
+//! more than is free waits until other solves end, so that the results of a sweep do not depend on how many threads share the budget. The
+//! budget is a quarter of the machine's memory unless [`allow`] sets another, because results are kept, and drawn, in memory outside it.
 //!
-//! A rotor takes its share while it is resolved, and gives it back before the solve takes its own: nobody waits who holds a share.
+//! A rotor takes a share while it is resolved and returns it before the solve takes its own, so no solve waits while it holds a share.
 
 use crate::control::Cancel;
 use std::fmt;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// The budget is the machine's memory over this …
+/// The default budget is the machine's memory divided by this …
 const SHARE: u64 = 4;
-/// … or, where nothing is known of the machine, so many bytes.
+/// … or, where the machine's memory is not known, this number of bytes.
 const UNKNOWN: u64 = 1_000_000_000;
-/// How often a solve that waits looks whether it is cancelled.
+/// How often a waiting solve checks whether it has been cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Memory that a solve needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// For what.
+    /// What the memory is for.
     pub what: Purpose,
     /// Bytes.
     pub bytes: u64,
@@ -41,17 +41,17 @@ pub enum Purpose {
         /// Teeth whose film is solved.
         teeth: usize,
     },
-    /// The compliances of a ring, on so many elements.
+    /// The compliances of a ring.
     Ring {
         /// Elements of the finer mesh.
         elements: usize,
     },
 }
 
-/// More memory than is allowed. The message names the keys that it follows from.
+/// More memory than is allowed. The message names the keys that determine the need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Excess {
-    /// The memory needed.
+    /// The memory that is needed.
     pub need: Need,
     /// Memory allowed for all solves together \[bytes\].
     pub allowed: u64,
@@ -91,10 +91,10 @@ pub fn size(bytes: u64) -> String {
     if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
 }
 
-/// A budget, and how much of it is taken.
+/// A budget, and how much of it is in use.
 #[derive(Debug)]
 struct Pool {
-    /// Allowed, once it is known, and taken \[bytes\].
+    /// Bytes allowed, `None` until they are first asked for, and bytes in use.
     state: Mutex<(Option<u64>, u64)>,
     freed: Condvar,
 }
@@ -128,7 +128,7 @@ impl Pool {
     }
 
     fn lock(&self) -> MutexGuard<'_, (Option<u64>, u64)> {
-        // Two numbers, never left half-changed.
+        // Two plain numbers: a panic cannot leave them half-updated, so a poisoned lock is still good.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -142,7 +142,7 @@ impl Pool {
         let mut state = self.lock();
         while state.1.saturating_add(bytes) > state.0.unwrap_or(bytes) && state.1 > 0 {
             if cancel.is_cancelled() {
-                // It ends at its first look at this.
+                // The cancelled solve ends at its first check, so it needs no memory.
                 return Ok(Taken { pool: self, bytes: 0 });
             }
             state = self.freed.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0;
@@ -157,12 +157,12 @@ impl Pool {
     }
 }
 
-/// Allows all solves of this process together so many bytes from now on.
+/// Sets the number of bytes that all solves of this process may take together from now on.
 pub fn allow(bytes: u64) {
     POOL.lock().0 = Some(bytes);
 }
 
-/// Bytes that all solves of this process may take together.
+/// Number of bytes that all solves of this process may take together.
 pub fn allowed() -> u64 {
     POOL.allowed()
 }
@@ -175,16 +175,16 @@ pub fn check(need: Need) -> Result<(), Excess> {
     POOL.check(need)
 }
 
-/// Takes what a solve needs, as soon as others have left so much.
+/// Takes the memory that a solve needs, as soon as other solves have left enough.
 ///
 /// # Errors
-/// [`Excess`] if it is more than all that is allowed.
+/// [`Excess`] if it is more than the whole budget.
 pub fn take(need: Need, cancel: &Cancel) -> Result<Taken<'static>, Excess> {
     POOL.take(need, cancel)
 }
 
-/// Bytes of memory that this machine has, or that the group of processes in which this one runs may use; `None` where the system
-/// does not tell.
+/// Bytes of memory of this machine, or the limit of the control group in which this process runs if that is smaller; `None` if the system
+/// does not report it.
 fn of_this_machine() -> Option<u64> {
     let mut system = sysinfo::System::new().ok()?;
     system.refresh_memory_specifics(sysinfo::MemoryRefreshKind::nothing().with_ram());
@@ -217,7 +217,7 @@ mod tests {
                     tell.send(pool.lock().1).unwrap();
                 }
             });
-            // It cannot begin beside the first, and begins once that has ended.
+            // The second solve does not fit beside the first and begins once that has ended.
             drop(second);
             assert!(told.try_recv().is_err());
             drop(first);

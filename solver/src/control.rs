@@ -6,11 +6,11 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether a budget is spent, or something else that counts as the flag being up.
+/// Says whether a budget is spent, or whether the flag counts as raised for another reason.
 type Asked = Arc<dyn Fn() -> bool + Send + Sync>;
 
-/// A flag that any thread may raise; solvers look at it in their inner loops. It may come with a budget for each solve: one that has
-/// a result stops making it better once that is spent.
+/// A flag that any thread may raise to cancel a solve; solvers check it in their inner loops. It may carry a time budget for each solve:
+/// once that is spent, a solve that has a result does not refine it any further.
 #[derive(Clone, Default)]
 pub struct Cancel {
     flag: Arc<AtomicBool>,
@@ -18,7 +18,7 @@ pub struct Cancel {
     start: Option<Arc<dyn Fn() -> Asked + Send + Sync>>,
     /// The budget of the solve that is running.
     spent: Option<Asked>,
-    /// The flag counts as raised when this says so.
+    /// The flag also counts as raised when this returns true.
     raised: Option<Asked>,
 }
 
@@ -29,17 +29,18 @@ impl fmt::Debug for Cancel {
 }
 
 impl Cancel {
-    /// A flag that is down.
+    /// A flag that is not raised.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// A flag that is up when this one is, and can be raised alone.
+    /// A flag that is raised when this one is, and that can also be raised without raising this one.
     pub fn child(&self) -> Self {
         self.or(|| false)
     }
 
-    /// The same flag with a budget for each solve: `start` is called when one begins, and what it returns says when it is spent.
+    /// The same flag with a budget for each solve: `start` is called when a solve begins, and the function that it returns says whether the
+    /// budget is spent.
     pub fn with_budget<S: Fn() -> bool + Send + Sync + 'static>(
         &self,
         start: impl Fn() -> S + Send + Sync + 'static,
@@ -57,18 +58,18 @@ impl Cancel {
         self.spent.is_some()
     }
 
-    /// Whether the budget is spent; never, if there is none.
+    /// Whether the budget is spent; false if there is none.
     pub fn is_spent(&self) -> bool {
         self.spent.as_ref().is_some_and(|spent| spent())
     }
 
-    /// A flag that is also up once the budget is spent.
+    /// A flag that is also raised once the budget is spent.
     pub fn within_budget(&self) -> Self {
         let solve = self.clone();
         self.or(move || solve.is_spent())
     }
 
-    /// A flag that is also up when `raised` says so; it is asked whenever a solver looks.
+    /// A flag that also counts as raised when `raised` returns true, which is called at every check by a solver.
     pub fn or(&self, raised: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         let above = self.clone();
         let raised: Asked = Arc::new(move || above.is_cancelled() || raised());
@@ -80,7 +81,7 @@ impl Cancel {
         self.flag.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the flag is up.
+    /// Whether the flag is raised.
     pub fn is_cancelled(&self) -> bool {
         self.flag.load(Ordering::Relaxed) || self.raised.as_ref().is_some_and(|raised| raised())
     }
@@ -107,7 +108,7 @@ pub struct Progress {
 const COST_RATIO: f64 = 6.0;
 
 impl Progress {
-    /// How much of the work is done, 0 to 1: the change falls by about the same factor in every round.
+    /// The fraction of the work that is done, 0 to 1, on the assumption that the change falls by the same factor in every round.
     pub fn fraction(&self) -> f64 {
         let within = (self.residual.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
         let cost = |level: usize| COST_RATIO.powi(i32::try_from(level).unwrap_or(i32::MAX));
@@ -117,7 +118,7 @@ impl Progress {
         if done.is_nan() { 0.0 } else { done.clamp(0.0, 1.0) }
     }
 
-    /// Those of the last of several solves, which began with the coarsest grid again.
+    /// The part of `history` that belongs to the last of several solves, each of which starts from the coarsest grid.
     pub fn last_solve(history: &[Self]) -> &[Self] {
         let again = history.windows(2).rposition(|pair| pair[1].level < pair[0].level);
         &history[again.map_or(0, |before| before + 1)..]
@@ -129,7 +130,7 @@ impl Progress {
     }
 }
 
-/// Listens to a solve. The unit type listens to nothing.
+/// Receives the progress of a solve. The unit type ignores it.
 pub trait Observer {
     /// Called after each round.
     fn progress(&mut self, progress: &Progress);
@@ -154,7 +155,7 @@ pub struct Reporter<'a> {
 }
 
 impl<'a> Reporter<'a> {
-    /// For grid `level` of `levels`, whose change has to fall below `tolerance`.
+    /// A reporter for grid `level` of `levels`, whose change has to fall below `tolerance`.
     pub fn new(observer: &'a mut dyn Observer, level: usize, levels: usize, tolerance: f64) -> Self {
         Self { observer, level, levels, tolerance }
     }

@@ -1,19 +1,18 @@
-//! Numbers for people: as many digits as the error justifies, with true minus signs. Whatever is written for a person to read gets its
-//! digits here.
+//! Numbers for people: as many digits as the error justifies, with true minus signs. All numbers that a person reads are formatted here.
 
 use std::time::Duration;
 
 /// Below this size numbers are written with an exponent.
 const SMALL: f64 = 1e-4;
-/// From this size on as well.
+/// From this size on, too, numbers are written with an exponent.
 const LARGE: f64 = 1e7;
-/// Below this size per cent are written with an exponent.
+/// Below this size percentages are written with an exponent.
 const SMALLEST_PERCENT: f64 = 1e-10;
-/// Times that [`parse_duration`] allows \[s\].
+/// Shortest and longest time that [`parse_duration`] accepts \[s\].
 const SHORTEST_TIME: f64 = 1e-6;
 const LONGEST_TIME: f64 = 86_400.0;
 
-/// `value` to a number of significant digits, whole digits never dropped: `0.2458`, `541.3`, `30418`, `1.050e-10`.
+/// `value` to a number of significant digits; digits before the decimal point are never dropped: `0.2458`, `541.3`, `30418`, `1.050e-10`.
 pub fn significant(value: f64, digits: usize) -> String {
     let size = value.abs();
     if !value.is_finite() {
@@ -29,14 +28,14 @@ pub fn significant(value: f64, digits: usize) -> String {
     signed(format!("{value:.*}", decimals(size, digits)))
 }
 
-/// As [`significant`], without zeros at the end that say nothing: `0.1`, `250`, `1.05e-10`.
+/// As [`significant`], without trailing zeros: `0.1`, `250`, `1.05e-10`.
 pub fn short(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     let (size, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
     if size.contains('.') { size.trim_end_matches('0').trim_end_matches('.').to_owned() + exponent } else { text }
 }
 
-/// A share in per cent, two digits, written out however small: `5.0 %`, `0.00010 %`.
+/// A fraction as a percentage with two significant digits, without an exponent unless it is tiny: `5.0 %`, `0.00010 %`.
 pub fn percent(share: f64) -> String {
     let value = 100.0 * share;
     if value != 0.0 && value.abs() < SMALL && value.abs() > SMALLEST_PERCENT {
@@ -45,7 +44,7 @@ pub fn percent(share: f64) -> String {
     format!("{} %", significant(value, 2))
 }
 
-/// A change in per cent with its sign: `+3.2 %`, `−0.5 %`.
+/// A change in per cent with its sign and so many decimal `places`: `+3.2 %`, `−0.5 %`.
 pub fn change(per_cent: f64, places: usize) -> String {
     signed(format!("{per_cent:+.places$} %"))
 }
@@ -55,17 +54,17 @@ pub fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
 }
 
-/// `value` to three digits, as sentences have it: `0.128`, `541`, `30400`.
+/// `value` to three digits, for use in sentences: `0.128`, `541`, `30400`.
 pub fn brief(value: f64) -> f64 {
     rounded(value, 3)
 }
 
-/// A number of a scene, with the digits in which it was given: conversions to SI leave a last bit that nobody wrote.
+/// A number of a scene, with the digits in which it was given: conversion to SI units leaves round-off in the last digit.
 pub fn as_given(value: f64) -> f64 {
     rounded(value, 10)
 }
 
-/// A time \[s\] in the unit that suits it, three digits: `42.6 ms`.
+/// A time \[s\] in a suitable unit, with three digits: `42.6 ms`.
 pub fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1.0 => (1e3 * s, "ms"),
@@ -78,7 +77,7 @@ pub fn duration(seconds: f64) -> String {
 /// Reads a time with its unit, µs (or us), ms, s, min or h: `20ms`, `1,5 s`, `2min`.
 ///
 /// # Errors
-/// Words that name the text and what is allowed: from 1 µs to a day.
+/// A message that names the text and the allowed range, 1 µs to a day.
 pub fn parse_duration(text: &str) -> Result<Duration, String> {
     let text = text.trim();
     let (number, unit) =
@@ -101,8 +100,8 @@ pub fn parse_duration(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// `0.24583 ± 0.00018`: both to the error's second significant digit. An exact value stands alone, to four digits; an error that is not
-/// finite is said not to be estimated.
+/// `0.24583 ± 0.00018`: both to the second significant digit of the error. An exact value is written without an error, to four digits; if
+/// the error is not finite, the text says that it was not estimated.
 pub fn with_error(value: f64, error: f64) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_owned();
@@ -118,14 +117,14 @@ pub fn with_error(value: f64, error: f64) -> String {
     if !(SMALL..LARGE).contains(&size) {
         let exponent = size.log10().floor();
         let scale = 10f64.powf(-exponent);
-        // Scaled to between 1 and 10, unless the scale itself leaves the range of numbers.
+        // The value is scaled to between 1 and 10, unless the scale factor itself overflows.
         if scale.is_finite() && scale > 0.0 {
             return format!("({}) × 10^{exponent}", with_error(value * scale, error * scale));
         }
         return signed(format!("{value:.3e} ± {error:.1e}"));
     }
     let places = decimals(error, 2);
-    // Of whole numbers, too, none behind the error's second digit says anything.
+    // Whole numbers, too, are rounded to the second significant digit of the error.
     let error = rounded(error, 2);
     let unit = 10f64.powf(error.log10().floor() - 1.0).max(1.0);
     let value = if unit > 1.0 { (value / unit).round() * unit } else { value };
@@ -135,16 +134,16 @@ pub fn with_error(value: f64, error: f64) -> String {
 /// Placeholder for a number that is not finite.
 const UNKNOWN: &str = "unknown";
 
-/// Decimal places at which `size`, positive, shows `digits` significant digits once it is rounded.
+/// Number of decimal places with which `size`, positive, shows `digits` significant digits once it is rounded.
 fn decimals(size: f64, digits: usize) -> usize {
     let places = |size: f64| (digits as f64 - 1.0 - size.log10().floor()).clamp(0.0, 15.0);
     let first = places(size);
-    // 0.0996 to two digits is 0.10, which has moved up a decade.
+    // 0.0996 to two digits is 0.10, which is a decade higher.
     let unit = 10f64.powf(-first);
     places((size / unit).round() * unit * (1.0 + 1e-12)) as usize
 }
 
-/// `10⁻⁶`.
+/// The power of ten with this exponent: `10⁻⁶`.
 pub fn power_of_ten(exponent: f64) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let raised = |c: char| match (c, c.to_digit(10)) {
@@ -156,7 +155,7 @@ pub fn power_of_ten(exponent: f64) -> String {
     format!("10{exponent}")
 }
 
-/// Text with its powers of ten as they are printed: `10^-7` becomes `10⁻⁷`, and `1.05e-7` becomes `1.05 × 10⁻⁷`.
+/// `text` with its powers of ten as in print: `10^-7` becomes `10⁻⁷`, and `1.05e-7` becomes `1.05 × 10⁻⁷`.
 pub fn raised(text: &str) -> String {
     let power = |after: &str| {
         let end = after.find(|c: char| c != '-' && !c.is_ascii_digit()).unwrap_or(after.len());
@@ -180,7 +179,7 @@ pub fn raised(text: &str) -> String {
     raised
 }
 
-/// With a true minus sign; "-0.00" is a zero.
+/// `text` with a true minus sign; "-0.00" becomes "0.00".
 pub fn signed(text: String) -> String {
     match text.strip_prefix('-') {
         Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
@@ -189,18 +188,18 @@ pub fn signed(text: String) -> String {
     }
 }
 
-/// With a capital first letter.
+/// `text` with a capital first letter.
 pub fn capitalised(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// `1 cycle`, `2 cycles`.
+/// A number with its noun: `1 cycle`, `2 cycles`.
 pub fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// With a small first letter.
+/// `text` with a small first letter.
 pub fn uncapitalised(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())

@@ -1,4 +1,4 @@
-//! The numbers that tell the regime of a film, from the problem alone, without solving.
+//! The dimensionless numbers that characterise the regime of a film, from the problem alone, without a solve.
 //!
 //! With H the smallest film thickness of a motor (its minimum spacing H_m) or the mean gap of a plate, b the length
 //! across which the gas escapes (tooth width or plate length; the radius of a disc, the difference of a ring's radii), and ω = 2πf:
@@ -18,17 +18,17 @@ use crate::problem::{Gas, Motor, Plate, Problem, Scenario, Slip};
 pub struct Dimensionless {
     /// Squeeze number σ = 12 μ ω b² / (p_a H²).
     pub squeeze_number: f64,
-    /// Bearing number Λ = 6 μ U b / (p_a H²); 0 for a plate, which does not slide. It is what the motion gives, whether
-    /// or not the scene asks for the wedge term.
+    /// Bearing number Λ = 6 μ U b / (p_a H²); 0 for a plate, which does not slide. It follows from the motion, whether or not the scene
+    /// asks for the wedge term.
     pub bearing_number: f64,
     /// Knudsen number m = λ_a / H, at ambient pressure.
     pub knudsen_number: f64,
     /// Λ/σ = U / (2 ω b): small means that the wedge term can be left out.
     pub bearing_to_squeeze: f64,
-    /// Thickness of the layer at the edges into which the ambient pressure reaches in a cycle, sqrt(2D/ω) \[m\], with
-    /// D = H² p_a Q / (12 μ) and Q = 1 + 6 m for first-order slip. The other laws: 1 without slip, 1 + 6 m + 6 m² for
-    /// second order. Fukui and Kaneko's is estimated as 1 + 6 m (2/α − 1), with α the accommodation coefficient. Between
-    /// rough faces D is that across the width.
+    /// Thickness of the boundary layer at the edges, as far as the ambient pressure penetrates in a cycle, sqrt(2D/ω) \[m\], with D = H²
+    /// p_a Q / (12 μ) and Q = 1 + 6 m for first-order slip. For the other laws Q is 1 without slip and 1 + 6 m + 6 m² for second order;
+    /// that of Fukui and Kaneko is estimated as 1 + 6 m (2/α − 1), with α the accommodation coefficient. Between rough faces D is the
+    /// diffusivity across the width.
     pub boundary_layer: f64,
 }
 
@@ -58,13 +58,13 @@ impl Dimensionless {
         Self::from_scales(&plate.gas, omega, 0.0, plate.squeezed_length(), plate.mean_gap)
     }
 
-    /// From the angular frequency \[rad/s\], sliding speed \[m/s\], length b \[m\] and thickness H \[m\].
+    /// The numbers, from angular frequency \[rad/s\], sliding speed \[m/s\], length b \[m\] and thickness H \[m\].
     fn from_scales(gas: &Gas, omega: f64, speed: f64, length: f64, thickness: f64) -> Self {
         let per_area = gas.viscosity / (gas.ambient_pressure * thickness * thickness);
         let m = gas.mean_free_path / thickness;
         let slip_factor = match gas.slip {
             Slip::None => 1.0,
-            // Slip grows as 2/α − 1.
+            // The slip term is proportional to 2/α − 1.
             Slip::FirstOrder | Slip::FukuiKaneko => 1.0 + 6.0 * m * (2.0 / gas.accommodation - 1.0),
             Slip::SecondOrder => 1.0 + 6.0 * m + 6.0 * m * m,
         };

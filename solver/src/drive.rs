@@ -1,8 +1,8 @@
-//! Torque, power and efficiency of a motor over the speed of its rotor, from where in the wave its contact load is.
+//! Torque, power and efficiency of a motor over the speed of its rotor, from the position of its contact load in the wave.
 //!
-//! Coulomb friction at every point of contact and every instant. The stator's surface moves with
-//! V_St = V₀ cos 2πφ, V₀ = 2πf B_S, φ = t/T + x/λ, and a rotor at V_R = v V₀ is dragged along where cos 2πφ > v and held back
-//! elsewhere, so that all of it follows from where in the wave the contact load is:
+//! The model is Coulomb friction at every point of contact and every instant. The stator's surface moves with V_St = V₀ cos 2πφ, V₀ = 2πf
+//! B_S, φ = t/T + x/λ. It drives a rotor at V_R = v V₀ forward where cos 2πφ > v and brakes it elsewhere, so everything follows from the
+//! distribution of the contact load over the wave:
 //!
 //! ```text
 //! torque          T = μ_d · waves · r · N s₀(v),          N s₀ = ∫ c sign(cos 2πφ − v)
@@ -11,17 +11,17 @@
 //! friction heat      the difference, μ_d · waves · ∫ c |V_St − V_R| ≥ 0
 //! ```
 //!
-//! ∫ is over one wavelength and averaged over a cycle, and N = ∫ c = (1 − α) L. No sign is smoothed: c is linear in time between
-//! frames, so that the integrals up to the two instants at which a node's sign changes are closed forms; over x the nodes
-//! are summed with their lengths, of second order as everywhere. What c bends between frames is the largest part of the error, and the
-//! same integrals over every other frame show how large: s₀ and s₁ are extrapolated from both.
+//! ∫ is over one wavelength and averaged over a cycle, and N = ∫ c = (1 − α) L. The sign function is not smoothed: c is linear in time
+//! between frames, so that the integrals up to the two instants at which a node's sign changes are closed forms. Over x the nodal values
+//! are summed times their lengths, which is of second order. The curvature of c between frames is the largest part of the error. The same
+//! integrals over every other frame show how large it is, and s₀ and s₁ are extrapolated from both.
 //!
-//! N is the extrapolated contact load of the solve. The shapes s₀ and s₁ are those of the recorded contact, which is extrapolated
-//! too; they are judged by what the coarser contact among the recording's yardsticks ([`Recording::estimate`]) gives in the same way, and
-//! by that of the finest grid as it was solved, over all frames.
+//! N is the extrapolated contact load of the solve. The shapes s₀ and s₁ are those of the recorded contact, which is extrapolated, too.
+//! Their errors are estimated from the shapes of the coarser contact among the recording's yardsticks ([`Recording::estimate`]), obtained
+//! in the same way, and from those of the finest grid without extrapolation, over all frames.
 //!
-//! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
-//! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
+//! s₀ ≤ 1, so the torque has an upper bound, the paper's maximum operating torque μ_d N waves r. A motor pressed so heavily that teeth also
+//! touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
 use crate::estimate::Estimate;
 use crate::plan::ROTOR_EFFECT;
@@ -30,37 +30,39 @@ use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, OperatingPoint, Performance};
 use std::f64::consts::TAU;
 
-/// Speeds from rest to the stator's greatest speed, equally spaced, among which the greatest power is looked for.
+/// Number of speeds, equally spaced from rest to the stator's greatest speed, at which the greatest power is first sought.
 const SPEEDS: usize = 11;
-/// Steps of the golden section that follows; each narrows the place by 0.62. A parabola through what is left comes last.
+/// Steps of the golden-section search that follows; each narrows the interval by a factor of 0.62. A parabola through the last three points
+/// is the final step.
 const NARROWED: usize = 10;
-/// Speed ratios on either side at which the error of a point is looked at too.
+/// Difference of speed ratio on either side at which the error of a point is also evaluated.
 const NEAR: f64 = 0.02;
-/// Share of what the second of three grids changed that is taken as error, at least.
+/// The error is at least this fraction of the change from the first of three grids to the second.
 const EARLIER: f64 = 0.5;
-/// Where every tooth touches at all times, what drives and what brakes nearly cancel: two differences of grids tell half of the error
-/// (calibrated: docs/validation.md).
+/// Safety factor where every tooth touches at all times: driving and braking parts nearly cancel, and the differences between grids show
+/// only half of the error (calibrated: docs/validation.md).
 const CLOSED: f64 = 2.0;
-/// Relative change of a shape over that of the contact load which makes it, at most, and of a speed over that of a shape (measured between no film
-/// and all of it).
+/// Largest relative change of a shape over the relative change of the contact load that causes it, and of a speed over that of a shape
+/// (measured between no film and the whole film).
 const OF_SHAPE: f64 = 0.5;
 const OF_SPEED: f64 = 0.5;
-/// Relative error of the film's power over that of its mean load, for want of nodes across (measured: 1.7 of the fundamental case with two).
+/// Relative error of the film's power over that of its mean load, due to too few nodes across (measured: 1.7 for the fundamental case with
+/// two nodes).
 const OF_WIDTH: f64 = 2.0;
 /// Safety factor on the error of the film's power that the grids give (calibrated: docs/validation.md).
 const OF_POWER: f64 = 2.0;
-/// Least share of the load on contact that a change of it is compared with.
+/// Least share of the load on the contact to which a change of it is related.
 const LEAST_SHARE: f64 = 1e-6;
-/// Factor on what grids tell of contact without film (calibrated: docs/validation.md).
+/// Safety factor on the error that the grids give for contact without film (calibrated: docs/validation.md).
 const DRY: f64 = 1.3;
-/// Difference of speed ratios over which the error of a curve may change by its own size: it gives the error of a slope.
+/// Difference of speed ratio over which the error of a curve may change by its own size, from which the error of the slope follows.
 const VARIES: f64 = 0.05;
 
-/// Where in the wave the contact load is, on one grid.
+/// Distribution of the contact load over the wave, on one grid.
 #[derive(Clone, Debug, Default)]
 pub struct Drive {
     frames: Frames,
-    /// Every other frame, if c is to be extrapolated from both.
+    /// The integrals over every other frame, if c is to be extrapolated from both.
     coarse: Option<Frames>,
 }
 
@@ -70,7 +72,7 @@ struct Frames {
     lines: Vec<Line>,
     /// Cycle mean of the contact load on one wavelength \[N\].
     load: f64,
-    /// Likewise for c cos 2πφ \[N\].
+    /// The same for c cos 2πφ \[N\].
     forward: f64,
 }
 
@@ -82,7 +84,7 @@ struct Line {
     steps: Vec<Step>,
     /// ∫ c Δx dt/T over the cycle \[N\].
     sum: f64,
-    /// Likewise for c cos 2πφ \[N\].
+    /// The same for c cos 2πφ \[N\].
     forward: f64,
 }
 
@@ -95,7 +97,7 @@ struct Step {
     rise: f64,
     /// ∫ c Δx dt/T from the first frame to this one \[N\].
     sum: f64,
-    /// Likewise for c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
+    /// The same for c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
     forward: f64,
 }
 
@@ -112,7 +114,7 @@ struct Marks {
 }
 
 impl Frames {
-    /// Of every frame of one cycle, or every other one, and so on.
+    /// The integrals over every `every`-th frame of a cycle.
     fn new(cycle: &LineLoads, every: usize) -> Self {
         let (nodes, frames) = (cycle.x.len(), cycle.frames / every);
         let copies = cycle.teeth as f64 / cycle.stored_teeth.max(1) as f64;
@@ -134,7 +136,7 @@ impl Frames {
         Self { lines, load, forward }
     }
 
-    /// (s₀, s₁), where the rotor is dragged along while |φ| < `half`, of this sine and cosine; `None` without contact.
+    /// (s₀, s₁), where the rotor is driven forward while |φ| < `half`, given the sine and cosine of 2π·`half`; `None` without contact.
     fn at(&self, half: f64, (sin, cos): (f64, f64)) -> Option<(f64, f64)> {
         let (mut sum, mut forward) = (0.0, 0.0);
         for line in &self.lines {
@@ -148,13 +150,13 @@ impl Frames {
 }
 
 impl Drive {
-    /// Of the contact of one cycle.
+    /// The distribution for the contact of one cycle.
     pub fn new(cycle: &LineLoads) -> Self {
         let coarse = cycle.frames.is_multiple_of(2).then(|| Frames::new(cycle, 2));
         Self { coarse, ..Self::as_solved(cycle) }
     }
 
-    /// Without the extrapolation from every other frame.
+    /// The same without the extrapolation from every other frame.
     fn as_solved(cycle: &LineLoads) -> Self {
         Self { frames: Frames::new(cycle, 1), coarse: None }
     }
@@ -172,7 +174,8 @@ impl Drive {
         let at = |frames: &Frames| frames.at(half, (sin, cos));
         let Some((s0, s1)) = at(&self.frames) else { return (0.0, 0.0) };
         let Some((coarse_0, coarse_1)) = self.coarse.as_ref().and_then(at) else { return (s0, s1) };
-        // Of second order: a third of the difference is missing still. No more than all pulls one way, and friction heats.
+        // Second order: a third of the difference is still missing. The limits are that all of the contact pulls one way, and that friction
+        // only dissipates.
         let missing = |fine: f64, coarse: f64| fine + (fine - coarse) / 3.0;
         let force = missing(s0, coarse_0).clamp(-1.0, 1.0);
         (force, missing(s1, coarse_1).max(v * force))
@@ -183,7 +186,7 @@ impl Drive {
         if self.load() <= 0.0 {
             return None;
         }
-        // Regula falsi; the end that stays twice counts half (Illinois).
+        // Regula falsi; the value at an end that is kept twice is halved (Illinois).
         let (mut low, mut high) = ((-1.0, 1.0), (1.0, -1.0));
         let (mut middle, mut last) = (0.0, 0.0);
         for _ in 0..60 {
@@ -207,7 +210,7 @@ impl Drive {
 
     /// `loss`: the film's share of the stator's power, in μ_d N V₀.
     fn marks(&self, loss: f64) -> Marks {
-        // Beyond it the rotor is braked.
+        // Above this speed the rotor is braked.
         let no_load = self.no_load().unwrap_or(0.0);
         let step = no_load.max(0.0) / (SPEEDS - 1) as f64;
         let curve: Vec<(f64, f64)> = (0..SPEEDS).map(|i| self.at(i as f64 * step)).collect();
@@ -243,7 +246,7 @@ impl Drive {
     }
 }
 
-/// Where the parabola through three points, from left to right, is greatest; `None` if it is so nowhere.
+/// Position of the maximum of the parabola through three points, given from left to right; `None` if it has no maximum.
 fn vertex([before, here, behind]: [(f64, f64); 3]) -> Option<f64> {
     let slope = |from: (f64, f64), to: (f64, f64)| (to.1 - from.1) / (to.0 - from.0);
     let (rise, fall) = (slope(before, here), slope(here, behind));
@@ -251,18 +254,18 @@ fn vertex([before, here, behind]: [(f64, f64); 3]) -> Option<f64> {
     (rise > fall && place.is_finite()).then(|| place.clamp(before.0, behind.0))
 }
 
-/// Rounding of s₀ and s₁.
+/// Round-off of s₀ and s₁.
 const ROUNDING: f64 = 1e-9;
 
-/// Output over what the stator gives, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven. At the speed without load, where s₀
-/// is nothing but rounding, it is 0.
+/// Output over the power that the stator delivers, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven. It is 0 at the
+/// no-load speed, where s₀ is only round-off.
 fn efficiency(v: f64, (s0, s1): (f64, f64), loss: f64) -> Option<f64> {
     let idle = v > 0.0 && s0.abs() < ROUNDING;
     (v * s0 > 0.0 || idle).then(|| if idle { 0.0 } else { v * s0 / (s1 + loss) })
 }
 
 impl Line {
-    /// `turns`: sine and cosine of 2πt/T at the frames, one more than there are.
+    /// `turns`: sine and cosine of 2πt/T at the frames, and once more at the end of the cycle.
     fn new(offset: f64, load: &[f64], turns: &[(f64, f64)]) -> Self {
         let frames = load.len();
         let step = 1.0 / frames as f64;
@@ -302,14 +305,14 @@ impl Line {
 }
 
 impl Step {
-    /// A primitive of c cos 2πφ over t/T, a share of the step past the frame, where 2πφ has this sine and cosine.
+    /// A primitive of c cos 2πφ over t/T, at the fraction `share` of the step after the frame, where 2πφ has this sine and cosine.
     fn primitive(&self, frames: usize, share: f64, (sin, cos): (f64, f64)) -> f64 {
         let turn = 1.0 / TAU;
         turn * ((self.load + share * self.rise) * sin + turn * frames as f64 * self.rise * cos)
     }
 }
 
-/// The contact with what its numbers are judged by, and what turns shares into newtons and watts.
+/// The contact, the data that its errors are estimated from, and the scale factors to newtons and watts.
 #[derive(Debug)]
 pub struct Scaled<'a> {
     motor: &'a Motor,
@@ -320,24 +323,24 @@ pub struct Scaled<'a> {
     load: Estimate,
     /// Safety factor on the differences of shapes.
     doubt: f64,
-    /// Relative error of shapes that no grid shows: what is left out of the film, and that of the rotor's compliance.
+    /// Relative error of shapes that no grid shows: that of the terms left out of the film, and that of the rotor's compliance.
     unseen: f64,
-    /// Likewise absolute, of shares and of speed ratios: where between nodes a contact is.
+    /// The same, as an absolute error of fractions and of speed ratios: the unknown position of a contact between nodes.
     misplaced: f64,
 }
 
-/// The contact of one grid, and what the film takes of the stator's power, in units of μ_d N V₀.
+/// The contact of one grid, and the power that the film takes from the stator, in units of μ_d N V₀.
 type Lossy = (Drive, f64);
 
-/// A speed ratio V_R/V₀; and there, for each [`Lossy`] of a motor, (s₀, s₁) and what the film takes. The first is that of the result, the others
-/// show its error.
+/// A speed ratio V_R/V₀, and for each [`Lossy`] of a motor (s₀, s₁) at that ratio and the film's loss. The first [`Lossy`] is the result;
+/// the others show its error.
 type Place = (f64, Vec<((f64, f64), f64)>);
 
-/// A dimensionless result, from a speed ratio, (s₀, s₁) there, and what the film takes of the power.
+/// A dimensionless result, as a function of a speed ratio, (s₀, s₁) there, and the film's loss.
 type Share<'a> = &'a dyn Fn(f64, (f64, f64), f64) -> f64;
 
 impl<'a> Scaled<'a> {
-    /// With the film, from a solve.
+    /// The contact of a solve with its film.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
         let load = Estimate { value: (1.0 - result.alpha.value).max(0.0), ..result.alpha } * motor.load;
         let spent = motor.friction_torque(load.value) * motor.stator_speed() / motor.contact_radius;
@@ -354,8 +357,8 @@ impl<'a> Scaled<'a> {
         Self { motor, drive: extrapolated(&recording.lines), others, load, doubt, unseen, misplaced: 0.0 }
     }
 
-    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest. `rotor_error`: relative, of the rotor's
-    /// compliance.
+    /// The contact in a vacuum, without film, on nested grids, coarse to fine; the finest gives the result. `rotor_error` is the relative
+    /// error of the rotor's compliance.
     pub fn without_film(motor: &'a Motor, dry: &[LineLoads], rotor_error: f64) -> Self {
         let lossless = |drive: Drive| (drive, 0.0);
         let others = match dry {
@@ -381,14 +384,15 @@ impl<'a> Scaled<'a> {
         self.load * self.motor.friction_torque(1.0)
     }
 
-    /// Unit of efficiencies, with its error: the film's loss is a share of N, whose error moves them by at most its own relative size.
+    /// Unit of efficiencies, with its error: the film's loss is a fraction of N, so a relative error of N changes an efficiency by at most
+    /// that relative error.
     fn loss_scale(&self) -> Estimate {
         Estimate { value: 1.0, error: if self.drive.1 > 0.0 { self.load.error / self.load.value } else { 0.0 } }
     }
 
-    /// A share of `unit`. Contact that was missed may be anywhere, and all of it moves the share by `most`.
+    /// A fraction of `unit`. Contact that was missed may be anywhere; all of it together changes the fraction by at most `most`.
     fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
-        // Where all contact pulls one way on every grid, there is none near where it would turn.
+        // Where all contact pulls one way on every grid, there is none near a change of sign.
         let one_way = 1.0 - share.value.abs() + share.error < ROUNDING;
         let size = share.value.abs();
         let unseen = if one_way { 0.0 } else { self.unseen * size + self.misplaced * size.max(1.0 - size) };
@@ -402,14 +406,14 @@ impl<'a> Scaled<'a> {
         OF_SPEED * self.unseen * v.abs() + self.misplaced
     }
 
-    /// The contact at a speed ratio and beside it. Where the differences to what it is judged by change their sign, they say nothing: those
-    /// nearby count as well.
+    /// The contact at a speed ratio and at its two neighbours. Where the differences that estimate an error change their sign, they are
+    /// small by chance, so the neighbours count as well.
     fn near(&self, v: f64) -> [Place; 3] {
         let all = || std::iter::once(&self.drive).chain(&self.others);
         [v - NEAR, v, v + NEAR].map(|v| (v, all().map(|(drive, loss)| (drive.at(v), *loss)).collect()))
     }
 
-    /// A share at three places, each with its error.
+    /// A fraction at three speed ratios, each with its error.
     fn shares(&self, near: &[Place; 3], share: Share<'_>) -> [Estimate; 3] {
         near.each_ref().map(|(v, all)| {
             let shares: Vec<f64> = all.iter().map(|(at, loss)| share(*v, *at, *loss)).collect();
@@ -423,7 +427,7 @@ impl<'a> Scaled<'a> {
             // Nothing slides.
             return OperatingPoint::default();
         }
-        // A stator that does not move along the ring holds the rotor, whichever way it turns.
+        // A stator that does not move along the ring holds the rotor, whatever its direction of rotation.
         let (v, per_ratio) = if v0 > 0.0 { (speed / v0, v0) } else { (speed.signum() * 2.0, 0.5 * speed.abs()) };
         let near = self.near(v);
         let scaled = |unit: Estimate, most: f64, share: Share<'_>| {
@@ -444,14 +448,15 @@ impl<'a> Scaled<'a> {
             friction: scaled(force, v0 + speed.abs(), &|v, (s0, s1), _| s1 * v0 - v * s0 * per_ratio),
             efficiency: driven.map(|found| {
                 let share = scaled(self.loss_scale(), found, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0));
-                // Where it vanishes, what is not driven on other grids tells nothing of it: it is as uncertain as the output.
+                // Where the efficiency vanishes, grids on which the rotor is not driven give no error for it: it is as uncertain as the
+                // output.
                 let least = if found == 0.0 && given > 0.0 { output.error / given } else { 0.0 };
                 Estimate { error: share.error.max(least), ..share }
             }),
         }
     }
 
-    /// All of it, with a curve at these speeds \[m/s\].
+    /// All results, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let speed = self.motor.stator_speed();
         let unit = self.torque();
@@ -469,7 +474,7 @@ impl<'a> Scaled<'a> {
         let marked = |unit: Estimate, mark: fn(&Marks) -> f64, most: fn(&Marks) -> f64| {
             Some(self.scaled(unit, judged(mark)?, most(&marks.as_ref()?.0)))
         };
-        // What grids agree on at one speed by chance they do not agree on beside it.
+        // Grids that agree by chance at one speed do not agree at its neighbours.
         let no_load = || {
             let v = judged(|marks| marks.no_load)?;
             let force = self.shares(&self.near(v.value), &|_, (s0, _), _| s0);
@@ -477,7 +482,7 @@ impl<'a> Scaled<'a> {
             let error = self.doubt * v.error.hypot(greatest_error(&force) / slope) + self.of_speed(v.value);
             Some(Estimate { error, ..v } * speed)
         };
-        // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
+        // The position of a maximum is as uncertain as the slope of the curve, and the more so the flatter the curve is.
         let place = |mark: fn(&Marks) -> f64, share: Share<'_>| {
             let v = judged(mark)?;
             let curve = self.shares(&self.near(v.value), share);
@@ -487,7 +492,7 @@ impl<'a> Scaled<'a> {
             let error = if known { v.error.max(slope / bent.max(f64::MIN_POSITIVE)).min(1.0) } else { f64::INFINITY };
             Some(Estimate { error: error + self.of_speed(v.value), ..v } * speed)
         };
-        // What is not driven may be, by as little as the contact that was missed.
+        // A motor that is not driven here may in fact be driven, by no more than the contact load that was missed.
         let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
         Performance {
             max_torque: unit,
@@ -505,8 +510,9 @@ impl<'a> Scaled<'a> {
     }
 }
 
-/// Mean length, over the wavelength, that nodes stand for which touch alone, weighted by the load of all contact: a contact that is narrower than
-/// that may be anywhere in it, and grids of which all have it at the same node do not tell. Where the end of a tooth is, is known.
+/// Mean length, as a fraction of the wavelength, of the nodes that touch while neither neighbour does, weighted by the load of all contact.
+/// A contact narrower than that may be anywhere within the length of its node, and grids that all place it at the same node do not show
+/// this error. The end of a tooth has a known position and does not count.
 fn between_nodes(loads: &LineLoads) -> f64 {
     let (mut alone, mut all) = (0.0, 0.0);
     for line in loads.contact.chunks_exact(loads.x.len()) {
@@ -524,7 +530,8 @@ fn greatest_error(shares: &[Estimate]) -> f64 {
     shares.iter().map(|share| share.error).fold(0.0, f64::max)
 }
 
-/// The warnings of a motor whose teeth touch all round the wave, so that it gives less than the bound, and of one whose torque is not known.
+/// Warnings for a motor whose teeth touch all round the wave, so that it gives less torque than the bound, and for one whose torque is not
+/// resolved.
 pub fn warnings(motor: &Motor, result: &MotorResult, found: &Performance) -> Vec<String> {
     let (stall, all_touch) = (found.stall_torque, result.teeth_in_contact.value >= motor.teeth as f64);
     let unresolved =
@@ -545,7 +552,7 @@ pub fn warnings(motor: &Motor, result: &MotorResult, found: &Performance) -> Vec
     unresolved.into_iter().chain(braking).collect()
 }
 
-/// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.
+/// The stored lines, tooth by tooth and frame by frame: φ at the tooth's middle, and the offset at which the line begins.
 pub fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
     let (frames, nodes) = (loads.frames, loads.x.len());
     let place = loads.pitch / loads.length;
@@ -558,8 +565,8 @@ pub fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
     f64::from(motor.waves) * loads.teeth as f64 / loads.stored_teeth.max(1) as f64
 }
 
-/// A number with its error, from the same on the recording's yardsticks. Contact edges are irregular: all of the larger difference, not
-/// the share of it that is calibrated for α.
+/// A number with an error estimated from the same number of the recording's yardsticks. Contact edges converge irregularly, so the error is
+/// the whole of the larger difference, not the fraction of it that is calibrated for α.
 fn judged(found: f64, yardsticks: &[f64]) -> Estimate {
     let error = match *yardsticks {
         [before, finest] => (found - before).abs().max((found - finest).abs()),
@@ -572,12 +579,12 @@ fn judged(found: f64, yardsticks: &[f64]) -> Estimate {
     Estimate { value: found, error }
 }
 
-/// Mean power that the film of the whole ring takes from the stator \[W\]. Rotor and contact take none: the rotor is elastic, and where there is
-/// contact the gap does not change.
+/// Mean power that the film of the whole ring takes from the stator \[W\]. Rotor and contact dissipate none of it: the rotor is elastic,
+/// and the gap does not change where there is contact.
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
     let others: Vec<f64> = recording.yardsticks.iter().map(|loads| taken(motor, loads)).collect();
     let found = judged(taken(motor, &recording.lines), &others);
-    // What is left out may be all that the film takes, at most its load at the stator's speed.
+    // The terms that are left out may account for all of the film's power, at most its load times the stator's greatest normal speed.
     let load = recording.film_load.iter().sum::<f64>() / recording.frames.max(1) as f64;
     let most = load.abs() * f64::from(motor.waves) * TAU * motor.frequency * motor.normal_amplitude;
     let relative = ROTOR_EFFECT * recording.rotor.relative_error + OF_WIDTH * recording.across.min(1.0);
@@ -639,7 +646,7 @@ mod tests {
             assert!((s0 - (2.0 * v.acos() / PI - 1.0)).abs() < 1e-12, "{v}: {s0}");
             assert!((s1 - 2.0 / PI * (1.0 - v * v).sqrt()).abs() < 1e-12, "{v}: {s1}");
         }
-        // As much of it pulls one way as the other.
+        // As much of the load pulls one way as the other.
         assert!(drive.no_load().unwrap().abs() < 1e-12 && drive.at(0.0).0.abs() < 1e-12);
     }
 
@@ -676,7 +683,7 @@ mod tests {
             let v = 0.1 * f64::from(i) - 1.0;
             let ((s0, s1), (o0, o1)) = (drive.at(v), opposite.at(-v));
             assert!((s0 + o0).abs() < 1e-9 && (s1 - o1).abs() < 1e-9, "{v}: {s0} {o0}, {s1} {o1}");
-            // Friction heats, whatever the rotor does.
+            // Friction only dissipates, whatever the speed of the rotor.
             assert!(s1 - v * s0 >= -1e-12);
         }
     }

@@ -26,7 +26,7 @@ impl Estimate {
         Self { value, error: 0.0 }
     }
 
-    /// The ends of a range in words, with one power of ten for both if both are small: `(−1.5 ± 0.1 … 1.5 ± 0.1) × 10^-4`.
+    /// The ends of a range as text, with a common power of ten if both are small: `(−1.5 ± 0.1 … 1.5 ± 0.1) × 10^-4`.
     pub fn range(ends: [Self; 2]) -> String {
         let size = |end: &Self| if end.error.is_finite() { end.value.abs().max(end.error) } else { end.value.abs() };
         let exponent = size(&ends[0]).max(size(&ends[1])).log10().floor();
@@ -39,10 +39,10 @@ impl Estimate {
     }
 }
 
-/// Power of ten up to which the ends of a range have one in common, and the least that one of them may be in it.
+/// Exponent of ten up to which the ends of a range share a power of ten, and the least that the mantissa of either may then be.
 const SMALL: f64 = -3.0;
 
-/// In another unit.
+/// Conversion to another unit.
 impl Mul<f64> for Estimate {
     type Output = Self;
 
@@ -67,7 +67,7 @@ const CORRECTION: f64 = 0.35;
 /// least `SLOWEST`.
 const REST: f64 = 1.3;
 const SLOWEST: f64 = 1.3;
-/// Least share of the change before the last that is taken as error: the last one may be small by chance.
+/// The error is at least this fraction of the last change but one, because the last change may be small by chance.
 const BEFORE: f64 = 0.025;
 /// Share of the spread that a third-order term leaves where the error is a power series in the spacing.
 const THIRD_ORDER: f64 = 1.0 / 7.0;
@@ -81,7 +81,7 @@ const TURNING: f64 = 0.4;
 /// for a film without contact.
 const SAMPLING: f64 = 0.07;
 const SMOOTH_SAMPLING: f64 = 0.1;
-/// Likewise for the first grid.
+/// The same for the first grid.
 const FIRST_SAMPLING: f64 = 0.02;
 
 /// A cycle mean on one grid.
@@ -89,14 +89,14 @@ const FIRST_SAMPLING: f64 = 0.02;
 pub struct Mean {
     /// Over all steps.
     pub all: f64,
-    /// Over every second step, those of the next coarser grid: what that one's mean is compared with, so that how a mean depends on its
-    /// instants is not taken for an error of the scheme.
+    /// Over every second step, those of the next coarser grid. The coarser grid's mean is compared with this one, so that the effect of the
+    /// sampling instants on a mean is not mistaken for an error of the scheme.
     pub shared: f64,
 }
 
 impl Mean {
-    /// Of a cycle that does not repeat: it begins at `start`, and the mean so far is that over the ends of its `steps` steps, of which the
-    /// last is `end` (the trapezoidal rule, of second order as the scheme is).
+    /// The mean over a cycle that does not repeat: `self` is the mean over the ends of its `steps` steps, of which the last is `end`; the
+    /// cycle begins at `start`. The result is that of the trapezoidal rule, which is of second order like the scheme.
     pub fn from_to(self, start: f64, end: f64, steps: usize) -> Self {
         let excess = 0.5 * (end - start) / steps as f64;
         Self { all: self.all - excess, shared: self.shared - 2.0 * excess }
@@ -110,8 +110,8 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
     extrapolate_means(&means)
 }
 
-/// As [`extrapolate`], of cycle means. What a mean gains by new instants tells how far it still depends on them: errors of opposite sign, from
-/// instants and from nodes, may cancel in the changes.
+/// As [`extrapolate`], for cycle means. The change of a mean due to additional instants shows how much it still depends on them: errors of
+/// opposite sign, from the time steps and from the nodes, may cancel in the changes between grids.
 pub fn extrapolate_means(means: &[Mean]) -> Estimate {
     extrapolate_by(means, |steps| {
         let correction = steps.correction().abs();
@@ -126,10 +126,10 @@ pub fn extrapolate_means(means: &[Mean]) -> Estimate {
     })
 }
 
-/// As [`extrapolate_means`], of a film that nothing touches: its error is a power series of the spacing. What the second order leaves is
-/// a seventh of the spread |e₂₃ − e₁₂|, and more by the orders after it, each of which is smaller by the spacing. For the spacing
-/// stands √(|r₂ − r₁|/unit), since that change is of second order. Where a mean still depends on the instants it is taken over, three
-/// grids may agree by chance: part of that is error, too. `unit`: what errors are relative to.
+/// As [`extrapolate_means`], for a film without contact, whose error is a power series in the spacing. The third-order term leaves a
+/// seventh of the spread |e₂₃ − e₁₂|, and each higher order leaves less by a factor of the spacing. √(|r₂ − r₁|/unit) serves as the
+/// spacing, since that change is of second order. Where a mean still depends on its sampling instants, three grids may agree by chance, so
+/// part of that dependence also counts as error. `unit` is the reference of relative errors.
 pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
     extrapolate_by(means, |steps| {
         let spacing = (steps.earlier.abs() / unit).min(1.0).sqrt();
@@ -146,7 +146,7 @@ pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
     })
 }
 
-/// By means on three grids or more, with the `error` that they tell; what there is of fewer.
+/// Extrapolates the means of three grids or more, with `error` of their changes as the error; fewer grids give a rougher estimate.
 fn extrapolate_by(means: &[Mean], error: impl Fn(&Changes) -> f64) -> Estimate {
     match *means {
         [] => Estimate { value: 0.0, error: f64::INFINITY },
@@ -169,10 +169,10 @@ fn extrapolate_by(means: &[Mean], error: impl Fn(&Changes) -> f64) -> Estimate {
 struct Changes {
     earlier: f64,
     change: f64,
-    /// By how much the extrapolated mean differs from what the two coarser grids give.
+    /// Difference between the extrapolated mean and the one extrapolated from the two coarser grids.
     spread: f64,
-    /// Change of the second mean due to the instants that the first grid lacks, and of the first mean due to every other of its own: where a
-    /// plate nearly touches, the steps of the first grid may be as long as that lasts.
+    /// Change of the second mean due to the instants that the first grid lacks, and of the first mean due to every other of its own
+    /// instants: where a plate nearly touches, the steps of the first grid may be as long as the near-contact lasts.
     sampling: f64,
     first_sampling: f64,
 }
@@ -193,8 +193,8 @@ impl Changes {
     }
 }
 
-/// A value of extrapolated fields, judged by that of the fields extrapolated from the two coarser grids, `before`, and that of the
-/// `finest` grid as it was solved.
+/// A value of extrapolated fields; its error is estimated from the value `before`, of the fields extrapolated from the two coarser grids,
+/// and from that of the `finest` grid without extrapolation.
 pub fn judged(value: f64, before: f64, finest: f64) -> Estimate {
     Estimate { value, error: (SPREAD * (value - before).abs()).max(CORRECTION * (value - finest).abs()) }
 }

@@ -1,10 +1,11 @@
-//! A plate that is dropped on its vibration: its height, cycle by cycle, until it floats where the periodic solve says, or rests.
+//! A plate that is dropped onto the gas above its vibrating face: its height, cycle by cycle, until it floats at the gap of the periodic
+//! solve or rests.
 //!
-//! The plate is the mass of [`mod@crate::hold`]. It falls from rest at twice the gap at which it floats, or at which it would rest, through gas at
-//! ambient pressure, while the vibration comes up. The way is marched with steps of one length and of half: the height is
-//! extrapolated from both, of second order. Its stated error is their difference, a share of what a third way differs by, whose grids are
-//! coarser, and that of the gap at which the plate floats, as the same share of the height. A plate that bounces may magnify errors from one time to the
-//! next, until its height is not resolved.
+//! The plate is the mass of [`mod@crate::hold`]. It falls from rest at twice the gap at which it floats, or at which it would rest, through
+//! gas at ambient pressure, while the vibration builds up. The motion is marched with steps of one length and of half that length, and the
+//! height is extrapolated from both, at second order. Its stated error has three parts: the difference of the two; a fraction of the
+//! difference to a third march, on coarser grids; and the relative error of the gap at which the plate floats, times the height. A plate
+//! that bounces may amplify errors, until its height is no longer resolved.
 
 use crate::control::Cancel;
 use crate::digits::counted;
@@ -20,23 +21,25 @@ use crate::solution::{Outcome, PlateResult, Status, settled};
 use crate::solve::{Record, Settings, SolveError, solve};
 use serde::{Deserialize, Serialize};
 
-/// Height from which it is dropped, as a multiple of the gap at which it floats or rests.
+/// Height from which the plate is dropped, as a multiple of the gap at which it floats or rests.
 const FROM: f64 = 2.0;
-/// Cycles in which a plate should have settled.
+/// Number of cycles within which a plate should have settled.
 pub const CYCLES: usize = 5000;
-/// Share of what coarser grids change of the height that is error, and the largest error of a height, relative, that is followed.
+/// Fraction of the difference to the coarser grids that counts as error of the height, and the largest relative error of a height up to
+/// which the motion is followed.
 const GRIDS_SHARE: f64 = 1.0 / 3.0;
 const RESOLVED: f64 = 0.5;
-/// Cycles over which the height may not change any more.
+/// Number of cycles over which the height must no longer change.
 const SETTLED: usize = 32;
-/// Where these changes shrink by less than this factor, the height may be so many times the last one from where it settles.
+/// Where these changes shrink so slowly that their ratio is above `SLOWEST`, the distance to the final height may be `CREEP` times the last
+/// change.
 const SLOWEST: f64 = 0.95;
 const CREEP: f64 = 20.0;
 
 /// The plate at the end of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cycle {
-    /// From 1; 0 is the beginning.
+    /// Number of the cycle, from 1; 0 is the initial state.
     pub number: usize,
     /// Time \[s\].
     pub time: f64,
@@ -48,7 +51,7 @@ pub struct Cycle {
     pub rests: bool,
 }
 
-/// What is to be known of a plate that its face has struck, before it came to rest on it; `None` if it has not.
+/// A warning about a plate that the face has struck and that did not come to rest on it; `None` otherwise.
 pub fn struck(cycles: &[Cycle]) -> Option<String> {
     let hit = cycles.iter().filter(|cycle| cycle.rests).count();
     let rests = cycles.last().is_some_and(|cycle| cycle.rests);
@@ -69,8 +72,9 @@ pub struct Fall {
     pub outcome: Option<Outcome>,
 }
 
-/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles` and until a budget is spent, until its height is
-/// within `tolerance` of where it settles, as its changes over 32 cycles tell. `None` if the scene has no plate under a load.
+/// Drops the plate of `problem` and passes every cycle to the caller. It ends after so many `cycles`, when a budget is spent, or when the
+/// height is within `tolerance` of its final value, as estimated from its changes over 32 cycles. `None` if the scene has no plate under a
+/// load.
 ///
 /// # Errors
 /// [`SolveError`] if a step has no solution to working precision, or it would need more memory than is allowed.

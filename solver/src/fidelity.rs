@@ -1,9 +1,9 @@
-//! Accuracy levels: from which grids a solve starts, and how exactly the cycle has to repeat. Four have names: draft, standard, fine and
-//! reference.
+//! Accuracy levels: the grids from which a solve starts, and how exactly the cycle has to repeat. Four have names: draft, standard, fine
+//! and reference.
 //!
-//! A scene is solved on three nested grids, every one with half the intervals and steps of the next; the results are extrapolated to
-//! zero spacing (the scheme is of second order in both), and how they come closer is the error estimate. Finer grids follow until that
-//! is what was asked for (`ladder`). The measured error and cost of each level are in `docs/validation.md`.
+//! A scene is solved on three nested grids, each with half the intervals and steps of the next. The results are extrapolated to zero
+//! spacing (the scheme is of second order in space and time), and the changes from grid to grid give the error estimate. Finer grids follow
+//! until that error is the one asked for (`ladder`). The measured error and cost of each level are in `docs/validation.md`.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub enum Fidelity {
     Standard,
     /// For figures: 0.1 %.
     Fine,
-    /// For judging the others: 0.02 %.
+    /// For checking the other levels: 0.02 %.
     Reference,
     /// To a relative error of the headline in millionths.
     To(u32),
@@ -32,7 +32,7 @@ pub enum Fidelity {
 pub struct Spec {
     /// Intervals along a tooth of ordinary width.
     pub along: usize,
-    /// Unknown nodes across half the contact width, to begin with, of a polynomial.
+    /// Unknown nodes of a polynomial across half the contact width, to begin with.
     pub across: usize,
     /// Intervals across half the contact width with finite volumes.
     pub volumes: usize,
@@ -50,11 +50,11 @@ pub struct Spec {
     pub plate: usize,
     /// Steps in a cycle of a plate.
     pub plate_steps: usize,
-    /// As `tolerance`, for a plate: nothing but the film, whose cycle is soon exact.
+    /// As `tolerance`, for a plate, which is smaller because a film without contact soon repeats almost exactly.
     pub plate_tolerance: f64,
-    /// As `edge_fraction`, for a plate: a film alone, whose fields are compared with exact ones.
+    /// As `edge_fraction`, for a plate, whose fields are compared with exact solutions.
     pub plate_edge_fraction: f64,
-    /// Relative error in α at which the level aims: terms of the model with a smaller effect are left out.
+    /// Relative error of α that the level aims at: terms of the model with a smaller effect are left out.
     pub target_error: f64,
     /// Least safety factor on the error estimated from a motor's grids.
     pub least_factor: f64,
@@ -83,12 +83,12 @@ impl Fidelity {
         Self::To((1e6 * accuracy.clamp(ACCURACY[0], ACCURACY[1])).round() as u32)
     }
 
-    /// The named levels that are coarser, then this one.
+    /// The coarser ones of the named levels, then this one.
     pub fn and_coarser(self) -> Vec<Self> {
         Self::ALL.into_iter().filter(|level| level.accuracy() > self.accuracy()).chain([self]).collect()
     }
 
-    /// The option of the command line that asks for it.
+    /// The command-line option that asks for this level.
     pub fn option(self) -> String {
         if let Self::To(_) = self { format!("--accuracy {self}") } else { format!("--fidelity {self}") }
     }
@@ -171,7 +171,7 @@ impl Fidelity {
 pub const ACCURACY: [f64; 2] = [1e-6, 0.5];
 
 impl Spec {
-    /// A share of the way to a finer specification, in logarithms, for an error of `target_error`.
+    /// The specification at the fraction `share` of the way to a finer one, interpolated in logarithms, for an error of `target_error`.
     fn towards(&self, fine: &Self, share: f64, target_error: f64) -> Self {
         let real = |a: f64, b: f64| a * (b / a).powf(share);
         let count = |a: usize, b: usize| real(a as f64, b as f64).round() as usize;
@@ -193,7 +193,7 @@ impl Spec {
         }
     }
 
-    /// The same target error, but starting from coarse grids, so that there soon is a result that can be refined.
+    /// The same target error, but starting from coarse grids, so that there is an early result to refine.
     pub fn from_coarse(&self) -> Self {
         let Self { across, tolerance, plate_tolerance, plate_edge_fraction, target_error, .. } = *self;
         Self {
@@ -208,13 +208,13 @@ impl Spec {
     }
 }
 
-/// Safety factor on the error estimated from the grids if time may be up on the first of them. At a named level, other parts of the stated
-/// error often make up for an estimate that is too small (calibrated: docs/validation.md).
+/// Safety factor on the error estimated from the grids if the time may be up on the first of them. At a named level, other parts of the
+/// stated error often make up for an estimate that is too small (calibrated: docs/validation.md).
 const EARLY: f64 = 2.0;
 
 impl Ord for Fidelity {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of one accuracy by name and by number, the number is the greater: no two are equal that are not the same.
+        // Of two levels of the same accuracy the numeric one is the greater, so that only identical levels compare as equal.
         let by_number = |level: &Self| matches!(level, Self::To(_));
         other.accuracy().total_cmp(&self.accuracy()).then_with(|| by_number(self).cmp(&by_number(other)))
     }
@@ -226,10 +226,10 @@ impl PartialOrd for Fidelity {
     }
 }
 
-/// An accuracy as people write it: `0.1%`, `0,1 %` or `0.001`.
+/// Parses an accuracy as people write it: `0.1%`, `0,1 %` or `0.001`.
 ///
 /// # Errors
-/// Words that name the value and what is allowed.
+/// A message that names the value and the allowed range.
 pub fn parse_accuracy(text: &str) -> Result<f64, String> {
     let (number, unit) = match text.trim().strip_suffix('%') {
         Some(number) => (number, 0.01),

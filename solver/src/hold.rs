@@ -1,21 +1,22 @@
-//! A plate held by hand: its gap is whatever the hand makes it, and the film answers.
+//! A plate held by hand: its gap is prescribed by the hand, and the film responds with a force.
 //!
-//! The film of [`crate::plate`] under a gap h(t) that nobody knows beforehand, marched in the time of the film. No window and no
-//! clock: whoever holds the plate says where to, and within which time. Two grids are marched beside each other, the finer one
-//! with twice the intervals and twice the steps; the force is extrapolated from both, and their difference is its stated error.
+//! The film of [`crate::plate`] under a gap h(t) that is not known in advance, marched in the film's own time. This module knows no window
+//! and no clock: the caller says to which gap the plate moves, and within what time. Two grids are marched side by side, the finer one with
+//! twice the intervals and twice the steps; the force is extrapolated from both, and their difference is its stated error.
 //!
-//! A plate under a load may be let go: then it is a mass on which its weight and the film act, above a face that vibrates,
+//! A plate under a load may be released: it is then a mass on which its weight and the film act, above a face that vibrates,
 //!
 //! ```text
 //! m z̈ = F − m g,      h = z + a(t) cos φ,  φ̇ = ω
 //! ```
 //!
-//! marched by the rule of Verlet, which is of second order, with the film's force at the end of each step. It bounces on the film, and settles where
-//! the film carries it ([`mod@crate::plate::floating`]); without vibration it sinks until it rests on its roughness. Where the gap would become less
-//! than that roughness leaves, the plate strikes the face and takes its speed, which may throw it up to (a ω)²/2g high.
+//! marched by Verlet's method, which is of second order, with the film's force at the end of each step. The plate bounces on the film and
+//! settles where the film carries it ([`mod@crate::plate::floating`]); without vibration it sinks until it rests on its roughness. If the
+//! gap would become smaller than the roughness allows, the face strikes the plate, which takes the face's speed; this may throw it up to (a
+//! ω)²/2g high.
 //!
-//! A step of the scheme carries W, which is Z half a step ahead (`film::stepper`). Where the next step is longer or shorter, W is
-//! taken that much further ahead: W = Z + (W − Z) Δt'/Δt. Steps grow twofold at most.
+//! A step of the scheme carries W, which is Z extrapolated by half a step (`film::stepper`). When the step length changes, the
+//! extrapolation is scaled in proportion: W = Z + (W − Z) Δt'/Δt. A step is at most twice as long as the one before.
 
 use crate::estimate::extrapolate;
 use crate::film::grid::FilmGrid;
@@ -29,24 +30,25 @@ use std::f64::consts::{PI, TAU};
 
 /// Gaps that a plate may be held at, as multiples of its mean gap.
 pub const REACH: [f64; 2] = [0.2, 3.0];
-/// Largest change of ln h in a step, and the longest step over the leak time of the present gap and pressure.
+/// Largest change of ln h in a step, and the longest step as a fraction of the leak time at the present gap and pressure.
 const LONGEST_MOVE: f64 = 0.04;
 const LONGEST_STEP: f64 = 1.0 / 40.0;
-/// Least step of a plate that falls, over the longest one in which it moves by no more than it may.
+/// Shortest step of a falling plate, as a fraction of the longest step that the plate's own motion allows.
 const LEAST_STEP: f64 = 1.0 / 8.0;
-/// By how much a step may be longer than the one before.
+/// Largest ratio of a step to the one before.
 const GROWTH: f64 = 2.0;
 /// Least W over Z after a change of the step.
 const CARRIED_FLOOR: f64 = 0.1;
 
 /// Warning about a plate that the vibrating face has struck ([`Free::struck`]).
-pub const STRUCK: &str = "The vibrating face has struck the plate, which took the face's speed; the model does not describe how a real
-plate rebounds";
+pub const STRUCK: &str =
+    "The vibrating face has struck the plate, which took the face's speed; the model does not describe how a real plate rebounds";
 
-/// Steps in a cycle of the vibration, and the longest step over the time in which the gas under a plate that falls turns it round.
+/// Steps in a cycle of the vibration, and the longest step as a fraction of the time in which the gas under a falling plate reverses its
+/// motion.
 const STEPS_IN_CYCLE: f64 = 96.0;
 const SHARE_OF_BOUNCE: f64 = 0.1;
-/// Cycles within which the vibration comes up, or ends.
+/// Cycles in which the vibration builds up or dies out.
 const RAMP: f64 = 4.0;
 
 /// Instantaneous state of a held plate, as shown to the user.
@@ -58,7 +60,7 @@ pub struct Reading {
     pub gap: f64,
     /// Net gauge force on the plate \[N; of a strip N/m\], positive apart.
     pub force: f64,
-    /// Estimated numerical error of `force`, absolute.
+    /// Estimated numerical error of `force`, absolute, in the same unit.
     pub error: f64,
     /// Force over ambient pressure × area.
     pub ratio: f64,
@@ -80,7 +82,8 @@ pub fn leak_time(plate: &Plate, gap: f64) -> f64 {
     1.0 / (diffusivity * mode)
 }
 
-/// The first of equal steps, of `most` at most, from `done` to `duration`, so that none is a crumb; `done` is moved on by it.
+/// The first of equal steps, none longer than `most`, from `done` to `duration`; equal, so that the last one is not very short. `done` is
+/// advanced by it.
 fn even_step(done: &mut f64, duration: f64, most: f64) -> f64 {
     let left = duration - *done;
     let count = (left / most).ceil().max(1.0);
@@ -97,14 +100,14 @@ pub struct Hold {
     gap: f64,
     time: f64,
     free: Free,
-    /// Of a plate that was let go, over the last cycle of the vibration, and over the present one so far.
+    /// For a released plate: the integrals over the last cycle of the vibration, and over the present one so far.
     cycle: Integrals,
     running: Integrals,
-    /// By how much steps are shorter than usual.
+    /// Factor by which steps are shorter than usual.
     finer: f64,
 }
 
-/// The motion of a plate that is let go; at rest while it is held.
+/// The motion of a released plate; at rest while it is held.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Free {
     /// Speed of the plate, upwards \[m/s\].
@@ -115,18 +118,18 @@ pub struct Free {
     pub phase: f64,
     /// Steps in which it rested on its roughness.
     pub rests: u64,
-    /// Whether it has done so while the face vibrated: it was struck.
+    /// Whether it has rested on its roughness while the face vibrated, that is, was struck.
     pub struck: bool,
 }
 
-/// Integrals over a time.
+/// Integrals over a period of time.
 #[derive(Clone, Debug, Default)]
 struct Integrals {
-    /// The time \[s\].
+    /// Duration \[s\].
     time: f64,
-    /// Of the force \[N s; of a strip N s/m\].
+    /// Integral of the force \[N s; of a strip N s/m\].
     impulse: f64,
-    /// Of pressure over ambient pressure under the unknown nodes of the finer grid \[s\].
+    /// Integral of pressure over ambient pressure at the unknown nodes of the finer grid \[s\].
     ratio: Vec<f64>,
 }
 
@@ -155,7 +158,7 @@ impl Free {
 impl Hold {
     /// At rest at the mean gap, gas at ambient pressure, on the finest grid of `plan` and on one twice as fine.
     pub fn new(plate: &Plate, plan: &Plan) -> Self {
-        // A hand may be fast: layers thinner than any polynomial across resolves.
+        // A hand may move fast and make layers too thin for any polynomial across to resolve.
         let plan = &plan.volumes().not_turned();
         let coarse = &plan.grids[plan.grids.len() - 1];
         let fine = HeldFilm::new(plate, plan, &coarse.finer(plan.spectral));
@@ -172,7 +175,7 @@ impl Hold {
         }
     }
 
-    /// Makes the steps so many times shorter.
+    /// Makes the steps shorter by this factor.
     pub fn finer(self, times: f64) -> Self {
         Self { finer: times, ..self }
     }
@@ -191,8 +194,8 @@ impl Hold {
         if gap.is_finite() { gap.clamp(least, most) } else { plate.mean_gap }
     }
 
-    /// Moves the plate evenly to `gap` \[m\], or as near as it may come, within `duration` \[s\] of the film's time. In no time
-    /// nothing flows: the trapped gas is compressed as Boyle has it.
+    /// Moves the plate at constant speed to `gap` \[m\], or as near to it as it may come, within `duration` \[s\] of film time. If
+    /// `duration` is 0, nothing flows: the trapped gas is compressed by Boyle's law.
     ///
     /// # Errors
     /// [`FilmError`] if a step has no solution to working precision.
@@ -217,14 +220,14 @@ impl Hold {
         Ok(())
     }
 
-    /// Takes the plate in the hand.
+    /// Ends free motion: the plate is held.
     fn held(&mut self) {
         self.free = Free::default();
         self.cycle.clear();
         self.running.clear();
     }
 
-    /// The longest step \[s\] that the film may take, at most `most`, and `least` whatever leaks.
+    /// The longest step \[s\] that the film allows, at most `most`; the leak time does not make it shorter than `least`.
     fn longest_step(&self, most: f64, least: f64) -> f64 {
         let greatest_ratio = self.fine.state.trapped.iter().fold(1.0, |most: f64, z| most.max(z / self.gap));
         let leak = leak_time(&self.plate, self.gap) / greatest_ratio;
@@ -232,7 +235,7 @@ impl Hold {
         self.coarse.last_step.map_or(most, |last| most.min(GROWTH * last))
     }
 
-    /// One step of both films through these gaps, halfway and at its end.
+    /// One step of both films to the gap at its end; the finer one takes two, by way of the gap halfway.
     fn step(&mut self, [halfway, end]: [f64; 2], step: f64) -> Result<(), FilmError> {
         self.coarse.step(end, step)?;
         self.fine.step(halfway, 0.5 * step)?;
@@ -243,8 +246,9 @@ impl Hold {
     }
 
     /// Lets the plate move freely for `duration` \[s\] of film time from its present position and speed, above a face that vibrates or
-    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force over the last cycle
-    /// of the vibration, or without vibration that of the last step; the pressure of which that is the force is [`Self::mean_pressure`].
+    /// comes to rest. A plate without a load stays where it is. Returns the gap without the vibration at the end, and the mean force over
+    /// the last cycle of the vibration, or without vibration the force of the last step. [`Self::mean_pressure`] gives the pressure
+    /// averaged in the same way.
     ///
     /// # Errors
     /// [`FilmError`] if a step has no solution to working precision.
@@ -262,7 +266,7 @@ impl Hold {
             let closing = (free.speed - omega * free.amplitude * free.phase.sin()).abs();
             let approach = LONGEST_MOVE * self.gap / closing.max(f64::MIN_POSITIVE);
             let most = cycle.min(bounce).min(approach);
-            // A film that leaks much faster than the plate moves follows at once.
+            // A film that leaks much faster than the plate moves is quasi-steady: its leak time does not limit the step.
             let step = even_step(&mut done, duration, self.longest_step(most, LEAST_STEP * most));
             let ramp = self.plate.amplitude * omega * step / (TAU * RAMP);
             let towards = |share: f64| free.amplitude + (wanted - free.amplitude).clamp(-share * ramp, share * ramp);
@@ -280,7 +284,7 @@ impl Hold {
             self.integrate(0.5 * step, force);
             free.speed = speed + 0.5 * step * (force / mass - GRAVITY);
             if end <= least {
-                // It goes with the face that it rests on.
+                // The plate moves with the face that it rests on.
                 free.speed = omega * free.amplitude * free.phase.sin();
                 free.rests += 1;
                 free.struck |= free.amplitude > 0.0;
@@ -304,12 +308,12 @@ impl Hold {
         self.running.add(step, force, self.fine.state.trapped.iter().map(|z| z / gap));
     }
 
-    /// The last cycle, or as much as there is of the first; `None` of a plate that was not let go.
+    /// The integrals of the last cycle, or of the first one so far; `None` for a plate that was not released.
     fn lately(&self) -> Option<&Integrals> {
         [&self.cycle, &self.running].into_iter().find(|lately| lately.time > 0.0)
     }
 
-    /// Whether it neither moves nor is shaken.
+    /// Whether the plate is at rest and the face does not vibrate.
     pub fn is_still(&self) -> bool {
         self.free.speed == 0.0 && self.free.amplitude == 0.0
     }
@@ -324,7 +328,7 @@ impl Hold {
         self.gap - self.free.lowered()
     }
 
-    /// Puts it to rest at `gap` \[m\], wherever that is, with gas at ambient pressure.
+    /// Puts the plate to rest at `gap` \[m\], without limits, with gas at ambient pressure.
     pub fn rest_at(&mut self, gap: f64) {
         (self.gap, self.time) = (gap, 0.0);
         self.held();
@@ -368,7 +372,7 @@ impl Hold {
         self.at_nodes(|unknown| self.fine.state.trapped[unknown] / self.gap)
     }
 
-    /// Absolute pressure at the same nodes \[Pa\], mean over the time of which [`Self::fall`] gives the force.
+    /// Absolute pressure at the same nodes \[Pa\], averaged over the same time as the force that [`Self::fall`] returns.
     pub fn mean_pressure(&self) -> impl Iterator<Item = f64> {
         let lately = self.lately();
         self.at_nodes(move |unknown| match lately {
@@ -377,7 +381,7 @@ impl Hold {
         })
     }
 
-    /// Absolute pressure \[Pa\] at the nodes, of its `ratio` to ambient pressure at those where it is unknown.
+    /// Absolute pressure \[Pa\] at all nodes, given its `ratio` to ambient pressure at the unknown nodes.
     fn at_nodes(&self, ratio: impl Fn(usize) -> f64) -> impl Iterator<Item = f64> {
         let grid = self.grid();
         let (ux, uy, ny) = (grid.x.unknown(), grid.y.unknown(), grid.y.len());
@@ -389,8 +393,8 @@ impl Hold {
         })
     }
 
-    /// Trapped gas \[m³, at ambient pressure; of a strip m²\] under the nodes whose pressure is unknown, half a step ahead: what
-    /// a step of the scheme balances.
+    /// Trapped gas \[m³, at ambient pressure; of a strip m²\] under the nodes whose pressure is unknown, extrapolated by half a step: the
+    /// quantity that a step of the scheme conserves.
     pub fn carried_gas(&self) -> f64 {
         self.fine.sum(&self.fine.state.carried)
     }
@@ -444,7 +448,7 @@ impl HeldFilm {
         Ok(())
     }
 
-    /// Sum of `field` × area over the unknown nodes, all quarters.
+    /// Sum of `field` × area over the unknown nodes of the whole plate.
     fn sum(&self, field: &[f64]) -> f64 {
         let grid = self.film.grid();
         let (uy, copies) = (grid.y.unknown(), grid.x.copies() * grid.y.copies());

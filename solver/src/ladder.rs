@@ -1,8 +1,9 @@
-//! Grids of half the spacing, one after the other, until the stated error is what was asked for.
+//! Successive grids, each of half the spacing of the one before, until the stated error is the one asked for.
 //!
-//! Two things are refined. Across the width the field is one polynomial: on the coarsest grid its nodes grow one by one until the
-//! last of them hardly changes the headline, and that many are used on every grid. Along and in time each grid halves the one before
-//! and starts from its state: first those of the plan, which an extrapolation needs, then as many as it takes.
+//! Two things are refined. Across the width the field is one polynomial: on the coarsest grid its nodes are increased one at a time until
+//! the last one hardly changes the headline, and that number is used on every grid. Along and in time each grid has half the spacing of the
+//! one before and starts from its state: first the grids of the plan, which an extrapolation needs, then as many more as the accuracy
+//! takes.
 
 use crate::control::Cancel;
 use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
@@ -10,11 +11,11 @@ use crate::plan::{Grid, Plan};
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{Outcome, Stats, Status};
 
-/// Least share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
+/// The error of the nodes across that are missing is at least this fraction of the change due to the last one (calibrated:
 /// docs/validation.md).
 const WIDTH_SHARE: f64 = 0.15;
-/// Share of what the polynomial before it changed below which the last one changed little by chance; and the slowest approach that the error is
-/// taken for.
+/// The change due to the last node is taken to be small by chance if it is below this fraction of the change before it; and the largest
+/// ratio of successive changes that the error estimate assumes.
 const BY_CHANCE: f64 = 0.1;
 const SLOWEST_ACROSS: f64 = 0.6;
 /// Requested relative error below which the coarsest grid is also solved with two nodes fewer across, so that the first change can be
@@ -26,10 +27,10 @@ pub trait GridState {
     /// The headline.
     fn headline(&self) -> Mean;
 
-    /// The headline at instant 0: the present, between two cycles of a transient.
+    /// The headline at instant 0: the present state, between two cycles of a transient.
     fn now(&self) -> f64;
 
-    /// Reference for the relative error that is asked for.
+    /// Reference of the relative error that is asked for.
     fn unit(&self) -> f64;
 
     /// Time steps in a cycle.
@@ -38,7 +39,7 @@ pub trait GridState {
     /// Unknown nodes across.
     fn across(&self) -> usize;
 
-    /// Notes how many nodes and steps it has.
+    /// Writes its numbers of nodes and steps to `stats`.
     fn count(&self, stats: &mut Stats);
 }
 
@@ -46,14 +47,14 @@ pub trait GridState {
 pub trait GridSolver {
     /// Its state on one grid.
     type Level: GridState;
-    /// Why it cannot be solved.
+    /// Why a solve fails.
     type Error;
-    /// Share of the error asked for that the nodes across may have.
+    /// Fraction of the error asked for that is allowed for the nodes across.
     const WIDTH_AIM: f64;
-    /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
+    /// Largest work of a round, `Grid::work`, on grids beyond those of the plan, times the square root of the error asked for.
     const MOST_WORK: f64;
 
-    /// Solves on `grid` of `plan`, started from `start`, which is the state of another scene if `similar`. `number` counts the grids
+    /// Solves on `grid` of `plan`, starting from the state `start`, which is that of another scene if `similar`. `number` counts the grids
     /// from 0.
     ///
     /// # Errors
@@ -67,7 +68,7 @@ pub trait GridSolver {
         number: usize,
     ) -> Result<(Status, Self::Level), Self::Error>;
 
-    /// Whether the headline is as accurate as `plan` asks, or further grids would not make it so.
+    /// Whether the headline is as accurate as `plan` asks, or finer grids would not make it so.
     fn settled(&self, plan: &Plan, found: &SolvedGrids<Self::Level>) -> bool;
 }
 
@@ -80,15 +81,15 @@ pub struct SolvedGrids<L> {
     pub levels: Vec<L>,
     /// The grids that converged.
     pub grids: Vec<Grid>,
-    /// Whether across them a field is a polynomial.
+    /// Whether fields are polynomials across the width.
     pub spectral: bool,
-    /// The coarsest grid with one node less across, and the error of the headline for want of more; `None` with finite volumes.
+    /// The coarsest grid with one node fewer across, and the error of the headline due to missing nodes; `None` with finite volumes.
     pub narrower: Option<(L, f64)>,
-    /// How much the polynomial before the last changed the headline there; 0 if it is not known.
+    /// Change of the headline on that grid due to the last node but one; 0 if it is not known.
     before: f64,
 }
 
-/// A periodic state: the numbers, how they were reached, and the fields.
+/// A periodic state: the numbers, the course of the solve, and the fields.
 #[derive(Clone, Debug)]
 pub struct Periodic<R> {
     /// How the finest grid ended.
@@ -104,7 +105,7 @@ pub struct Periodic<R> {
 }
 
 impl<R: Default> Periodic<R> {
-    /// One that ended so before any grid was solved.
+    /// A result without numbers, for a solve that ended with `status` before any grid was solved.
     pub fn ended(status: Status) -> Self {
         Self {
             status,
@@ -122,7 +123,7 @@ impl<L: GridState> SolvedGrids<L> {
         self.levels.iter().map(L::headline).collect()
     }
 
-    /// How it was reached, without numbers and fields; `stats` is what it cost.
+    /// The course of the solve, without numbers and fields; `stats` is its cost.
     pub fn reached<R: Default>(&self, mut stats: Stats) -> Periodic<R> {
         if let Some(level) = self.levels.last() {
             level.count(&mut stats);
@@ -131,12 +132,12 @@ impl<L: GridState> SolvedGrids<L> {
         Periodic { headlines, stats, ..Periodic::ended(self.status) }
     }
 
-    /// Estimated error of the headline of a polynomial with so many nodes across, absolute.
+    /// Estimated error of the headline due to the limited number of nodes across, absolute.
     pub fn width_error(&self) -> f64 {
         self.narrower.as_ref().map_or(0.0, |(_, error)| *error)
     }
 
-    /// `plan`, which this was found by, on exactly these grids: none is added or left out.
+    /// `plan`, by which this was found, pinned to exactly these grids: none is added or left out.
     pub fn pinned(&self, plan: &Plan) -> Plan {
         let plan = if plan.spectral && !self.spectral { plan.volumes() } else { plan.clone() };
         let (most_grids, most_across) = (self.grids.len(), self.grids.first().map_or(0, |grid| grid.across));
@@ -157,12 +158,12 @@ impl<L: GridState> SolvedGrids<L> {
     }
 }
 
-/// A result from all grids of a solve, and the same without the finest: the less these differ, the more accurate are both.
+/// A result from all grids of a solve, and the same without the finest grid: the less the two differ, the more accurate both are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nested<T> {
-    /// By all grids.
+    /// From all grids.
     pub fine: T,
-    /// By all but the finest; `None` of a single grid.
+    /// From all but the finest; `None` if there is only one grid.
     pub coarse: Option<T>,
 }
 
@@ -173,9 +174,9 @@ impl<T> Nested<T> {
     }
 }
 
-/// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
-/// the best so far is what there is. A polynomial across the width can oscillate to negative pressure. A scene that fails this way
-/// is solved with finite volumes, which keep the pressure positive.
+/// Solves the grids of `plan`, and finer ones, starting from the result of a similar scene if there is one, until the error is small enough
+/// or the budget of `cancel` is spent; the best result so far is then returned. A polynomial across the width can oscillate to negative
+/// pressure. A scene that fails this way is solved with finite volumes, which keep the pressure positive.
 pub fn climb<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
@@ -190,7 +191,7 @@ pub fn climb<S: GridSolver>(
     climb_once(scene, &plan.volumes(), None, cancel)
 }
 
-/// As [`climb`], by this plan alone.
+/// As [`climb`], with this plan only.
 pub fn climb_once<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
@@ -217,7 +218,7 @@ pub fn climb_once<S: GridSolver>(
         let (status, level) = scene.solve(plan, &grid, start, similar.is_some(), number)?;
         number += 1;
         if number > plan.grids.len() && status != Status::Converged {
-            // What the coarser grids gave stands.
+            // The result of the coarser grids remains valid.
             if cancel.is_cancelled() {
                 found.status = status;
             }
@@ -259,9 +260,9 @@ pub struct TransientCycle {
     pub recording: Recording,
     /// Largest change of ln Z from its beginning to its end.
     pub change: f64,
-    /// Error of its headline that finer grids would not make smaller, absolute.
+    /// The part of the headline's error that finer grids would not reduce, absolute.
     pub elsewhere: f64,
-    /// The largest residual of its steps if film and contact did not agree in all of them, and what was allowed, in ln ζ.
+    /// If film and contact did not agree in every step: the largest residual of a step, and the allowed one, in ln ζ.
     pub unsettled: Option<(f64, f64)>,
 }
 
@@ -277,8 +278,8 @@ pub struct Marched {
     pub end: f64,
 }
 
-/// Marches each of `levels`, coarse to fine, by one `cycle`, which hands over the state as its frames are known and returns the largest
-/// change of ln Z; `lines` are the fields of a coarser grid, with which `recorded` makes those of the finest one.
+/// Marches each of `levels`, coarse to fine, by one `cycle`, which passes on the state once its frames are known and returns the largest
+/// change of ln Z; `lines` returns the fields of a coarser grid, and `recorded` makes those of the finest grid with them.
 pub fn march_cycle<L: GridState, E>(
     levels: &mut [L],
     stats: &mut Stats,
@@ -302,8 +303,8 @@ pub fn march_cycle<L: GridState, E>(
     Ok(Marched { recording, change, mean: extrapolate_means(&means), end: extrapolate(&ends).value })
 }
 
-/// Error of a polynomial across for want of more nodes, from how much the last one `change`d and the one `before` it: that of a geometric series.
-/// Where `before` is not known (0) or the last change is small by chance, a share of the greater one.
+/// Error due to missing nodes across, from the `change` due to the last node and the one due to the node `before` it, as a geometric
+/// series. Where `before` is not known (0) or the last change is small by chance, the error is a fraction of the larger change.
 pub fn error_across(change: f64, before: f64) -> f64 {
     if change < BY_CHANCE * before {
         return WIDTH_SHARE * before;
@@ -312,7 +313,8 @@ pub fn error_across(change: f64, before: f64) -> f64 {
     change * WIDTH_SHARE.max(ratio / (1.0 - ratio))
 }
 
-/// Solves the coarsest grid with more and more nodes across, at least `first`, until one less hardly matters; how many that are.
+/// Solves the coarsest grid with more and more nodes across, at least `first`, until the last node hardly matters. Returns the number of
+/// nodes.
 fn settle_across<S: GridSolver>(
     scene: &mut S,
     plan: &Plan,
@@ -323,7 +325,7 @@ fn settle_across<S: GridSolver>(
     let mut across = first;
     let coarsest = plan.grids[0];
     let similar = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
-    // Two nodes less, which show whether the next change is small by chance; where that fails, nothing is lost.
+    // A solve with two nodes fewer shows whether the next change is small by chance; if it fails, the estimate does without it.
     let mut two_less = None;
     if plan.target_error < EXACTING && similar.is_none() && across > 2 {
         let solved = scene.solve(plan, &Grid { across: across - 2, ..coarsest }, None, false, 0);

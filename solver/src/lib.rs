@@ -1,13 +1,13 @@
 //! The solver of squeezefilm: what a few hundred nanometres of air do between the teeth of an ultrasonic motor and its rotor.
 //!
-//! It takes a [`problem::Problem`], checked and in SI units, and gives a [`solution::Solution`], plain data. It knows no file, no
-//! clock, no terminal and no window: for those, and for presets from which a problem is made, see the crate `squeezefilm`, which
-//! has all modules of this one under the same names.
+//! It takes a [`problem::Problem`], which is checked and in SI units, and returns a [`solution::Solution`], which is plain data. It knows
+//! no files, no clock, no terminal and no window: for those, and for the presets from which a problem is made, see the crate `squeezefilm`,
+//! which re-exports all modules of this one under the same names.
 //!
 //! # Equations
 //!
-//! On every tooth the compressible Reynolds equation with slip; at every point of a tooth top a unilateral contact with a
-//! rotor of compliance C(k); for every wavelength a balance of load:
+//! On every tooth the compressible Reynolds equation with slip; at every point of a tooth top a unilateral contact with a rotor of
+//! compliance C(k); for every wavelength a load balance:
 //!
 //! ```text
 //! ∂Z/∂t = ∇·[ p_a/(12μ) h² ψ(Z) ∇P ] − ∂x[ Z U/2 ],   P = p/p_a = 1 on the edges,   Z = hP   (film)
@@ -17,12 +17,12 @@
 //!
 //! # Scaling
 //!
-//! Public numbers are in SI units, unless a name says otherwise. The film works with the pressure ratio P and with the
-//! trapped height Z = hP in metres: the layer that the gas above a point would make at ambient pressure. The numbers that
-//! tell the regime, σ, Λ and Kn, are in [`dimensionless`].
+//! Public numbers are in SI units, unless a name says otherwise. The film works with the pressure ratio P and with the trapped height Z =
+//! hP in metres: the thickness of the layer that the gas above a point would form at ambient pressure. The numbers that characterise the
+//! regime, σ, Λ and Kn, are in [`dimensionless`].
 //!
-//! Which module uses which is in `ARCHITECTURE.md`, the equations with their derivation are in `docs/theory.md`, measured errors in
-//! `docs/validation.md`.
+//! `ARCHITECTURE.md` shows which module uses which, `docs/theory.md` derives the equations, and `docs/validation.md` gives the measured
+//! errors.
 
 pub mod budget;
 pub mod contact;

@@ -1,7 +1,7 @@
-//! Memory: what a solve needs, known from its plan before anything is allocated.
+//! Memory that a solve needs, estimated from its plan before anything is allocated.
 //!
-//! An estimate counts the arrays that grow with the grid, family by family, where they are greatest together.
-//! `tests/memory_needs.rs` compares it with what is allocated.
+//! An estimate adds up the arrays that grow with the grid, at the moment when their total is largest. `tests/memory_needs.rs` compares it
+//! with the memory that is actually allocated.
 
 use crate::budget::Purpose;
 pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
@@ -10,11 +10,11 @@ use crate::numerics::system::MANY_COLUMNS;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
 
-/// Bytes up to which grids are refined beyond those of the plan, and up to which the states that a solve ends with are kept to start
-/// the next from. A constant, since either changes results, which are not to depend on the machine.
+/// Bytes up to which grids are refined beyond those of the plan, and up to which the final states of a solve are kept as a start for the
+/// next one. It is a constant because both affect results, which must not depend on the machine.
 pub const REFINED: u64 = 256_000_000;
 
-// What follows counts numbers of eight bytes, until the needs that are public turn them into bytes.
+// Below, memory is counted in numbers of eight bytes; only the public needs are in bytes.
 
 /// Nodes of one film.
 struct Film {
@@ -69,28 +69,28 @@ impl Film {
     }
 }
 
-/// Whether a film of so many unknown nodes across is solved line by line.
+/// Whether a film with so many unknown nodes across is solved line by line.
 fn lines(plan: &Plan, columns: u64) -> bool {
     !plan.spectral && columns >= MANY_COLUMNS as u64
 }
 
-/// Vectors of the unknowns that an acceleration of this depth keeps once it has gone on for as many rounds, its caller's two
-/// included (`numerics::anderson`). Most solves end before.
+/// Number of vectors of unknowns that an acceleration of this depth keeps once as many rounds are done, including the two of its caller
+/// (`numerics::anderson`). Most solves end before that.
 fn accelerated(depth: u64) -> u64 {
     2 * depth + 4
 }
 
-/// The fields of a cycle (`recording`), in lines of the finest grid and in pressure maps: those that are kept, with what their
-/// errors come from, and all of them while they are extrapolated.
+/// The fields of a cycle (`recording`), as a number of lines of the finest grid and of pressure maps: those that are kept, with the
+/// yardsticks of their errors, and the total while they are extrapolated.
 const KEPT_LINES: u64 = 10;
 const EXTRAPOLATED_LINES: u64 = 16;
-/// Numbers that do not grow with the grid, and those of the coarsest grid with one node less across.
+/// Numbers that do not grow with the grid, including those of the coarsest grid with one node fewer across.
 const FIXED: u64 = 8192;
-/// As `EXTRAPOLATED_LINES`, of a motor: its torque is integrated from the contact, and its errors from that on other grids (`drive`).
+/// As `EXTRAPOLATED_LINES`, for a motor: its torque and the error of its torque are integrals of the contact on several grids (`drive`).
 const MOTOR_LINES: u64 = 40;
 const EXTRAPOLATED_MAPS: u64 = 2;
 
-/// All grids of a plan, those included to which it may be refined.
+/// All grids of a plan, including those to which it may be refined.
 fn grids(plan: &Plan) -> Vec<Grid> {
     let more = 1 + usize::from(plan.target_error < EXACTING);
     let grown = |grid: &Grid| if plan.spectral { (grid.across + more).min(plan.most_across) } else { grid.across };
@@ -101,8 +101,8 @@ fn grids(plan: &Plan) -> Vec<Grid> {
     grids
 }
 
-/// `plan`, refined no further than [`REFINED`] and the budget allow, whatever that leaves of its accuracy: of the grids that were
-/// asked for there is none less.
+/// `plan`, with as few additional grids as [`REFINED`] and the budget require, even if its accuracy suffers; the grids of the plan itself
+/// are all kept.
 pub fn within(mut plan: Plan, need: impl Fn(&Plan) -> Need) -> Plan {
     while plan.most_grids > plan.grids.len() && need(&plan).bytes > REFINED.min(allowed()) {
         plan.most_grids -= 1;
@@ -121,7 +121,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
     let lines = (6 + u64::from(plan.shear)) * stored * steps * film.along;
     let stator = instants * nodes;
     let modes = 4 * harmonics * nodes + 8 * nodes;
-    // Of a Newton step: the equations, their factors, and what they are made of.
+    // Matrices of a Newton step: the equations, their factors, and their parts.
     let matrices = 3 * nodes.min(2 * harmonics).pow(2);
     let shapes = 2 * harmonics * instants;
     films + lines + stator + modes + matrices + shapes
@@ -177,7 +177,7 @@ pub fn plate(plate: &Plate, plan: &Plan) -> Need {
     of_plate(plate, plan, levels + beside)
 }
 
-/// Fields of a transient's cycle: those that are being made, and so many cycles that whoever asked for them keeps.
+/// Fields of a transient's cycle: those in progress, and the number of cycles that the caller keeps.
 fn transient(film: &Film, stored: u64, steps: u64, maps: bool, kept: usize) -> u64 {
     let (lines, maps) = (stored * steps * film.along, if maps { stored * steps * film.nodes } else { 0 });
     3 * EXTRAPOLATED_LINES / 2 * lines + EXTRAPOLATED_MAPS * maps + kept as u64 * (KEPT_LINES * lines + maps)

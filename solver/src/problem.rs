@@ -29,7 +29,7 @@ macro_rules! named {
 }
 
 named! {
-    /// How gas slips at the walls: the factor Q by which the Poiseuille flow exceeds the continuum one.
+    /// How gas slips at the walls: the ratio Q of the Poiseuille flow to that of the continuum.
     Slip {
         /// Q = 1: no slip.
         #[default]
@@ -154,13 +154,13 @@ impl Motor {
         1.0 / self.frequency
     }
 
-    /// Torque μ_d waves N r \[N m\] on the whole ring of a contact load N of `load` \[N\] on one wavelength, if all of it drags
-    /// one way: with N = L that of the motor without air, with N = (1 − α) L the paper's maximum operating torque.
+    /// Torque μ_d waves N r \[N m\] on the whole ring for a contact load N of `load` \[N\] on one wavelength, if all of it pulls one way.
+    /// With N = L it is that of the motor without air, with N = (1 − α) L the paper's maximum operating torque.
     pub fn friction_torque(&self, load: f64) -> f64 {
         self.dry_friction * f64::from(self.waves) * load * self.contact_radius
     }
 
-    /// By how much the film is thicker than the gap that is shown \[m\]: H_m; nothing over asperities, where the gap is the mean one.
+    /// Difference between film thickness and displayed gap \[m\]: H_m, or 0 over asperities, where the gap shown is the mean one.
     pub fn spacing(&self) -> f64 {
         if self.surface.asperities.is_some() { 0.0 } else { self.min_spacing }
     }
@@ -210,7 +210,7 @@ pub fn rpm(speed: f64, radius: f64) -> f64 {
 
 /// Standard acceleration of gravity \[m/s²\].
 pub const GRAVITY: f64 = 9.80665;
-/// Highest mean gap at which a plate may float \[m\]: no film is as thick.
+/// Highest mean gap at which a plate may float \[m\]: no film is that thick.
 pub const HIGHEST: f64 = 1e-3;
 
 /// The shape of a plate, whatever its size.
@@ -239,11 +239,11 @@ pub struct Plate {
     pub length: f64,
     /// Width along y \[m\]; `None` is a round plate or an infinitely wide strip, whose forces are per metre of width.
     pub width: Option<f64>,
-    /// Of a round plate the radius of its hole \[m\], open to the gas around; 0 of a disc. `None`: not round.
+    /// Radius of the hole of a round plate \[m\], open to the surrounding gas; 0 for a disc, `None` for a plate that is not round.
     pub hole: Option<f64>,
     /// Mean gap \[m\]. Under a load it is a first guess, [`Plate::trapped_gap`], until a solve has found it (`solution::settled`).
     pub mean_gap: f64,
-    /// Load that the film is to carry in the mean of the cycle \[N; of a strip N/m\], on a plate too heavy to shake; `None`: the mean gap
+    /// Load that the film carries in the mean over the cycle \[N; of a strip N/m\], on a plate too heavy to shake; `None` if the mean gap
     /// is given.
     pub load: Option<f64>,
     /// Least gap that the roughness leaves \[m\]: a plate under a load that would come closer rests on it. Unused without a load.
@@ -396,8 +396,8 @@ named! {
     }
 }
 
-/// Explicit numerics of a preset's optional `[numerics]` table; each `None` or `Auto` is left to the fidelity or the
-/// plan. The fields are named as the keys, and go to and fro by those names.
+/// Explicit numerics of a preset's optional `[numerics]` table; each `None` or `Auto` is left to the fidelity or the plan. The fields have
+/// the names of the keys and are serialised under them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Numerics {

@@ -21,7 +21,7 @@ pub enum Status {
         /// Relative change below which the iteration would have ended.
         tolerance: f64,
     },
-    /// The cycle repeats, but the headline's stated error is as large as the headline: these grids do not tell it.
+    /// The cycle repeats, but the stated error of the headline is as large as the headline: these grids do not resolve it.
     NotResolved {
         /// Stated error over the headline, at least 1.
         error: f64,
@@ -30,7 +30,7 @@ pub enum Status {
     Cancelled,
 }
 
-/// Why a solve was content with the grids it had.
+/// Why a solve stopped refining its grids.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StoppedBy {
     /// The stated error is what was asked for.
@@ -125,7 +125,7 @@ pub struct Performance {
     pub max_power_speed: Option<Estimate>,
     /// Greatest efficiency; `None` without contact.
     pub max_efficiency: Option<Estimate>,
-    /// Its speed \[m/s\].
+    /// Speed of the greatest efficiency \[m/s\].
     pub max_efficiency_speed: Option<Estimate>,
     /// At the rotor speed of the scene.
     pub present: OperatingPoint,
@@ -147,18 +147,18 @@ pub struct Floating {
     pub slow: Option<SlowMotion>,
 }
 
-/// How a mass moves that floats on a film and is pushed: it creeps back, swings, or both.
+/// Motion of a mass that floats on a film and is displaced: it creeps back, oscillates, or both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SlowMotion {
-    /// Damping of motion so slow that gas has time to leave \[N s/m, of a strip per metre of width\].
+    /// Damping of a motion so slow that gas has time to leave \[N s/m, of a strip per metre of width\].
     pub damping: Estimate,
-    /// The same over the one at which a mass on the stiffness against slow motion no longer swings, 2 √(k m).
+    /// Damping ratio: this damping over the critical damping 2 √(k m) with the stiffness k against slow motion.
     pub damping_ratio: Estimate,
-    /// Time constant of creeping back \[s\]; `None` if next to nothing of a push does.
+    /// Time constant of creep back to equilibrium \[s\]; `None` if creep is negligible.
     pub creep_time: Option<Estimate>,
-    /// Frequency at which it swings \[Hz\], and the time constant with which that dies out \[s\]; `None` if it does not.
+    /// Frequency of the oscillation \[Hz\]; `None` if the mass does not oscillate.
     pub swing_frequency: Option<Estimate>,
-    /// See `swing_frequency`.
+    /// Time constant of the oscillation's decay \[s\]; `None` if the mass does not oscillate.
     pub swing_decay: Option<Estimate>,
 }
 

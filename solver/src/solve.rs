@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 /// How to solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
-    /// Ours: only what the scene needs, at a fidelity.
+    /// Our own method: only what the scene needs, at a fidelity.
     #[default]
     Auto,
     /// The paper's algorithm, literally.
@@ -108,7 +108,7 @@ pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
     Ok(memory::check(need)?)
 }
 
-/// The plan, if there is one, and the memory that it needs.
+/// The plan, unless the paper's method is used, and the memory that is needed.
 fn planned(
     problem: &Problem,
     settings: &Settings,
@@ -185,7 +185,7 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
-    // A ring is computed within the budget, too.
+    // The time to compute a ring counts towards the budget, too.
     let cancel = &cancel.started();
     let spec = settings.fidelity.spec();
     let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
@@ -299,7 +299,7 @@ fn floated(
     }
 }
 
-/// That a plate does not float as it is, or that this is not known.
+/// A warning that the plate does not float stably, or that its stability is not known.
 fn unstable(floating: &Floating) -> Option<String> {
     let warning = match floating.stability() {
         Some(true) => return None,
@@ -351,7 +351,7 @@ fn touching(
     if !asked || !astray && !found.headlines.iter().any(|alpha| floats(*alpha)) {
         return None;
     }
-    // Its rounds are those of this solve only if its result is.
+    // The progress of this solve is reported only if its result is used.
     let mut nobody = ();
     let observer: &mut dyn Observer = if astray { observer } else { &mut nobody };
     let other = motor::touching(motor, plan, &mut found.stats, observer, cancel)?;
@@ -372,7 +372,7 @@ fn bistable(other: &Estimate) -> String {
     )
 }
 
-/// Relative error beyond which a result is said to be nothing.
+/// Relative error beyond which a result is reported as indistinguishable from zero.
 const NOTHING: f64 = 1e6;
 /// Share of a result that a switch leaves out, from which it is named.
 const TOO_MUCH: f64 = 0.5;

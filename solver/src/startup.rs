@@ -1,4 +1,4 @@
-//! Start-up: the transient from rest, cycle after cycle, until the cycle repeats.
+//! Start-up: the transient from rest, cycle after cycle, until it repeats.
 //!
 //! At t = 0 the wave stands still at its full amplitude, pressed against the rotor, and the gas is at ambient pressure; then it
 //! travels. Every tooth is marched and nothing is accelerated, because the way is the result. A plate is at rest at its mean gap and
@@ -30,7 +30,7 @@ const WIDTH_AIM: f64 = 0.3;
 /// One cycle of the transient.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cycle {
-    /// From 1. A cycle whose number was there before is the same one on finer grids, and replaces it.
+    /// Number of the cycle, from 1. A cycle with a number that was reported before is the same cycle on finer grids, and replaces it.
     pub number: usize,
     /// Means and extremes over this cycle, with the error that its grids show.
     pub outcome: Outcome,
@@ -45,7 +45,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The same, of whose fields only the film's load over the period is left.
+    /// The same cycle with only the film load over the period of its fields.
     pub fn slim(&self) -> Self {
         let Recording { period, film_load, .. } = &self.recording;
         let recording = Recording { period: *period, film_load: film_load.clone(), ..Recording::default() };
@@ -56,7 +56,7 @@ impl Cycle {
 /// How a start-up is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// How exact every cycle's headline is to be, as a share of the greatest of them.
+    /// Accuracy of every cycle's headline, as a fraction of the greatest headline of any cycle.
     pub fidelity: Fidelity,
     /// Cycles at most.
     pub cycles: usize,
@@ -96,7 +96,7 @@ pub struct Startup {
 }
 
 impl Startup {
-    /// One that was ended before anything is known of it.
+    /// A start-up that was cancelled before it had any result.
     pub fn cancelled() -> Self {
         Self {
             status: Status::Cancelled,
@@ -136,7 +136,7 @@ pub fn startup(
     let mut plan = plan(problem, settings, known, cancel)?;
     let mut way = Way::new(problem, settings, periodic.as_ref(), each);
     let mut stopped = match way.march(&plan, None, cancel) {
-        // A polynomial across may swing below no pressure at all; finite volumes cannot.
+        // A polynomial across may oscillate to negative pressure; finite volumes cannot.
         Err(SolveError::Motor(_) | SolveError::Plate(_)) if plan.spectral => {
             plan = plan.volumes();
             way.march(&plan, None, cancel)
@@ -151,10 +151,10 @@ pub fn startup(
         let before = way.worst();
         match way.march(&plan, Some(cycles), &cancel.within_budget()) {
             Ok(cut) => stopped = cut && cancel.is_cancelled(),
-            // What the coarser grids gave stands.
+            // The result of the coarser grids remains valid.
             Err(_) => break,
         }
-        // The grids that are left would not be enough.
+        // The remaining grids would not be enough.
         let left = plan.most_grids.saturating_sub(plan.grids.len());
         if way.worst() * (way.worst() / before).powi(left as i32) > allowed {
             break;
@@ -166,7 +166,7 @@ pub fn startup(
 /// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as accurate as
 /// was asked; coarse ones if there is a budget.
 fn plan(problem: &Problem, settings: &Settings, steps: usize, cancel: &Cancel) -> Result<Plan, SolveError> {
-    // A transient leaks: there is no limit to take.
+    // A transient leaks, so the limit of trapped gas does not apply.
     let numerics = Numerics { time: Time::March, ..problem.numerics };
     let (fidelity, spec) = (settings.fidelity, settings.fidelity.spec());
     let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
@@ -254,7 +254,7 @@ impl<'a> Way<'a> {
         }
         let tolerance = self.settings.tolerance;
         let (mut last, mut before) = (f64::INFINITY, 0.0);
-        // Where the last cycle is marched again it may turn out not to be the last.
+        // A last cycle that is marched again may turn out not to be the last.
         let again = again.filter(|cycles| *cycles < self.errors.len());
         for number in 1..=again.unwrap_or(self.settings.cycles) {
             let turned = next(&mut stats, cancel)?;
@@ -278,7 +278,7 @@ impl<'a> Way<'a> {
             };
             let towards = self.found.steady.filter(|_| number > 1).map_or(0.0, |steady| {
                 let (moving, left) = (value - before, steady.value - value);
-                // A motor may have two states, and come to rest in the other one.
+                // A motor may have two states, and settle in the other one.
                 let motor = matches!(self.problem.scenario, Scenario::Motor(_));
                 let rests = moved < tolerance / self.settings.cycles as f64;
                 let other = motor && (moving * left <= 0.0 || rests);
@@ -309,7 +309,7 @@ impl<'a> Way<'a> {
         Ok(false)
     }
 
-    /// The last cycle that finer grids would make as accurate as `allowed`, and are needed to.
+    /// The last cycle that needs finer grids, and that they would make as accurate as `allowed`.
     fn unresolved(&self, allowed: f64) -> Option<usize> {
         self.errors.iter().rposition(|(error, elsewhere)| *error > allowed && *elsewhere < allowed).map(|last| last + 1)
     }

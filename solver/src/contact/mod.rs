@@ -1,9 +1,9 @@
 //! Unilateral contact between the teeth and the elastic rotor at one instant, with the film's trapped gas in between.
 //!
-//! Unknown at every node: gap g_i ≥ 0 and contact line load c_i ≥ 0 with c_i g_i = 0, and the rigid offset z₀ from the
-//! load balance Σ Δx_i q_i = L. (Of faces that meet on asperities: see below.) The line load is q = c + film, the film's is that of a fixed amount of trapped gas ζ
-//! (Z integrated across the width), p_a (ζ/h − w), h = g + H_m: it stiffens as the gap closes, so that the load
-//! balance always has a solution.
+//! The unknowns at every node are the gap g_i ≥ 0 and the contact line load c_i ≥ 0, with c_i g_i = 0; the rigid offset z₀ follows from the
+//! load balance Σ Δx_i q_i = L. (Faces that meet on asperities: see below.) The line load is q = c + film. The film's part is that of a
+//! fixed amount of trapped gas ζ (Z integrated across the width), p_a (ζ/h − w) with h = g + H_m. It stiffens as the gap closes, so that
+//! the load balance always has a solution.
 //!
 //! The rotor's compliance is split into a local part C_∞, between the compliance of harmonic N and the limit of short waves, and a smooth part
 //! C(k_n) − C_∞ for n < N. The local part couples a node with itself only, so that everything at a node follows from
@@ -13,14 +13,14 @@
 //! g = s + C_∞ q,   c ≥ 0, g ≥ 0, c g = 0   ⟹   q = φ(s), decreasing, piecewise smooth, in closed form
 //! ```
 //!
-//! The unknowns left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (if a table has a harmonic stiffer than
-//! the last, its saddle point: see `modes`). Newton's method (semi-smooth, since φ has a corner where contact begins) with a line search on
-//! the slope converges from anywhere; once no node changes sides the remaining error is round-off. A step is solved for between the modes or,
-//! where these are more, between the nodes. Complementarity holds exactly by construction.
+//! The remaining unknowns are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (or its saddle point, if a table has a
+//! harmonic stiffer than the last one: see `modes`). Newton's method (semi-smooth, since φ has a corner where contact begins) with a line
+//! search on the slope converges from any start; once no node changes between contact and gap, the remaining error is round-off. The Newton
+//! step is solved for in the modes or, if there are fewer nodes than modes, in the nodes. Complementarity holds exactly by construction.
 //!
-//! **Asperities** in place of the hard stop make c = w p(g) a smooth function that falls with g, now the separation of the mean planes, and h the
-//! mean gap over them. g = s + C_∞ q(g) then is a scalar equation whose left side less its right side rises with g: it has one root, found to working
-//! precision. q is still a function of s that falls, and the rest of the problem what it was.
+//! **Asperities** in place of the hard stop make c = w p(g) a smooth function that falls with g. Here g is the separation of the mean
+//! planes, and h the mean gap over them. Then g − s − C_∞ q(g) = 0 is a scalar equation whose left side rises with g, so it has one root,
+//! which is found to working precision. q is still a decreasing function of s, and the rest of the problem is unchanged.
 
 mod modes;
 mod rough;
@@ -35,28 +35,29 @@ use faer::{Conj, MatMut, MatRef, Side};
 use nalgebra::{DMatrix, DVector};
 use rough::Rough;
 
-/// The contact problem of a rotor on its teeth: everything that does not change from one instant to the next, and a workspace.
+/// The contact problem of a rotor on its teeth: everything that is the same at every instant, and a workspace.
 #[derive(Clone, Debug)]
 pub struct Contact {
     modes: Modes,
-    /// Deflection \[m/N\] of the smooth part at each node under a unit force at each other, if nodes are fewer than unknowns.
+    /// Deflection \[m/N\] of the smooth part at each node under a unit force at each node; `None` unless there are fewer nodes than
+    /// unknowns.
     compliance: Option<DMatrix<f64>>,
     /// Δx_i \[m\].
     lengths: Vec<f64>,
-    /// p_a × width on which the film acts at the node \[N/m\]; 0 on a tooth's edges, where the film is at p_a.
+    /// p_a × width on which the film acts at the node \[N/m\]; 0 at a tooth's edges, where the film is at p_a.
     ambient: Vec<f64>,
     ambient_pressure: f64,
     min_spacing: f64,
-    /// In place of the hard stop at the minimum spacing.
+    /// The asperities that replace the hard stop at the minimum spacing.
     asperities: Option<Rough>,
     load: f64,
-    /// Imbalance, relative to the sum of all forces, that is accepted.
+    /// Accepted imbalance, relative to the sum of all forces.
     tolerance: f64,
-    /// Force \[N\] that the last bits of the displacements make at the last gradient: what a stiff rotor cannot go below.
+    /// Force \[N\] due to the round-off of the displacements at the last gradient: the imbalance of a stiff rotor cannot be smaller.
     noise: f64,
-    // Workspace, one value a node:
+    // Workspace, one value for each node:
     s: Vec<f64>,
-    /// Error of s below its last bits.
+    /// The part of s that is smaller than its round-off.
     rest: Vec<f64>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
@@ -90,8 +91,8 @@ const ROUND_OFF: f64 = 2e-14;
 const LAST_BITS: f64 = 1e-15;
 
 impl Contact {
-    /// Nodes that stand for `lengths` \[m\], with film on `film_widths` \[m\] of the width at each, on a rotor with `modes`;
-    /// `ambient_pressure` \[Pa\], `min_spacing` H_m \[m\], and `load` L \[N\] on one wavelength.
+    /// A contact problem whose nodes stand for `lengths` \[m\], with a film on `film_widths` \[m\] of the width at each, on a rotor with
+    /// `modes`; `ambient_pressure` is in Pa, `min_spacing` H_m in m, and `load` L, on one wavelength, in N.
     pub fn new(
         mut modes: Modes,
         lengths: Vec<f64>,
@@ -121,7 +122,7 @@ impl Contact {
         }
     }
 
-    /// Replaces the hard stop by asperities, if there are any, on a contact `width` \[m\] wide.
+    /// Replaces the hard stop by `asperities`, if there are any, on a contact that is `width` \[m\] wide.
     pub fn on(self, asperities: Option<Asperities>, width: f64) -> Self {
         let nodes = self.nodes();
         Self { asperities: asperities.map(|law| Rough::new(law, width, nodes)), ..self }
@@ -132,8 +133,8 @@ impl Contact {
         Self { ambient: vec![0.0; self.nodes()], tolerance: ROUND_OFF, ..self.clone() }
     }
 
-    /// Accepts an imbalance of `tolerance` times the sum of all forces, for rounds whose trapped gas is not final yet; never
-    /// less than round-off. Complementarity stays exact.
+    /// Accepts an imbalance of `tolerance` times the sum of all forces, but never less than round-off, for rounds whose trapped gas is not
+    /// final yet. Complementarity stays exact.
     pub fn set_tolerance(&mut self, tolerance: f64) {
         self.tolerance = tolerance.max(ROUND_OFF);
     }
@@ -144,7 +145,7 @@ impl Contact {
         &mut self.ambient
     }
 
-    /// Nodes in all.
+    /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.lengths.len()
     }
@@ -182,7 +183,7 @@ impl Contact {
             if imbalance < self.tolerance {
                 break Ok(iterations);
             }
-            // At round-off Newton stops improving: a few orders above it, that is the answer too.
+            // Near round-off Newton's method stops improving: an imbalance a few orders of magnitude above it is accepted, too.
             stalled = if imbalance < 0.5 * best { 0 } else { stalled + 1 };
             best = best.min(imbalance);
             if stalled >= 3 && imbalance < 1e3 * ROUND_OFF {
@@ -193,7 +194,7 @@ impl Contact {
             }
             iterations += 1;
             let Some(step) = self.newton_step(&gradient) else {
-                // No node pushes back: only the rigid offset can restore contact.
+                // No node has any stiffness: only the rigid offset can restore contact.
                 amplitudes[0] = self.rigid_offset(stator, trapped, &amplitudes);
                 total = self.gradient(stator, trapped, &amplitudes, &mut gradient);
                 continue;
@@ -221,7 +222,7 @@ impl Contact {
             }
             std::mem::swap(&mut amplitudes, &mut trial);
         };
-        // What the last bits of stiff nodes leave of the balance goes into their forces.
+        // The imbalance due to round-off at stiff nodes is added to their forces.
         self.rest.fill(0.0);
         if self.modes.imbalance(&gradient) > self.tolerance * total
             && let Some(step) = self.newton_step(&gradient)
@@ -233,7 +234,7 @@ impl Contact {
         result
     }
 
-    /// Line load and its stiffness −dq/ds at node `i` with s \[m\] and trapped gas p_aζ.
+    /// Line load and its stiffness −dq/ds at node `i`, given s \[m\] and the trapped gas p_aζ.
     #[inline]
     fn node(&self, i: usize, s: f64, gas: f64) -> (f64, f64) {
         let (local, ambient) = (self.modes.local_compliance(), self.ambient[i]);
@@ -244,7 +245,7 @@ impl Contact {
         hard_stop(local, self.min_spacing, s, gas, ambient)
     }
 
-    /// Film thickness at a node with s \[m\] and trapped gas p_aζ; `None` if it touches.
+    /// Film thickness at a node, given s \[m\] and the trapped gas p_aζ; `None` if the node touches.
     #[inline]
     fn gap(&self, s: f64, gas: f64, ambient: f64) -> Option<f64> {
         let (local, closed) = (self.modes.local_compliance(), self.min_spacing);
@@ -276,8 +277,8 @@ impl Contact {
         }
     }
 
-    /// Gradient of the energy (balance of every mode and of the load) at `amplitudes`; leaves s, force and stiffness of
-    /// the nodes behind. Returns the sum of all forces' magnitudes, the scale of round-off.
+    /// Gradient of the energy (balance of every mode and of the load) at `amplitudes`; also stores s, force and stiffness of the nodes.
+    /// Returns the sum of the magnitudes of all forces, the scale of round-off.
     fn gradient(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64], gradient: &mut [f64]) -> f64 {
         self.modes.deflection(amplitudes, &mut self.s);
         let mut total = self.load;
@@ -324,9 +325,9 @@ impl Contact {
         Some(step)
     }
 
-    /// The same step by the forces of the nodes. With nodal stiffness K, smooth compliance G between the nodes, and the deflection v of the
-    /// gradient's modes, the forces that the step takes off are r = K(δz₀ − v − G r), and Σ r = −∂₀. What is solved has K on both sides, as a
-    /// root: I + K^½ G K^½ is positive whatever the sign of a mode, because the whole compliance is.
+    /// The same step, solved for in the forces of the nodes. With nodal stiffness K, smooth compliance G between the nodes, and the
+    /// deflection v of the gradient's modes, the forces that the step removes are r = K(δz₀ − v − G r), with Σ r = −∂₀. The matrix is made
+    /// symmetric with K^½ on both sides: I + K^½ G K^½ is positive definite whatever the sign of a mode, because the whole compliance is.
     fn step_of_nodes(&self, compliance: &DMatrix<f64>, gradient: &[f64]) -> Option<DVector<f64>> {
         let nodes = self.nodes();
         let root = DVector::from_iterator(nodes, self.stiffness.iter().map(|stiffness| stiffness.sqrt()));
@@ -366,7 +367,7 @@ impl Contact {
                 .map(|i| self.lengths[i] * self.node(i, base[i] + z0, self.ambient_pressure * trapped[i]).0)
                 .sum()
         };
-        // Where the rotor would just touch, and a step to either side that is doubled until it brackets.
+        // Where the rotor would just touch, and a step to either side, doubled until the two bracket the root.
         let touch = base.iter().fold(f64::NEG_INFINITY, |top, b| top.max(-b));
         let end = |side: f64| {
             let mut reach = side * self.min_spacing;
@@ -406,8 +407,8 @@ impl Contact {
     }
 }
 
-/// Line load and its stiffness −dq/ds at a node with s \[m\], trapped gas p_aζ and ambient pressure on its width, over a hard stop at
-/// `closed` = H_m. What is not chosen is computed as well: a vector register has nodes of both kinds.
+/// Line load and its stiffness −dq/ds at a node, given s \[m\], the trapped gas p_aζ and the ambient pressure on its width, over a hard
+/// stop at `closed` = H_m. Both branches are computed for every node, because one vector register holds nodes of both kinds.
 #[inline(always)]
 fn hard_stop(local: f64, closed: f64, s: f64, gas: f64, ambient: f64) -> (f64, f64) {
     let touches = s + local * (gas / closed - ambient) < 0.0;
@@ -417,8 +418,8 @@ fn hard_stop(local: f64, closed: f64, s: f64, gas: f64, ambient: f64) -> (f64, f
     if touches { (-s / local, 1.0 / local) } else { (free, rising) }
 }
 
-/// L D Lᵀ of a symmetric matrix, from its lower triangle: a positive one, or that of a saddle point, positive for some unknowns and
-/// negative for the others.
+/// L D Lᵀ factorisation of a symmetric matrix, from its lower triangle. The matrix is positive definite or, at a saddle point, positive for
+/// some unknowns and negative for the others.
 struct Factors(Ldlt<f64>);
 
 impl Factors {

@@ -3,9 +3,9 @@
 //! Amplitudes are scaled by √(2|C_n − C_∞|/λ), so that every mode's own stiffness is ±1 and the matrices are well
 //! conditioned. Order of unknowns: z₀, cos₁ … cos_{N−1}, sin₁ … sin_{N−1}.
 //!
-//! A table may have a harmonic that is stiffer than the last one, C_n < C_∞. Its part of the deflection is negative and so is its
-//! stiffness: what is solved is then not a minimum but a saddle point, convex in all other unknowns and concave in this one. There is
-//! still exactly one, because the whole compliance, C_n > 0, is positive.
+//! A table may have a harmonic that is stiffer than the last one, C_n < C_∞. Its part of the deflection and its stiffness are then
+//! negative, and the solution is not a minimum but a saddle point, convex in all other unknowns and concave in this one. There is still
+//! exactly one, because the whole compliance, C_n > 0, is positive.
 
 use crate::numerics::{dot, vectorised};
 use crate::rotor::Compliances;
@@ -51,11 +51,11 @@ impl Shape {
     }
 }
 
-/// Number of harmonics N that a rotor needs: the smallest N from which on the compliances of all harmonics differ by at most `fraction` from
-/// the local compliance that they would leave behind, at least 4 and at most `most`.
+/// Number of harmonics N that a rotor needs, at least 4 and at most `most`: the smallest N from which on the compliances of all harmonics
+/// differ from the local compliance by at most `fraction` of it.
 ///
-/// Harmonics from N on are given the local compliance: off by at most `fraction`, or, at the limit `most`, by what the
-/// differences between grids show.
+/// Harmonics from N on are given the local compliance. The error is at most `fraction` or, if `most` limits N, is estimated from the
+/// differences between grids.
 pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
     let last = rotor.beyond(most);
     let matters = |n: usize| (rotor.harmonic(n) - last).abs() > fraction * last;
@@ -63,8 +63,9 @@ pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
 }
 
 impl Modes {
-    /// `harmonics` = N at nodes `x` \[m\], with C(k_N) as the local compliance. That differs by at most `fraction` from its limit, as a rule
-    /// ([`cutoff`]): where it differs by less, the local compliance is nearer to the limit. Harmonics are whole numbers, and there are four at least.
+    /// The modes of `harmonics` = N harmonics at nodes `x` \[m\], with C(k_N) as the local compliance. As a rule C(k_N) differs from its
+    /// limit by at most `fraction` of it ([`cutoff`]). Where it differs by less, because N is a whole number and at least 4, a local
+    /// compliance nearer to the limit is used.
     pub fn new(rotor: &Compliances, harmonics: usize, fraction: f64, x: &[f64]) -> Self {
         let wavelength = rotor.wavelength();
         let (last, limit) = (rotor.harmonic(harmonics), rotor.beyond(harmonics));
@@ -74,7 +75,7 @@ impl Modes {
         let smooth = |n: usize| rotor.harmonic(n) - local;
         let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();
         let sign = (1..=count).map(|n| if smooth(n) < 0.0 { -1.0 } else { 1.0 }).collect();
-        // Harmonic by harmonic, every node's angle turned on by its first harmonic's.
+        // Each harmonic is obtained from the one before, by a rotation through the angle of the first harmonic at each node.
         let nodes = x.len();
         let size = (1 + 2 * count) * nodes;
         let (mut cosines, mut sines) = (vec![1.0; size], vec![0.0; size]);
@@ -92,14 +93,15 @@ impl Modes {
         Self { nodes, count, local, scale, sign, cosines, sines, stiffest }
     }
 
-    /// Keeps the whole compliance positive on nodes that stand for `lengths` \[m\]: short waves look like longer ones on too few nodes, where
-    /// together they might take more from the local part than there is. Then all that are stiffer than the local part are made less so.
+    /// Keeps the whole compliance positive on nodes that stand for `lengths` \[m\]. On too few nodes, short waves are aliased as longer
+    /// ones, and together their negative parts might exceed the local part. Then all harmonics stiffer than the local part are made less
+    /// stiff.
     pub(super) fn keep_positive(&mut self, lengths: &[f64]) {
         let stiff: Vec<usize> = (1..self.unknowns()).filter(|k| self.sign(*k) < 0.0).collect();
         if stiff.is_empty() {
             return;
         }
-        // Of the same largest eigenvalue, between modes or between nodes.
+        // Both matrices have the same largest eigenvalue; the smaller one is used.
         let taken = if stiff.len() < self.nodes {
             self.stiffness(lengths).select_rows(&stiff).select_columns(&stiff)
         } else {
@@ -115,7 +117,7 @@ impl Modes {
         }
     }
 
-    /// Deflection \[m/N\] at each node under a unit force at each other, of harmonics with a weight by the sign of their compliance.
+    /// Deflection \[m/N\] at each node under a unit force at each node, of all harmonics, each weighted by a function of its sign.
     pub(super) fn compliance(&self, weight: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(self.nodes, self.nodes);
         for n in 1..=self.count {
@@ -132,12 +134,12 @@ impl Modes {
         self.local
     }
 
-    /// Sign of the own stiffness of unknown `index`, z₀ not among them: −1 for a mode stiffer than the local part.
+    /// Sign of the stiffness of mode `index` by itself (not of z₀): −1 for a mode stiffer than the local part.
     pub(super) fn sign(&self, index: usize) -> f64 {
         self.sign[(index - 1) % self.count]
     }
 
-    /// Unknowns: z₀ and two for each harmonic.
+    /// Number of unknowns: z₀ and two for each harmonic.
     pub fn unknowns(&self) -> usize {
         1 + 2 * self.count
     }
@@ -179,7 +181,7 @@ impl Modes {
         }
     }
 
-    /// Sums of nodal `values` times the cosines and sines of harmonics from `first` on.
+    /// Sums of nodal `values` times the cosines and sines of the harmonics from number `first` on.
     fn fourier(&self, values: &[f64], first: usize, cosines: &mut [f64], sines: &mut [f64]) {
         vectorised(
             #[inline(always)]
@@ -214,7 +216,7 @@ impl Modes {
                 let scale = 0.5 * self.scale[a - 1] * self.scale[b - 1];
                 matrix[(a, b)] = scale * (c[a - b] + c[a + b]);
                 matrix[(m + a, m + b)] = scale * (c[a - b] - c[a + b]);
-                // sin_a cos_b and, mirrored, sin_b cos_a.
+                // The block of sin_a cos_b and its mirror image, sin_b cos_a.
                 matrix[(m + a, b)] = scale * (s[a + b] + s[a - b]);
                 matrix[(m + b, a)] = scale * (s[a + b] - s[a - b]);
             }

@@ -1,8 +1,9 @@
 //! A node that meets the rotor on asperities.
 //!
-//! Its separation d solves d = s + C_∞ q(d), q = w p(d) + p_a ζ/h(d) − B, all of which falls with d: one root. With R(d) the part of the
-//! equation that asperities have no share in, it is C_∞ w p(d) = R(d). Where both sides are positive, Newton's method on their
-//! logarithms is quick, because ln p is nearly a parabola or a straight line; elsewhere on the difference; always within a bracket.
+//! Its separation d solves d = s + C_∞ q(d) with q = w p(d) + p_a ζ/h(d) − B. Every term of q falls with d, so there is one root. With R(d)
+//! the part of the equation without the asperities, the equation is C_∞ w p(d) = R(d). Where both sides are positive, Newton's method on
+//! their logarithms is fast, because ln p is nearly a parabola or a straight line; elsewhere Newton's method is applied to their
+//! difference. Both stay within a bracket.
 
 use crate::surface::Asperities;
 
@@ -32,7 +33,7 @@ pub(super) struct RoughNode {
 }
 
 const ITERATION_LIMIT: usize = 200;
-/// Separation over σ beyond which asperities carry nothing that counts beside a load.
+/// Separation over σ beyond which the asperities carry a negligible load.
 const OUT_OF_REACH: f64 = 38.0;
 
 impl Rough {
@@ -40,17 +41,18 @@ impl Rough {
         Self { law, width, last: vec![0.0; nodes] }
     }
 
-    /// Line load and its stiffness, as of [`Rough::node`], where the next search of the node starts.
+    /// Line load and its stiffness from [`Rough::node`]; keeps the separation as the start of the node's next search.
     pub(super) fn next(&mut self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> (f64, f64) {
         let found = self.node(i, local, s, gas, ambient);
         self.last[i] = found.separation;
         (found.force, found.stiffness)
     }
 
-    /// Node `i` with s \[m\], trapped gas `gas` p_aζ and what is subtracted from its force, `ambient` B \[N/m\], on the local compliance C_∞.
+    /// Node `i`, given s \[m\], the trapped gas p_aζ `gas`, the force B \[N/m\] that is subtracted, `ambient`, and the local compliance C_∞
+    /// `local`.
     pub(super) fn node(&self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> RoughNode {
         let rms = self.law.summits().rms;
-        // Contact and film's force, each with its slope, and h.
+        // The line loads of contact and film, each with its slope, and h.
         let forces = |d: f64| {
             let ((pressure, softer), (h, wider)) = (self.law.pressure(d), self.law.mean_gap(d));
             ([self.width * pressure, self.width * softer], [gas / h - ambient, -gas / (h * h) * wider], h)
@@ -90,7 +92,7 @@ impl Rough {
         let ([contact, softer], [film, thinner], thickness) = forces(d);
         let slope = softer + thinner;
         let stiffness = -slope / (1.0 - local * slope);
-        // Where a last bit of d makes more of the force than of the deflection, the deflection is the better measure.
+        // Where round-off of d changes the force by more than the deflection, the force is computed from the deflection.
         let (force, contact) = if -local * slope > 1.0 {
             let force = (d - s) / local;
             (force, (force - film).max(0.0))

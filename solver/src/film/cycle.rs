@@ -8,9 +8,8 @@
 //! W(0) + d + s,     (T Ā) s = d
 //! ```
 //!
-//! for modes that leak slowly ((I − monodromy) ≈ T Ā), and W(0) + d = W(T) for modes that forget within a cycle (s ≈ 0).
-//! One linear solve makes the number of cycles independent of the squeeze number. Whatever remains is left to
-//! Anderson acceleration by the caller.
+//! for modes that leak slowly ((I − monodromy) ≈ T Ā), and W(0) + d = W(T) for modes that decay within a cycle (s ≈ 0). One linear solve
+//! makes the number of cycles independent of the squeeze number. The caller removes the remaining error by Anderson acceleration.
 
 use super::grid::FilmGrid;
 use super::stepper::{Cost, Film, FilmError, FilmState};
@@ -39,20 +38,20 @@ pub enum Interrupted {
 pub struct FilmCycle {
     film: Film,
     steps: usize,
-    /// P at unknown nodes, `[step][unknown]`; step m is t = mT/steps, step 0 is also the end of the cycle.
+    /// P at unknown nodes, `[step][unknown]`. Step m is at t = mT/steps; step 0 is also the end of the cycle.
     pressure: Vec<f64>,
     marched: bool,
     before: Vec<f64>,
     leak: Coupling,
     solver: RowSolver,
     shift: Vec<f64>,
-    /// The defect is what has flowed out.
+    /// Whether the defect is computed from the outflow ([`Self::count_outflow`]).
     stiff: bool,
     outflow: Vec<f64>,
 }
 
 impl FilmCycle {
-    /// A cycle of `steps` of `film`.
+    /// A cycle of `film` in `steps` time steps.
     pub fn new(film: Film, steps: usize) -> Self {
         let grid = film.grid();
         let (unknowns, columns) = (grid.unknowns(), grid.y.unknown().len());
@@ -71,8 +70,9 @@ impl FilmCycle {
         }
     }
 
-    /// Takes the defect of a cycle from what flows out of the nodes, which is the same but for rounding. A film that needs many cycles
-    /// to leak multiplies the rounding of W by their number; that of what hardly flows is as small as the flow.
+    /// Computes the defect of a cycle from the outflow of the nodes, which is the same except for round-off. In a film that needs many
+    /// cycles to leak, the round-off of W is multiplied by that number of cycles, whereas the round-off of a small outflow is as small as
+    /// the outflow.
     pub fn count_outflow(&mut self) {
         self.stiff = true;
     }
@@ -87,8 +87,8 @@ impl FilmCycle {
         self.film.set_tolerance(tolerance);
     }
 
-    /// Share of a small excess of gas over ambient pressure, in an even gap `h` \[m\], that one implicit step of `dt` \[s\] leaves in
-    /// the slowest mode.
+    /// Fraction of a small excess of gas over ambient pressure, in a uniform gap `h` \[m\], that remains in the slowest mode after one
+    /// implicit step of `dt` \[s\].
     pub fn stays(&self, h: f64, dt: f64) -> f64 {
         1.0 / (1.0 + dt * self.film.slowest_leak(h))
     }
@@ -99,7 +99,7 @@ impl FilmCycle {
         &self.pressure[m * unknowns..(m + 1) * unknowns]
     }
 
-    /// Where to write a first guess of step `m`'s unknown P; all steps must be given one before the first march.
+    /// The buffer for the first guess of step `m`'s unknown P; all steps need one before the first march.
     pub fn guess_mut(&mut self, m: usize) -> &mut [f64] {
         let unknowns = self.before.len();
         self.marched = true;
@@ -110,7 +110,7 @@ impl FilmCycle {
     /// (or without the wedge term), by steps of `dt(step)` \[s\]. Writes the trapped height integrated across the width,
     /// `line[step][ix]` \[m²\].
     ///
-    /// Steps whose length changes are those of a time t(s) on which s is even: dZ/ds = dZ/dt × dt/ds is of second order in s, with
+    /// Steps of varying length are uniform steps Δs of a parameter s with time t(s): dZ/ds = dZ/dt × dt/ds is of second order in s, with
     /// dt(step) = Δs dt/ds at the end of the step.
     ///
     /// # Errors
@@ -149,8 +149,8 @@ impl FilmCycle {
         Ok(cost)
     }
 
-    /// One step, to step `m` of the cycle: `state` to the gap `h[ix]` \[m\], with sliding speeds `speed[ix]` \[m/s\], and the
-    /// trapped height integrated across the width, `line[ix]` \[m²\].
+    /// One step, to step `m` of the cycle: advances `state` to the gap `h[ix]` \[m\], with sliding speeds `speed[ix]` \[m/s\], and writes
+    /// the trapped height integrated across the width to `line[ix]` \[m²\].
     ///
     /// # Errors
     /// When the step fails; `state` is then unchanged.
@@ -164,7 +164,7 @@ impl FilmCycle {
         line: &mut [f64],
     ) -> Result<Cost, FilmError> {
         let unknowns = self.before.len();
-        // The last cycle's pressure is the guess: as cycles converge, one linear solve a step is left.
+        // The pressure of the last cycle is the guess: as cycles converge, a step needs only one linear solve.
         let guess = self.marched.then(|| &self.pressure[m * unknowns..(m + 1) * unknowns]);
         let taken = self.film.step(h, speed, dt, state, guess)?;
         self.film.gather_pressure(&mut self.pressure[m * unknowns..(m + 1) * unknowns]);
@@ -172,7 +172,7 @@ impl FilmCycle {
         Ok(taken)
     }
 
-    /// Whether the pressures of all steps are first guesses for the next time that they are reached.
+    /// Sets whether the stored pressures of all steps are used as first guesses in the next cycle.
     pub fn remember(&mut self, marched: bool) {
         self.marched = marched;
     }
@@ -188,7 +188,7 @@ impl FilmCycle {
                 *sum += term * factor;
             }
         };
-        // Beyond the first and the last row there is no unknown: whatever is added there is not looked at.
+        // Beyond the first and the last row there is no unknown: entries there are not read.
         let (mut west, mut here) = (0.0, 1.0 / h[x.start]);
         for (row, ix) in x.enumerate() {
             let east = 1.0 / h[ix + 1];
@@ -209,7 +209,8 @@ impl FilmCycle {
         }
         let defect = self.shift.clone();
         self.solver.solve(&self.leak, &self.leak.centre, &mut self.shift);
-        // What leaks the wrong way is no leak: a wedge that pumps from node to node within a cycle. Of a node that only fills, no leak is known.
+        // A negative leak is not a leak: it comes from a wedge that pumps gas from node to node within a cycle. For a node that only fills,
+        // no leak rate is known.
         let leaks = crate::numerics::dot(&defect, &self.shift);
         if !(0.0..f64::INFINITY).contains(&leaks) {
             self.shift.fill(0.0);

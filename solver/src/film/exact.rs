@@ -1,4 +1,4 @@
-//! Exact and asymptotic solutions of the film, read by tests, lessons and the window alike.
+//! Exact and asymptotic solutions of the film, used by the tests, the lessons and the window.
 //!
 //! All are for a plate with a gap that is uniform in space, H = h/h₀ = 1 + ε cos τ, in the dimensionless form
 //! σ ∂(PH)/∂τ = ∇·[(P H³ + 6 m H²) ∇P], σ = 12μωb²/(p_a h₀²), m = λ_a/h₀.
@@ -18,9 +18,9 @@ pub fn trapped_height(invariant_mean: f64, gap_mean: f64, slip: f64) -> f64 {
     2.0 * right / (slip + (slip * slip + 2.0 * right).sqrt())
 }
 
-/// Amplitude of a plate's net load for ε → 0, divided by p_a·area·ε: the load at κ² = iσ, σ based on
-/// [`Plate::squeezed_length`] and, with first-order slip, divided by 1 + 6m. The real part is the spring, negative if it restores; the imaginary part is minus the damping, negative if it
-/// dissipates.
+/// Amplitude of a plate's net load for ε → 0, divided by p_a·area·ε: the load at κ² = iσ, σ based on [`Plate::squeezed_length`] and, with
+/// first-order slip, divided by 1 + 6m. The real part is the spring, negative if it restores; the imaginary part is minus the damping,
+/// negative if it dissipates.
 pub fn linear_load(squeeze_number: f64, outline: Outline) -> Complex<f64> {
     let square = Complex::new(0.0, squeeze_number);
     match outline {
@@ -29,8 +29,8 @@ pub fn linear_load(squeeze_number: f64, outline: Outline) -> Complex<f64> {
     }
 }
 
-/// The same for any κ², that of a plate which moves as e^(st) being s·σ/ω: what a film at rest answers to motion that swings, grows
-/// or dies out.
+/// The same for any κ². For a plate that moves as e^(st), κ² = s·σ/ω: the response of a film at rest to a motion that oscillates, grows or
+/// decays.
 pub fn linear_response(square: Complex<f64>, outline: Outline) -> Complex<f64> {
     match outline {
         Outline::Strip => strip(square),
@@ -46,7 +46,7 @@ fn strip(square: Complex<f64>) -> Complex<f64> {
     tanh(half) / half - 1.0
 }
 
-/// tanh, which as two exponentials overflows at large arguments.
+/// tanh without overflow at large arguments.
 fn tanh(z: Complex<f64>) -> Complex<f64> {
     if z.re > 20.0 { Complex::new(1.0, 0.0) } else { z.tanh() }
 }
@@ -59,7 +59,7 @@ fn tanh(z: Complex<f64>) -> Complex<f64> {
 /// Σ 8/(n²π²) ⟨f_n⟩.
 fn rectangle(square: Complex<f64>, aspect: f64) -> Complex<f64> {
     if aspect < 1.0 {
-        // The same plate, turned: it takes fewer terms.
+        // The same plate, turned by a quarter, takes fewer terms.
         return rectangle(square * (aspect * aspect), aspect.recip());
     }
     let mut load = Complex::new(0.0, 0.0);
@@ -70,7 +70,7 @@ fn rectangle(square: Complex<f64>, aspect: f64) -> Complex<f64> {
         let profile = Complex::new(1.0, 0.0) - tanh(half) / half;
         let term = -square / with_along * profile * (8.0 / (k * k));
         load += term;
-        // Terms fall at least as 1/n²: what is left is no more than n/2 times the last.
+        // The terms fall at least as 1/n², so the remainder is at most n/2 times the last term.
         if f64::from(n) * term.norm() < 2.0 * SERIES_TOLERANCE * load.norm() {
             break;
         }
@@ -101,11 +101,11 @@ fn vibrating_ring(square: Complex<f64>, hole: f64) -> Complex<f64> {
     (a * of_i + b * of_k) * 2.0 / (radii[1] * radii[1] - radii[0] * radii[0]) - 1.0
 }
 
-/// Load of a ring at κ², also where K₀ is of no use, by finite volumes in the radius: (r u')' = κ² r u, 1 at both edges.
+/// Load of a ring at any κ², also where K₀ cannot be used, by finite volumes in the radius: (r u')' = κ² r u, u = 1 at both edges.
 fn ring(square: Complex<f64>, hole: f64) -> Complex<f64> {
     let (inner, step) = (hole / (1.0 - hole), 1.0 / RING_INTERVALS as f64);
     let radius = |i: f64| inner + i * step;
-    // From the inside out, u_i = a_i u_(i+1) + b_i; then back, with ∫ r u.
+    // Elimination from the inside out, u_i = a_i u_(i+1) + b_i; then back-substitution, with ∫ r u.
     let mut rows = vec![(Complex::new(0.0, 0.0), Complex::new(1.0, 0.0))];
     for i in 1..RING_INTERVALS {
         let [below, above] = [-0.5, 0.5].map(|side| radius(i as f64 + side));
@@ -122,11 +122,11 @@ fn ring(square: Complex<f64>, hole: f64) -> Complex<f64> {
     sum * step / (inner + 0.5) - 1.0
 }
 
-/// Intervals of the radius of a ring.
+/// Number of intervals along the radius of a ring.
 const RING_INTERVALS: usize = 256;
-/// A series ends when what is left of it is below this share.
+/// A series is ended when its estimated remainder is below this fraction of the sum.
 const SERIES_TOLERANCE: f64 = 1e-10;
-/// Or here.
+/// Largest index of a series.
 const MOST_TERMS: i32 = 20_001;
 
 /// Force per metre of an incompressible strip film (σ → 0), −μ b³ ḣ/h³/(1 + 6 λ_a/h) \[N/m\], from viscosity \[Pa s\], length
@@ -135,8 +135,8 @@ pub fn viscous_strip_force(viscosity: f64, length: f64, gap: f64, rate: f64, mea
     -viscosity * length.powi(3) * rate / gap.powi(3) / (1.0 + 6.0 * mean_free_path / gap)
 }
 
-/// Force of an incompressible film under a rectangle \[N\], of `width` along y \[m\] beside what the strip has: the strip's, times
-/// the width, times 1 − (192/π⁵)(b/w) Σ tanh(nπw/2b)/n⁵, n odd, by which a duct's flow falls short of a slit's.
+/// Force of an incompressible film under a rectangle \[N\] of `width` w along y \[m\]; the other arguments are those of the strip. It is
+/// the strip's force times the width, times 1 − (192/π⁵)(b/w) Σ tanh(nπw/2b)/n⁵, n odd, the ratio of a duct's flow to a slit's.
 fn viscous_rectangle_force(viscosity: f64, length: f64, width: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
     width * rectangle_to_strip(width / length) * viscous_strip_force(viscosity, length, gap, rate, mean_free_path)
 }
@@ -150,10 +150,10 @@ fn viscous_ring_force(viscosity: f64, inner: f64, outer: f64, gap: f64, rate: f6
     -1.5 * PI * viscosity * rate / gap.powi(3) * shape / (1.0 + 6.0 * mean_free_path / gap)
 }
 
-/// Force \[N, of a strip N/m\] of a film at ambient pressure that is not compressed, of a `gap` \[m\] that changes at `rate` \[m/s\].
+/// Force \[N, of a strip N/m\] of an incompressible film at ambient pressure, for a `gap` \[m\] that changes at `rate` \[m/s\].
 pub fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
     let gas = &plate.gas;
-    // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
+    // The slip factor at ambient pressure, 1 + 6 λ/h with an effective mean free path λ.
     let factor = SlipLaw::of(gas).at(gap).0 / gap;
     let path = (factor - 1.0) * gap / 6.0;
     match (plate.width, plate.hole) {
@@ -163,10 +163,10 @@ pub fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
     }
 }
 
-/// Incompressible load of a rectangle of length 1 and width `aspect`, for each unit of width, over that of a strip.
+/// Incompressible load, per unit of width, of a rectangle of length 1 and width `aspect`, over that of a strip.
 fn rectangle_to_strip(aspect: f64) -> f64 {
     if aspect < 1.0 {
-        // Of the same plate, turned: the sum would nearly cancel 1.
+        // The same plate, turned: here the sum would nearly cancel the 1.
         return aspect * aspect * rectangle_to_strip(aspect.recip());
     }
     let sum: f64 = (1..400)
@@ -187,7 +187,7 @@ mod tests {
     fn a_viscous_rectangle_looks_the_same_from_both_sides_and_is_the_slow_limit() {
         let force = |b: f64, w: f64| viscous_rectangle_force(2.0, b, w, 0.3, 0.7, 0.01);
         assert!((force(1.0, 0.4) / force(0.4, 1.0) - 1.0).abs() < 1e-9);
-        // A strip's, per metre of the longer side.
+        // The load of a strip, per metre of the longer side.
         let strip = 5.0 * viscous_strip_force(2.0, 1e-4, 0.3, 0.7, 0.01);
         assert!((force(5.0, 1e-4) / strip - 1.0).abs() < 1e-4, "{}", force(5.0, 1e-4) / strip);
         assert!((force(1.0, 1e6) / (1e6 * viscous_strip_force(2.0, 1.0, 0.3, 0.7, 0.01)) - 1.0).abs() < 1e-5);

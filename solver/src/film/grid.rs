@@ -19,14 +19,14 @@ pub enum Start {
 pub struct Axis {
     /// Node positions \[m\] from the middle, ascending; the last is an ambient edge.
     pub nodes: Vec<f64>,
-    /// Length each node stands for \[m\]; of a radial axis, area \[m²\].
+    /// Length that each node stands for \[m\]; on a radial axis, area \[m²\].
     pub lengths: Vec<f64>,
     /// Boundary at the first node.
     pub start: Start,
-    /// Slopes of a spectral axis at every node by the values at every node \[1/m\], `[node][value]`; empty where the nodes are
-    /// those of finite volumes.
+    /// Derivative matrix of a spectral axis: slope at every node from the values at every node \[1/m\], `[node][value]`; empty for finite
+    /// volumes.
     slopes: Vec<f64>,
-    /// It runs along the radius of a round film, with all of the circumference to each node.
+    /// Whether the axis runs along the radius of a round film; each node then stands for the whole circumference.
     pub radial: bool,
 }
 
@@ -41,8 +41,8 @@ impl Axis {
         Self { nodes, lengths, start, slopes: Vec::new(), radial: false }
     }
 
-    /// The radius of a round film from `inner` to `outer` \[m\], with clustering β at its ambient edges; from 0, the axis, there is only
-    /// the outer one.
+    /// The radius of a round film from `inner` to `outer` \[m\], clustered by β at its ambient edges. If `inner` is 0, the axis of
+    /// symmetry, the outer edge is the only one.
     pub fn radial(inner: f64, outer: f64, intervals: usize, beta: f64) -> Self {
         let (start, nodes) = if inner > 0.0 {
             let (middle, half) = (0.5 * (outer + inner), 0.5 * (outer - inner));
@@ -60,19 +60,19 @@ impl Axis {
         Self { lengths: (0..nodes.len()).map(ring).collect(), nodes, start, slopes: Vec::new(), radial: true }
     }
 
-    /// Width of the face after node `face`, in whatever width the lengths stand for: 1, or the circumference \[m\].
+    /// Width of the face after node `face`, in the unit of the lengths: 1, or the circumference \[m\].
     pub fn face(&self, face: usize) -> f64 {
         if self.radial { PI * (self.nodes[face] + self.nodes[face + 1]) } else { 1.0 }
     }
 
-    /// An axis on which a field is one polynomial: `count` nodes of Gauss, Lobatto and Legendre over half-length `half` \[m\]
-    /// beside the edge, clustered further by β. Of a whole length, as many again on the other side.
+    /// An axis on which a field is one polynomial: `count` Gauss–Lobatto–Legendre nodes over half-length `half` \[m\], not counting the
+    /// edge, further clustered by β. Over a whole length there are as many again on the other side.
     pub fn spectral(half: f64, start: Start, count: usize, beta: f64) -> Self {
         let (positions, weights) = legendre::lobatto(2 * count);
         let derivative = legendre::derivative(&positions);
         let all = positions.len();
         let stretch: Vec<f64> = positions.iter().map(|eta| half * grading::slope(beta, *eta)).collect();
-        // Of a mirrored field the node at −y has the value of that at y.
+        // In a mirrored field the node at −y has the same value as the node at y.
         let first = if start == Start::Mirror { count } else { 0 };
         let entry = |node: usize, value: usize| {
             let own = derivative[node * all + value];
@@ -93,8 +93,8 @@ impl Axis {
         }
     }
 
-    /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\]; of an infinitely wide one,
-    /// for one metre.
+    /// The single node of a film that does not flow along this axis. It stands for all of its `length` \[m\], or for one metre of an
+    /// infinitely wide film.
     pub fn single(length: f64) -> Self {
         Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror, slopes: Vec::new(), radial: false }
     }
@@ -109,7 +109,7 @@ impl Axis {
         self.nodes.is_empty()
     }
 
-    /// Nodes whose pressure is unknown.
+    /// The range of nodes whose pressure is unknown.
     pub fn unknown(&self) -> Range<usize> {
         if self.len() == 1 {
             return 0..1;
@@ -117,8 +117,8 @@ impl Axis {
         usize::from(self.start == Start::Ambient)..self.len() - 1
     }
 
-    /// −∂²/∂y² \[1/m²\] between the unknown nodes, for a field that vanishes on the edges: `[node][value]`. Finite volumes have an
-    /// M-matrix, of second order; a spectral axis has the weak form of the same, ∫ f′v′ = Σ lengths × f′v′.
+    /// −∂²/∂y² \[1/m²\] between the unknown nodes, for a field that vanishes on the edges: `[node][value]`. Finite volumes give an M-matrix
+    /// of second order; a spectral axis gives the weak form of the same operator, ∫ f′v′ = Σ lengths × f′v′.
     pub fn diffusion(&self) -> Vec<f64> {
         let (unknown, count) = (self.unknown(), self.len());
         let mut matrix = Vec::with_capacity(unknown.len().pow(2));
@@ -145,7 +145,7 @@ impl Axis {
         matrix
     }
 
-    /// How many times the solved part makes the whole.
+    /// Number of copies of the solved part that make up the whole.
     pub fn copies(&self) -> f64 {
         if self.start == Start::Mirror && self.len() > 1 && !self.radial { 2.0 } else { 1.0 }
     }
@@ -161,12 +161,12 @@ pub struct FilmGrid {
 }
 
 impl FilmGrid {
-    /// Nodes in all.
+    /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.x.len() * self.y.len()
     }
 
-    /// Nodes with unknown pressure.
+    /// Number of nodes with unknown pressure.
     pub fn unknowns(&self) -> usize {
         self.x.unknown().len() * self.y.unknown().len()
     }
@@ -176,7 +176,7 @@ impl FilmGrid {
         Across::new(self.y.unknown().len(), &self.y.diffusion())
     }
 
-    /// Each node along x with unknown pressure, and where those across it are in a field of all nodes.
+    /// Each node along x with unknown pressure, and the range of the unknown nodes across it in a field of all nodes.
     pub fn rows(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         let (across, ny) = (self.y.unknown(), self.y.len());
         self.x.unknown().map(move |ix| (ix, ix * ny + across.start..ix * ny + across.end))
@@ -200,7 +200,7 @@ impl FilmGrid {
     }
 }
 
-/// A place between two nodes of another grid.
+/// A position between two nodes of another grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Between {
     /// The node before it.
@@ -209,13 +209,13 @@ pub struct Between {
 }
 
 impl Between {
-    /// Node `i` of `fine` intervals between those of `coarse` ones.
+    /// The position of node `i` of `fine` intervals on a grid of `coarse` intervals.
     pub fn of(i: usize, fine: usize, coarse: usize) -> Self {
         let (low, rest) = (i * coarse / fine, i * coarse % fine);
         Self { low, fraction: rest as f64 / fine as f64 }
     }
 
-    /// Where the share `place` of the last of `nodes` lies between them.
+    /// The position at the fraction `place` of the last of `nodes`.
     pub fn at(place: f64, nodes: &[f64]) -> Self {
         let place = place * nodes[nodes.len() - 1];
         let high = nodes.partition_point(|node| *node <= place).min(nodes.len() - 1);
@@ -224,7 +224,8 @@ impl Between {
         Self { low, fraction: if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 } }
     }
 
-    /// The value there, cubic in the index of `nodes` nodes (quadratic beside an end), and never beyond those of the two nodes.
+    /// The value there, by interpolation that is cubic in the index of `nodes` nodes (quadratic next to an end), limited to the range of
+    /// the two neighbouring values.
     pub fn curve(&self, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (t, low) = (self.fraction, value(self.low));
         if t == 0.0 {
@@ -240,12 +241,12 @@ impl Between {
         (low + t * (high - low) - 0.5 * t * (1.0 - t) * bend).clamp(low.min(high), low.max(high))
     }
 
-    /// The node behind it, or the one it is on.
+    /// The node after it, or the one it is on.
     pub fn high(&self) -> usize {
         if self.fraction > 0.0 { self.low + 1 } else { self.low }
     }
 
-    /// The value there, from those of the two nodes.
+    /// The value there, interpolated linearly from those of the two nodes.
     pub fn mix(&self, low: f64, high: f64) -> f64 {
         if self.fraction > 0.0 { low + self.fraction * (high - low) } else { low }
     }

@@ -1,16 +1,15 @@
 //! One implicit time step of the film, second order in space and time, positive and conservative for any step.
 //!
-//! **Space.** Finite volumes around the nodes of a [`FilmGrid`]. With Z_f = (Z₀+Z₁)/2 the flux through a face is
-//! −M h₀h₁ ψ(Z_f)(P₁−P₀)/Δ. It vanishes for a uniform pressure. For a uniform gap and first-order slip it is exactly
-//! −M h (Φ₁−Φ₀)/Δ, Φ = Z²/2 + 6λ_a Z, so that the discrete film keeps the invariant ⟨hΦ⟩ of the exact one. For gas that
-//! has no time to move its cycle mean is −M ψ(Z_f)(⟨h₀⟩Z₁ − ⟨h₁⟩Z₀)/Δ, which vanishes for Z ∝ ⟨h⟩ as in the continuum,
-//! however steep the gap is from node to node. From a narrow gap into a wide one that is nearly empty it would fall with
-//! the pressure there: below P₁(h₀−h₁)/2h₀ the face chokes, its flux stays what it was, and so every flux is monotone in
-//! the pressures on either side. The wedge flux Z U/2 is central, plus the diffusion (Pe/2 coth Pe/2 − 1) of exponential
-//! fitting, evaluated at the start of the step: O(Δ²), and upwind where sliding dominates.
+//! **Space.** Finite volumes around the nodes of a [`FilmGrid`]. With Z_f = (Z₀+Z₁)/2 the flux through a face is −M h₀h₁ ψ(Z_f)(P₁−P₀)/Δ.
+//! It vanishes for a uniform pressure. For a uniform gap and first-order slip it is exactly −M h (Φ₁−Φ₀)/Δ, Φ = Z²/2 + 6λ_a Z, so that the
+//! discrete film keeps the invariant ⟨hΦ⟩ of the exact one. For gas that has no time to move, its cycle mean is −M ψ(Z_f)(⟨h₀⟩Z₁ −
+//! ⟨h₁⟩Z₀)/Δ, which vanishes for Z ∝ ⟨h⟩ as in the continuum, however much the gap changes from node to node. From a narrow gap into a
+//! wide, nearly empty one this flux would fall with the pressure in the wide gap. Below P₁(h₀−h₁)/2h₀ the face is therefore choked: its
+//! flux stays constant, so that every flux is monotone in the pressures on either side. The wedge flux Z U/2 is central, plus the diffusion
+//! (Pe/2 coth Pe/2 − 1) of exponential fitting, evaluated at the start of the step: O(Δ²), and upwind where sliding dominates.
 //!
-//! Between rough faces (`surface::flow`) a face carries the mean of the factors of its two nodes, functions of their gaps alone: what is said
-//! here of fluxes and pressures holds with them.
+//! Between rough faces (`surface::flow`) the flux through a face is multiplied by the mean of the flow factors of its two nodes, which
+//! depend on their gaps alone; all statements above still hold.
 //!
 //! **Time.** BDF2 (L-stable), written for W = Z + θ/2 (Z − Z_old) so that mass is conserved whatever θ is:
 //!
@@ -18,12 +17,13 @@
 //! (1 + θ/2) Zⁿ⁺¹ = Wⁿ + θ/2 Zⁿ − Δt div flux(Zⁿ⁺¹),     Wⁿ⁺¹ = Zⁿ⁺¹ + θ/2 (Zⁿ⁺¹ − Zⁿ)
 //! ```
 //!
-//! θ = 1 is BDF2. Where it would leave Wⁿ⁺¹ < Zⁿ⁺¹/10 (the trapped gas falls to a third within one step) the step is
-//! repeated with θ = 0 at those nodes. So W stays positive, the right-hand side is positive, the operator is an
-//! M-function (|d ln ψ/d ln Z| ≤ 1, `slip`, and faces that choke), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping
-//! sum over a cycle gives Σ div flux = 0 at every node of a periodic state: the mass balance, to round-off.
+//! θ = 1 is BDF2. Where it would make Wⁿ⁺¹ < Zⁿ⁺¹/10 (the trapped gas falls to about a third within one step), the step is repeated with θ
+//! = 0 at those nodes. So W and the right-hand side stay positive, and the operator is an M-function (|d ln ψ/d ln Z| ≤ 1, `slip`, and
+//! faces that choke), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping sum over a cycle gives Σ div flux = 0
+//! at every node of a periodic state, which is the mass balance, to round-off.
 //!
-//! Newton's method on P, unknown nodes ordered y fastest, whose systems are those of [`crate::numerics::rows`]. No allocation after construction.
+//! The unknown is P, found by Newton's method with the linear solver of [`crate::numerics::rows`]; unknown nodes are ordered y fastest.
+//! Nothing is allocated after construction.
 
 use super::grid::{Axis, FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
@@ -59,7 +59,7 @@ impl FilmState {
         self.trapped.iter().chain(&self.carried).map(|height| height.ln())
     }
 
-    /// Takes the state that has these [`Self::logarithms`].
+    /// Sets the state from its [`Self::logarithms`].
     pub fn set_logarithms(&mut self, logarithms: &[f64]) {
         for (height, logarithm) in self.trapped.iter_mut().chain(&mut self.carried).zip(logarithms) {
             *height = logarithm.exp();
@@ -96,18 +96,19 @@ pub struct FilmError {
     pub change: f64,
 }
 
-/// Newton's relative change below which a step is accepted, unless `Film::set_tolerance` loosens it. Convergence is quadratic:
-/// the error left is about the square.
+/// Newton's relative change below which a step is accepted, unless `Film::set_tolerance` loosens it. Convergence is quadratic: the
+/// remaining error is about the square of this.
 pub const NEWTON_TOLERANCE: f64 = 1e-7;
 const NEWTON_LIMIT: u32 = 40;
-/// Iterations of the damped method, those of them in which the damping is lowered fast, and the largest relative change of a pressure that
-/// it accepts.
+/// Iterations of the damped method, the number of them in which the damping is lowered quickly, and the largest relative change of a
+/// pressure that it accepts.
 const CAREFUL_LIMIT: u32 = 400;
 const HASTY: u32 = 60;
 const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
-/// Change of a pressure that is round-off when that method has come to its limit: gas that slip lets through everywhere is known no better.
+/// Change of a pressure that counts as round-off when the damped method has reached its limit: where slip lets gas through everywhere, the
+/// pressure cannot be known more exactly.
 const ROUND_OFF: f64 = 1e-6;
-/// Least pressure that such a step begins with, over ambient.
+/// Least initial pressure of such a step, relative to ambient.
 const EMPTY: f64 = 1e-12;
 /// W is kept above this fraction of Z.
 const CARRIED_FLOOR: f64 = 0.1;
@@ -121,9 +122,9 @@ pub struct Film {
     mobility: f64,
     columns: usize,
     tolerance: f64,
-    /// Nothing flows along x.
+    /// Whether there is no flow along x.
     closed_along: bool,
-    /// The faces, if they are not smooth, and what they make of the flow at each node along x.
+    /// The roughness of the faces if they are not smooth, and its effect on the flow at each node along x.
     roughness: Option<Roughness>,
     flow: Vec<Factors>,
     /// P at every node, edges included, `[ix][iy]`.
@@ -144,7 +145,7 @@ pub struct Film {
     faces: [FaceRow; 2],
     /// −∂²/∂y² across \[1/m²\].
     across: Across,
-    /// Φ at the nodes of the row being assembled, less that of the edge \[m²\], and what flows out across.
+    /// Φ at the nodes of the row being assembled, less that of the edge \[m²\], and the outflow across.
     potential: Vec<f64>,
     outflow: Vec<f64>,
 }
@@ -162,9 +163,9 @@ struct FaceRow {
 struct Face {
     /// Coefficient Δt M h₀h₁/Δ \[m\] of its flux; 0 where nothing flows.
     coefficient: f64,
-    /// Half the gaps before and behind it \[m\]: the weights of their pressures in Z_f.
+    /// Half the gaps on either side of the face \[m\]: the weights of their pressures in Z_f.
     weights: [f64; 2],
-    /// Of the nodes before and behind it: the share of the other node's pressure below which the flux no longer depends on the
+    /// For the nodes before and after the face: the fraction of the other node's pressure below which the flux no longer depends on the
     /// node's own pressure, because the face is choked.
     choke: [f64; 2],
 }
@@ -206,7 +207,7 @@ impl FaceRow {
             flux[j] = -conductance * drop;
             let (from_west, from_east) =
                 (conductance - west_weight * variation, -conductance - east_weight * variation);
-            // A choked side follows the other one.
+            // The pressure of a choked side follows from that of the other side.
             let (west_chokes, east_chokes) = (west == least[0], east == least[1]);
             by_west[j] =
                 if west_chokes { 0.0 } else { from_west + if east_chokes { face.choke[1] * from_east } else { 0.0 } };
@@ -215,7 +216,7 @@ impl FaceRow {
         }
     }
 
-    /// Adds the flux carried along by the sliding walls.
+    /// Adds the flux that the sliding walls drag along.
     #[inline(always)]
     fn slide<const B: usize>(&mut self, drift: f64, fitting: &[f64], west: &[f64], east: &[f64]) {
         let b = if B == 0 { west.len() } else { B };
@@ -269,19 +270,19 @@ impl Film {
         &self.grid
     }
 
-    /// Lets nothing flow along x from now on: every node along is a strip of its own.
+    /// Closes the faces along x from now on: every node along x is a strip of its own.
     pub fn close_along(&mut self) {
         self.closed_along = true;
     }
 
-    /// Takes the faces for rough from now on.
+    /// Sets the roughness of the faces from now on.
     pub fn roughen(&mut self, roughness: Option<Roughness>) {
         self.roughness = roughness;
         self.flow.fill(Factors::SMOOTH);
     }
 
-    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge[ix]` at all y of an end, and at the side of
-    /// each node along x. Inside it is lost: the next step must start without a guess.
+    /// Sets P at the nodes on the ambient edges, which is 1 by default: `edge[ix]`, at all y of an end and at the side of each node along
+    /// x. The pressure inside is lost: the next step must start without a guess.
     pub(super) fn set_edges(&mut self, edge: &[f64]) {
         for (row, edge) in self.pressure.chunks_exact_mut(self.grid.y.len()).zip(edge) {
             row.fill(*edge);
@@ -298,10 +299,11 @@ impl Film {
         &self.pressure
     }
 
-    /// Adds Δt·div flux of the last step \[m\] to `sum`, at unknown nodes: that of the last Newton iterate, and what its step changed.
+    /// Adds Δt·div flux of the last step \[m\] to `sum`, at unknown nodes: that of the last Newton iterate, plus the change due to the last
+    /// Newton step.
     pub fn add_outflow(&mut self, sum: &mut [f64]) {
         let (b, last) = (self.columns, sum.len());
-        // `residual` is the step of P.
+        // After the solve `residual` holds the Newton step of P.
         let (jacobian, step) = (&self.jacobian, &self.residual);
         for (row, sum) in sum.chunks_exact_mut(b).enumerate() {
             let nodes = row * b..(row + 1) * b;
@@ -368,8 +370,8 @@ impl Film {
             match self.newton(law, h, speed, dt, state, careful, &mut cost) {
                 Ok(()) if !self.limit(h, state) => break,
                 Ok(()) => cost.limited = 1,
-                // Strong sliding into a narrow gap: the fitting was made for another pressure, and Newton overshoots.
-                // Fully upwind faces make an M-function of any pressure, damped steps find its root.
+                // Strong sliding into a narrow gap: the exponential fitting was made for another pressure, and Newton overshoots. With
+                // fully upwind faces the operator is an M-function for any pressure, and damped steps find its root.
                 Err(_) if !careful => {
                     careful = true;
                     cost.limited = 1;
@@ -398,7 +400,7 @@ impl Film {
         self.grid.rows().map(move |(ix, row)| (h[ix], &self.pressure[row]))
     }
 
-    /// P at the unknown nodes from Z and the gap; the edges hold 1 for good.
+    /// P at the unknown nodes from Z and the gap; the edges keep their P.
     fn load_pressure(&mut self, h: &[f64], trapped: &[f64]) {
         for (column, (ix, row)) in trapped.chunks_exact(self.columns).zip(self.grid.rows()) {
             for (p, z) in self.pressure[row].iter_mut().zip(column) {
@@ -413,7 +415,7 @@ impl Film {
         }
     }
 
-    /// Rate at which a small excess of gas at ambient pressure leaves an even gap `h` \[m\] by its slowest mode \[1/s\].
+    /// Rate \[1/s\] at which a small excess of gas at ambient pressure leaves a uniform gap `h` \[m\], in its slowest mode.
     pub fn slowest_leak(&self, h: f64) -> f64 {
         let length = |axis: &Axis| {
             let ends = axis.nodes[axis.len() - 1] - axis.nodes[0];
@@ -487,7 +489,7 @@ impl Film {
             ux.start - 1
         };
         for face in first..ux.end {
-            // The face after node `face`; the one before it was made in the last turn.
+            // The face after node `face`; the face before it was computed in the previous iteration.
             let mut between = Face::after(&self.grid, &self.flow, self.mobility, face, h, dt);
             if self.closed_along {
                 between.coefficient = 0.0;
@@ -550,8 +552,8 @@ impl Film {
         }
     }
 
-    /// Newton's method for the step. `careful`, for the rare step on which plain Newton diverges: what the fluxes add to the
-    /// diagonal of the matrix is raised until no pressure changes by more than a factor, and lowered again from there.
+    /// Newton's method for the step. `careful` is for the rare step on which plain Newton diverges: the fluxes' part of the matrix diagonal
+    /// is increased until no pressure changes by more than a given factor, and then reduced again.
     fn newton<L: Mobility>(
         &mut self,
         law: L,
@@ -566,7 +568,7 @@ impl Film {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];
         }
         if careful {
-            // From a film that was all but empty the way up would be longer than there are iterations.
+            // A start from an almost empty film would need more iterations than are allowed.
             self.pressure.iter_mut().for_each(|p| *p = p.max(EMPTY));
         }
         let mut damping = if careful { 1.0 } else { 0.0 };
@@ -587,7 +589,7 @@ impl Film {
                 for (p, step) in self.pressure[row].iter_mut().zip(column) {
                     settled &= step.abs() <= self.tolerance * *p;
                     sum += step;
-                    // A Newton step from below may overshoot zero: it is cut, not refused.
+                    // A Newton step may overshoot zero: the step is then limited, not rejected.
                     *p = (*p + step).clamp(0.1 * *p, 10.0 * *p);
                 }
             }
@@ -597,8 +599,8 @@ impl Film {
             if sum.is_nan() {
                 break;
             }
-            // Lowered fast it may come back to where it was again and again: then it is lowered slowly. Where no pressure moves any more it is
-            // taken away, to see whether that is the solution.
+            // With damping lowered quickly, the iteration may keep returning to the same state: after `HASTY` iterations it is lowered
+            // slowly. Once no pressure changes, damping is removed to check whether this is the solution.
             let slower = if iteration < HASTY { 0.25 } else { 0.7 };
             damping = if damping < 1e-6 || settled && damping < 1.0 { 0.0 } else { slower * damping };
         }
@@ -606,7 +608,7 @@ impl Film {
         if careful && damping == 0.0 && change < ROUND_OFF {
             return Ok(());
         }
-        // The caller gets a film that still holds the state it had.
+        // After a failure the film holds the state that it had.
         self.load_pressure(h, &state.trapped);
         Err(FilmError { iterations: limit, change })
     }
@@ -623,7 +625,7 @@ impl Film {
         change
     }
 
-    /// Lowers θ to 0 where W would fall too far; whether any was lowered.
+    /// Lowers θ to 0 where W would fall too far. Returns whether any θ was lowered.
     fn limit(&mut self, h: &[f64], state: &FilmState) -> bool {
         let mut theta = std::mem::take(&mut self.theta);
         let mut any = false;

@@ -1,7 +1,7 @@
 //! The film in the limit of high frequency: gas that has no time to move, σ → ∞.
 //!
-//! Within a cycle nothing flows but in a layer at the edges too thin to matter: Z = hP stays at each point what it is, and
-//! P = Z/h. What Z is, the slow leaks of many cycles decide.
+//! Within a cycle gas flows only in a layer at the edges, which is too thin to matter: Z = hP is constant at each point, and P = Z/h. The
+//! value of Z is determined by the slow leaks of many cycles.
 //!
 //! * In the layer at an edge h is uniform across it, and the cycle mean of the flux −M h ∂Φ/∂n, Φ = ∫ψ dZ, vanishes:
 //!   ⟨hΦ(Z)⟩ is that of the ambient edge. So Z_e of an edge with gap h(t) follows from ⟨h⟩ Φ(Z_e) = ⟨h Φ(h)⟩.
@@ -21,7 +21,7 @@ pub struct TrappedFilm {
     edge: Vec<f64>,
 }
 
-/// How long the steady film is given to settle \[s\]: far more than any film needs.
+/// Time that the steady film is given to settle \[s\]: far more than any film needs.
 const FOREVER: f64 = 1e12;
 
 impl TrappedFilm {
@@ -45,7 +45,7 @@ impl TrappedFilm {
             self.edge[ix] = edge_height(law, gaps) / self.mean_gap[ix];
         }
         self.film.set_edges(&self.edge);
-        // From rest at the pressure of the sides.
+        // Start from rest at the pressure of the sides.
         let columns = self.film.grid().y.unknown().len();
         for (column, ix) in self.state.trapped.chunks_exact_mut(columns).zip(self.film.grid().x.unknown()) {
             column.fill(self.edge[ix] * self.mean_gap[ix]);

@@ -1,4 +1,4 @@
-//! Velocity of the gas across the film, from wall to wall: what the Reynolds equation has integrated away.
+//! Velocity of the gas across the film, from wall to wall, which the Reynolds equation has integrated out.
 //!
 //! Between walls at z = 0 and z = h, which move at U₀ and U₁ along x, gas is driven by the pressure and dragged by the walls:
 //!
@@ -7,10 +7,11 @@
 //! ∫u dz = −(h³/12μ) (1 + 6 ℓ/h) ∂p/∂x + h (U₀ + U₁)/2
 //! ```
 //!
-//! This is a plane Poiseuille flow and a plane Couette flow with Maxwell's slip: at either wall the gas differs from it by ℓ times the slope of u.
-//! With slip of first order the slip length ℓ is the local mean free path λ_a/P. Of the other laws it is that with which the parabola carries their
-//! flow, ℓ = (ψ(Z)/P − h)/6, so that ∫u dz is always the flow that the film is solved with. Their own profiles are steeper within about a mean free
-//! path of the walls. Between rough faces it is that of smooth ones as far apart.
+//! This is a plane Poiseuille flow and a plane Couette flow with Maxwell's slip: at either wall the gas velocity differs from the wall's by
+//! ℓ times the slope of u. With first-order slip the slip length ℓ is the local mean free path λ_a/P. For the other laws ℓ is chosen so
+//! that the parabola carries their flow, ℓ = (ψ(Z)/P − h)/6, so that ∫u dz is always the flow with which the film is solved. The profiles
+//! of these laws are in fact steeper within about a mean free path of the walls. Between rough faces the profile is that of smooth faces at
+//! the same distance.
 
 use super::slip::{Mobility, SlipLaw};
 use crate::problem::Gas;
@@ -29,8 +30,8 @@ pub struct Velocity {
 }
 
 impl Velocity {
-    /// That of `gas` in a film of `thickness` \[m\] at absolute `pressure` \[Pa\], which grows by `gradient` along x \[Pa/m\], between walls that move at
-    /// `walls` \[m/s\], the lower one first.
+    /// The velocity of `gas` in a film of `thickness` \[m\] at absolute `pressure` \[Pa\], whose slope along x is `gradient` \[Pa/m\],
+    /// between walls that move at `walls` \[m/s\], the lower one first.
     pub fn new(gas: &Gas, thickness: f64, pressure: f64, gradient: f64, walls: [f64; 2]) -> Self {
         let ratio = pressure / gas.ambient_pressure;
         let mobility = SlipLaw::of(gas).at(thickness * ratio).0;
@@ -90,7 +91,7 @@ mod tests {
     fn poiseuille_and_couette_flow_slip_by_the_mean_free_path() {
         let gas = gas(Slip::FirstOrder);
         let (pressure, gradient) = (2.0 * gas.ambient_pressure, -5e8);
-        // Half the path at twice the pressure.
+        // Half the mean free path at twice the pressure.
         let path = 0.5 * gas.mean_free_path;
         let still = Velocity::new(&gas, THICKNESS, pressure, gradient, [0.0; 2]);
         assert!((still.slip_length / path - 1.0).abs() < 1e-9);
@@ -102,7 +103,7 @@ mod tests {
             assert!((still.at(z) / poiseuille(z) - 1.0).abs() < 1e-9);
             assert!((dragged.at(z) - (0.2 + rate * (z + path))).abs() < 1e-12);
         }
-        // Both at once: at each wall the gas is ahead of it by the path times the slope into the film.
+        // Both at once: at each wall the gas velocity exceeds the wall's by the path times the slope into the film.
         let both = Velocity::new(&gas, THICKNESS, pressure, gradient, [0.2, 1.0]);
         let step = 1e-3 * THICKNESS;
         let slope = |z: f64| (both.at(z + step) - both.at(z - step)) / (2.0 * step);

@@ -4,11 +4,11 @@
 const PER_KELVIN: f64 = 9.80665 * 0.028_964_4 / 8.314_32;
 /// Radius of the Earth in the standard \[m\], for the fall of gravity with altitude.
 const EARTH: f64 = 6_356_766.0;
-/// Foot of each layer \[m of geopotential\], and the change of temperature in it \[K/m\].
+/// Base of each layer \[m of geopotential altitude\], and the temperature gradient in it \[K/m\].
 const LAYERS: [(f64, f64); 7] =
     [(0.0, -6.5e-3), (11e3, 0.0), (20e3, 1e-3), (32e3, 2.8e-3), (47e3, 0.0), (51e3, -2.8e-3), (71e3, -2e-3)];
 
-/// Pressure \[Pa\] at an altitude above sea level \[m\], as a tape would measure it, up to 86 km. Below sea level the first layer goes on.
+/// Pressure \[Pa\] at a geometric altitude above sea level \[m\], up to 86 km. Below sea level the lowest layer is extrapolated.
 pub fn pressure(altitude: f64) -> f64 {
     let height = EARTH * altitude / (EARTH + altitude);
     let (mut pressure, mut temperature) = (101_325.0, 288.15);

@@ -1,7 +1,7 @@
-//! Gases by name, and the pressure of the atmosphere: what viscosity and mean free path follow from.
+//! Gases by name, and the pressure of the atmosphere, from which viscosity and mean free path follow.
 //!
-//! Each gas is a file of its own, with its viscosity over temperature and where that is from. All are dilute: viscosity does not
-//! depend on pressure, which up to 1 MPa at 20 °C raises that of every gas here by less than 0.8 %.
+//! Each gas is a file of its own, with its viscosity over temperature and the source. All are treated as dilute, that is, viscosity does
+//! not depend on pressure; up to 1 MPa at 20 °C, pressure raises the viscosity of every gas here by less than 0.8 %.
 
 mod air;
 mod argon;
@@ -19,7 +19,7 @@ use species::Species;
 pub static GASES: &[Species] =
     &[air::AIR, nitrogen::NITROGEN, helium::HELIUM, argon::ARGON, carbon_dioxide::CARBON_DIOXIDE, hydrogen::HYDROGEN];
 
-/// The gas of a name; none for `custom`, whose viscosity and mean free path are given.
+/// The gas with this name; `None` for `custom`, whose viscosity and mean free path are given.
 pub fn find(name: &str) -> Option<&'static Species> {
     GASES.iter().find(|gas| gas.name == name)
 }

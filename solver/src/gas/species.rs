@@ -1,4 +1,4 @@
-//! A gas by its molecules, and the ideal gas that it is at one temperature.
+//! A gas by its molecular properties, and its ideal gas at one temperature.
 
 use crate::digits::as_given;
 use std::f64::consts::PI;
@@ -41,7 +41,7 @@ impl Species {
     }
 }
 
-/// An ideal gas at one temperature: what its density, heat and sound follow from.
+/// An ideal gas at one temperature, from which its density, heat capacity and speed of sound follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdealGas {
     /// Its name.
@@ -64,7 +64,7 @@ impl std::fmt::Display for IdealGas {
 }
 
 impl IdealGas {
-    /// Assumed for a gas that is given by viscosity and mean free path alone: air at 20 °C.
+    /// Assumed for a gas of which only viscosity and mean free path are given: air at 20 °C.
     pub const UNNAMED: Self =
         Self { name: "air", temperature: 293.15, gas_constant: 287.05, heat_ratio: 1.4, prandtl: 0.71 };
 

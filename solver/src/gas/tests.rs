@@ -19,7 +19,7 @@ fn viscosities_are_the_published_ones() {
         let gas = find(name).unwrap();
         for (value, temperature) in published.into_iter().zip([200.0, 300.0, 400.0, 500.0, 600.0]) {
             let found = 1e6 * (gas.viscosity)(temperature);
-            // One in the last digit, and 0.8 %, by which newer measurements differ.
+            // One unit of the last digit, and 0.8 %, the deviation of newer measurements.
             assert!((found - value).abs() < 0.05 + 0.008 * value, "{name} {temperature} K: {found}, published {value}");
         }
     }

@@ -1,8 +1,8 @@
 //! The same motor without its film: contact alone, in a vacuum.
 //!
-//! Without gas nothing remembers, so every instant is one contact problem (`contact`, with no gas at any node) and there
-//! is no periodic state to look for. Nodes and rotor are those of the plan, so that what the film changes is not what
-//! another grid changes; of instants there are twice as many, since they cost little.
+//! Without gas there is no memory of earlier instants, so every instant is one contact problem (`contact`, with no gas at any node) and
+//! there is no periodic state to find. Nodes and rotor are those of the plan, so that the difference to the solve with film is the effect
+//! of the film, not of the grid. There are twice as many instants, since they cost little.
 
 use super::MotorError;
 use super::ending::unless_cancelled;
@@ -17,7 +17,7 @@ use crate::recording::LineLoads;
 /// # Errors
 /// [`MotorError::Contact`] if a contact problem has no solution to working precision.
 pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Option<Vec<LineLoads>>, MotorError> {
-    // Nothing is solved across the width, so that its nodes need no memory.
+    // Nothing is solved across the width, so the nodes across need no memory.
     let plan = Plan { every_tooth: false, trapped: false, shear: false, flow: Flow::Along, ..plan.clone() };
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {

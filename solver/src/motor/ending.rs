@@ -1,11 +1,11 @@
-//! How a solve of a motor ends early, and what its accuracy is relative to.
+//! How a solve of a motor ends early, and the reference of its relative accuracy.
 
 use crate::contact::ContactError;
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::rotor::RotorError;
 
-/// Why a motor could not be solved. No input is known that makes a film step or a contact problem fail.
+/// Why a motor could not be solved. No input is known for which a film step or a contact problem fails.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotorError {
     /// A film step failed.

@@ -24,13 +24,13 @@ const DEPTH: usize = 16;
 /// Longest step of the acceleration in ln ζ.
 const LONGEST_STEP: f64 = 1.5;
 
-/// Imbalance of the contact problems, as a share of the residual of the round before.
+/// Allowed imbalance of the contact problems, as a fraction of the residual of the round before.
 const CONTACT_SHARE: f64 = 1e-3;
 
-/// Share of the error asked for that a cycle which does not quite repeat may have, and what round-off leaves of the load.
+/// Fraction of the error asked for that is allowed because the cycle does not repeat exactly, and the round-off of the load.
 const REPEATING_SHARE: f64 = 0.3;
 const LEAST_CHANGE: f64 = 1e-9;
-/// Share of the last change that is still to come, at least.
+/// The remaining change is at least this fraction of the last change.
 const LEAST_TO_COME: f64 = 0.125;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
@@ -47,7 +47,7 @@ pub(super) struct MotorLevel {
     load: f64,
     contact: Contact,
     films: Vec<FilmCycle>,
-    /// In place of marching, if the gas is trapped.
+    /// The film in the limit of trapped gas, which then replaces marching.
     trapped_film: Option<TrappedFilm>,
     states: Vec<FilmState>,
     shapes: Vec<Shape>,
@@ -55,13 +55,14 @@ pub(super) struct MotorLevel {
     stator: Vec<f64>,
     /// U, lines, if the wedge term is modelled.
     speed: Option<Vec<f64>>,
-    /// ζ, lines: what the contact problems use.
+    /// ζ, lines, as used by the contact problems.
     trapped: Vec<f64>,
     /// h, lines.
     film_thickness: Vec<f64>,
     /// c, lines.
     contact_load: Vec<f64>,
-    /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
+    /// Ambient pressure times the area of all teeth over the load, at least 1: the factor from an error of the gas to one of the load
+    /// balance.
     stiffness: f64,
     /// Estimated remaining change of ln ζ, from the last two rounds, or the last imbalance if that is larger; for a transient, the largest
     /// residual of a step of the last cycle.
@@ -70,9 +71,9 @@ pub(super) struct MotorLevel {
     drift: f64,
     /// ζ from the film's last cycle, lines.
     line: Vec<f64>,
-    /// `line` moved by the slow shift: ζ for the next round.
+    /// `line` moved by the slow shift: ζ of the next round.
     next: Vec<f64>,
-    /// If gas leaves within a step: the gap that each node's film force is known for, lines ([`MotorLevel::soften`]).
+    /// If gas leaves within a step: the gap for which each node's film force is known, lines ([`MotorLevel::soften`]).
     reference: Option<Vec<f64>>,
     /// Width on which the film acts at the nodes of a tooth \[m\].
     widths: Vec<f64>,
@@ -161,12 +162,12 @@ impl MotorLevel {
         self.films[0].grid()
     }
 
-    /// No tooth touches at any instant.
+    /// Whether no tooth touches at any instant.
     pub(super) fn floats(&self) -> bool {
         self.contact_load.iter().all(|load| *load == 0.0)
     }
 
-    /// Least contact load at any node and instant, over the mean; 0 if one does not touch.
+    /// Least contact load at any node and instant, over the mean; 0 if any node does not touch at some instant.
     pub(super) fn least_contact(&self) -> f64 {
         let mean = self.contact_load.iter().sum::<f64>() / self.contact_load.len() as f64;
         self.contact_load.iter().copied().fold(mean, f64::min) / mean.max(f64::MIN_POSITIVE)
@@ -186,7 +187,7 @@ impl MotorLevel {
         (tooth * self.steps + step) * self.nx
     }
 
-    /// A first state: the wave under a rigid rotor that just touches its crest, gas trapped as at high frequency.
+    /// Sets the initial state: the wave under a rigid rotor that just touches its crest, with gas trapped as at high frequency.
     pub(super) fn start(&mut self, motor: &Motor) {
         let slip = 6.0 * motor.gas.mean_free_path;
         for s in 0..self.instants() {
@@ -215,8 +216,9 @@ impl MotorLevel {
         }
     }
 
-    /// From now on only the gas that cannot leave within a step is a spring to the contact problem; the force of the rest is that
-    /// of the last round. Where nearly all leaves, all of it as a spring would let the rotor sink by a small share of the gap a round.
+    /// From now on only the gas that cannot leave within a step acts as a spring in the contact problem; the force of the rest is that of
+    /// the last round. Where nearly all gas leaves, treating all of it as a spring would let the rotor sink by only a small fraction of the
+    /// gap in each round.
     pub(super) fn soften(&mut self) {
         self.reference = Some(self.film_thickness.clone());
     }
@@ -249,7 +251,7 @@ impl MotorLevel {
                     let heights = &reference[from..from + nx];
                     let places = gathered[tooth * nx..].iter_mut().zip(&mut self.contact.ambient_mut()[tooth * nx..]);
                     for (((gas, back), h), width) in places.zip(heights).zip(&self.widths) {
-                        // Lifted off, the film must not carry.
+                        // The film must not carry load once the rotor has lifted off: the subtracted force must not become negative.
                         let stays = self.films[0].stays(*h, self.dt).max(1.0 - width * h / *gas);
                         *back = self.ambient_pressure * (width - (1.0 - stays) * *gas / h);
                         *gas *= stays;
@@ -261,7 +263,7 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// Solves the contact problem of instant `s` with the gas ζ at the nodes, and keeps what it finds.
+    /// Solves the contact problem of instant `s` with the gas ζ at the nodes, and stores the result.
     fn meet(&mut self, s: usize, gas: &[f64], fields: &mut Instant, stats: &mut Stats) -> Result<(), Stop> {
         let stator = &self.stator[s * gas.len()..(s + 1) * gas.len()];
         let solved = self.contact.solve(stator, gas, &mut self.shapes[s], fields);
@@ -271,7 +273,7 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// Keeps what a contact problem has found for instant `s`.
+    /// Stores the result of the contact problem of instant `s`.
     fn keep(&mut self, s: usize, fields: &Instant) {
         let nx = self.nx;
         for tooth in 0..self.teeth {
@@ -297,7 +299,7 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// The trapped gas of every stored tooth under the present h: `line`, pressures and states.
+    /// Computes the trapped gas of every stored tooth under the present h: `line`, pressures and states.
     fn trap(&mut self, stats: &mut Stats) -> Result<(), Stop> {
         let Some(trapped_film) = &mut self.trapped_film else { return Ok(()) };
         let (nx, size) = (self.nx, self.steps * self.nx);
@@ -319,7 +321,7 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// Marches one cycle of every stored tooth through the present h; `line` and the states move on.
+    /// Marches one cycle of every stored tooth through the present h; updates `line` and the states.
     fn march(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<(), Stop> {
         if self.trapped_film.is_some() {
             return self.trap(stats);
@@ -340,8 +342,8 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// ln of (ζ, Z(0), W(0)) at unknown nodes of all stored teeth, and of the reference gap if there is one: what the acceleration
-    /// works on.
+    /// The vector that the acceleration works on: ln of (ζ, Z(0), W(0)) at unknown nodes of all stored teeth, and of the reference gap if
+    /// there is one.
     fn pack(&self, lines: &[f64], heights: &[f64], out: &mut Vec<f64>) {
         out.clear();
         let ux = self.grid().x.unknown();
@@ -393,7 +395,7 @@ impl MotorLevel {
         }
     }
 
-    /// Rounds until the trapped gas repeats to the plan's tolerance.
+    /// Iterates until the trapped gas repeats to the plan's tolerance.
     pub(super) fn converge(
         &mut self,
         plan: &Plan,
@@ -427,7 +429,7 @@ impl MotorLevel {
             self.residual = residual;
             let change = self.force_of_change(&self.trapped, &self.next);
             self.drift = left(std::mem::replace(&mut last_change, change), change, 0.5, 1.0);
-            // The force is that of the gas before the slow shift.
+            // The force is evaluated with the gas before the slow shift.
             self.drift += self.force_of_change(&self.line, &self.next);
             report.round(round, residual, self.mean_film_load());
             if residual < plan.tolerance && self.astray() <= self.allowed(plan) {
@@ -436,7 +438,7 @@ impl MotorLevel {
             anderson.advance(&mut present, &image);
             self.unpack(&present);
         }
-        // What has not become small enough: what single nodes change by, or else what is left of α.
+        // The residual that is not small enough yet: the change at single nodes or else the remaining change of α.
         let (residual, tolerance) = match residual < plan.tolerance {
             true => (self.astray(), self.allowed(plan)),
             false => (residual, plan.tolerance),
@@ -444,7 +446,8 @@ impl MotorLevel {
         Ok(Status::NotConverged { residual, tolerance })
     }
 
-    /// How far α may still be from that of a cycle that repeats: a share of the error that is asked for, or on given grids of the fidelity's.
+    /// Allowed error of α because the cycle does not repeat exactly: a fraction of the error asked for or, on prescribed grids, of the
+    /// fidelity's target.
     fn allowed(&self, plan: &Plan) -> f64 {
         let aim = if plan.accuracy == 0.0 { plan.target_error } else { plan.accuracy };
         (REPEATING_SHARE * aim * self.unit()).max(LEAST_CHANGE)
@@ -458,8 +461,8 @@ impl MotorLevel {
         self.ambient_pressure * (self.line[line + ix] / self.film_thickness[line + ix] - self.interior_width)
     }
 
-    /// Cycle mean of the force on one wavelength \[N\] by which two amounts of gas differ, ζ at every node of the lines, all of it counted
-    /// one way.
+    /// Cycle mean \[N\], on one wavelength, of the magnitude of the change of the gas's force when ζ changes from `before` to `after`: the
+    /// sum of the absolute changes at all nodes.
     fn force_of_change(&self, before: &[f64], after: &[f64]) -> f64 {
         let (ux, lengths) = (self.grid().x.unknown(), &self.grid().x.lengths);
         let mut sum = 0.0;
@@ -479,8 +482,8 @@ impl MotorLevel {
         self.mean_film_load() + ambient * self.teeth as f64
     }
 
-    /// How far α may be from that of a cycle that repeats: the trapped gas still changes, and its force with it; film and contact
-    /// disagree about their shares.
+    /// Error of α because the cycle does not repeat exactly: the trapped gas, and its force, still change; and film and contact still
+    /// disagree about their shares of the load.
     pub(super) fn astray(&self) -> f64 {
         self.drift / self.load + self.unbalanced()
     }
@@ -496,7 +499,7 @@ impl MotorLevel {
         self.mean_film_load_of(1)
     }
 
-    /// Cycle mean of the film load from every `every`-th step alone \[N\].
+    /// Cycle mean of the film load over every `every`-th step \[N\].
     fn mean_film_load_of(&self, every: usize) -> f64 {
         let lengths = &self.grid().x.lengths;
         let lines = (0..self.stored * self.steps).filter(|line| (line % self.steps).is_multiple_of(every));
@@ -511,8 +514,8 @@ impl MotorLevel {
         self.mean_film_load() / self.load
     }
 
-    /// (film load + contact load − L)/L at an instant, the film's load from its own pressure: how far film and contact still
-    /// disagree.
+    /// (film load + contact load − L)/L at an instant, with the film load from the film's own pressure: the remaining disagreement between
+    /// film and contact.
     fn imbalance_at(&self, instant: usize) -> f64 {
         let lengths = &self.grid().x.lengths;
         let mut total = -self.load;
@@ -529,12 +532,12 @@ impl MotorLevel {
         (0..self.instants()).map(|instant| self.imbalance_at(instant))
     }
 
-    /// Largest imbalance of an instant.
+    /// Largest imbalance over all instants.
     fn imbalance(&self) -> f64 {
         self.imbalances().fold(0.0, |worst, imbalance| worst.max(imbalance.abs()))
     }
 
-    /// Cycle mean of the imbalance: by how much α would differ if it were taken from the contact load.
+    /// Cycle mean of the imbalance: the difference between α from the film load and α from the contact load.
     pub(super) fn mean_imbalance(&self) -> f64 {
         self.imbalances().sum::<f64>().abs() / self.instants() as f64
     }
@@ -571,8 +574,8 @@ impl GridState for MotorLevel {
     }
 }
 
-/// How exactly a film step needs to be solved in a round that starts `residual` away from the periodic state: Newton's
-/// last change leaves an error of about its square, a hundredth of the residual.
+/// Tolerance of the film steps in a round that starts `residual` away from the periodic state: Newton's last change leaves an error of
+/// about its square, here a hundredth of the residual.
 fn step_tolerance(residual: f64) -> f64 {
     (0.1 * residual.min(1.0).sqrt()).max(NEWTON_TOLERANCE)
 }

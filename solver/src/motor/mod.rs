@@ -1,13 +1,13 @@
 //! Film, contact and rotor together: the periodic steady state of a motor.
 //!
-//! Unknown is the trapped gas ζ on every tooth at every step of the cycle. Given ζ, one contact problem an instant gives
-//! the film thickness h (`contact`: the film is a spring of trapped gas, so that stiff films and a floating rotor are
-//! ordinary cases). Given h, one cycle of the film gives a new ζ, shifted towards the periodic state by the slow shift of
-//! `film::cycle`. Anderson acceleration of ln ζ drives both to the common periodic state at once.
+//! The unknown is the trapped gas ζ on every tooth at every step of the cycle. Given ζ, one contact problem per instant gives the film
+//! thickness h (`contact`: the film is a spring of trapped gas, so that stiff films and a floating rotor need no special treatment). Given
+//! h, one cycle of the film gives a new ζ, moved towards the periodic state by the slow shift of `film::cycle`. Anderson acceleration of ln
+//! ζ drives both to the common periodic state at once.
 //!
-//! In the steady state tooth k at time t is tooth 0 at t + kT/n_t, because the wave travels towards −x and the rotor looks
-//! the same everywhere. One tooth, and the contact problems of the first T/n_t, then stand for all. Solving every tooth
-//! gives the same (tested).
+//! In the steady state tooth k at time t is tooth 0 at t + kT/n_t, because the wave travels towards −x and the rotor is the same
+//! everywhere. One tooth, and the contact problems of the first T/n_t, therefore represent all. Solving every tooth gives the same result
+//! (tested).
 
 mod dry;
 mod ending;
@@ -27,19 +27,19 @@ use crate::solution::{MotorResult, Outcome, Stats, Status};
 use ending::{Stop, unless_cancelled};
 use level::MotorLevel;
 
-/// Rounds that a start from another motor's state is given.
+/// Most rounds of a solve that starts from another motor's state.
 const WARM_ROUNDS: usize = 12;
-/// Likewise, where the cycle has to repeat nearly to round-off.
+/// The same, where the cycle has to repeat nearly to round-off.
 const NEAR_ROUNDS: usize = 80;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
 
-/// Work of one cycle of every tooth on the finest grid, `Grid::work`, up to which cycles are marched one after the other.
+/// Cycles of every tooth are marched one after the other only if the work of one on the finest grid, `Grid::work`, is at most this.
 const MOST_MARCHED: f64 = 1e6;
 
 /// Share of the load on the film above which a rotor counts as floating, or nearly so.
 pub const NEARLY_FLOATS: f64 = 0.95;
-/// Loads, over its own, through which the state of a motor whose teeth touch is followed.
+/// Loads, as multiples of its own load, through which the state of a motor whose teeth touch is followed.
 const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
 /// Round-off error of α: an α this close to 1 is 1.
@@ -50,9 +50,9 @@ const NEGLIGIBLE: f64 = 1e-4;
 /// A motor's periodic state; its headline is α.
 pub type Periodic = ladder::Periodic<MotorResult>;
 
-/// The states that the last solve ended with: where the solve of a similar motor starts.
+/// The final states of the last solve, from which the solve of a similar motor may start.
 ///
-/// A start changes how many rounds a solve takes, and its result by no more than the stated error.
+/// A start from them changes the number of rounds, and the result by no more than the stated error.
 #[derive(Debug, Default)]
 pub struct Warm {
     found: Option<SolvedGrids<MotorLevel>>,
@@ -78,7 +78,7 @@ pub fn periodic(
     periodic_from(&mut Warm::default(), motor, plan, observer, cancel)
 }
 
-/// As [`periodic`], each grid started from that of the last solve where `warm` holds one, and left there for the next.
+/// As [`periodic`], with each grid started from the state that `warm` holds of the last solve, if any; the new states are left in `warm`.
 ///
 /// # Errors
 /// As [`periodic`].
@@ -94,7 +94,7 @@ pub fn periodic_from(
     let mut search = Search { motor, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
     if let Status::NotConverged { .. } = found.status {
-        // A cycle may repeat on grids of half the spacing and not on those of the plan.
+        // A cycle may repeat on grids of half the spacing although it does not on those of the plan.
         let refined = (plan.most_grids > plan.grids.len()).then(|| plan.finer());
         for plan in [Some(plan), refined.as_ref()].into_iter().flatten() {
             if let Some(settled) = search.march(plan) {
@@ -109,8 +109,8 @@ pub fn periodic_from(
     Ok(result)
 }
 
-/// As [`periodic`] by this plan alone, started from `near`, which stays as it is: what all grids give, and what all but the finest; the
-/// state; and the plan pinned to the grids that converged.
+/// As [`periodic`] with this plan only, starting from `near`, which is not changed. Returns the result of all grids and of all but the
+/// finest, the state, and the plan pinned to the grids that converged.
 ///
 /// # Errors
 /// As [`periodic`].
@@ -130,8 +130,8 @@ pub fn periodic_near(
     Ok((nested, Warm { found: Some(found) }, pinned))
 }
 
-/// The state in which teeth touch of a motor that may float as well, followed from heavier loads under which it cannot; `None` if
-/// there is none, or it was not found. `stats`: what it has cost so far, to which this is added.
+/// The state with touching teeth of a motor that may also float, followed down from heavier loads under which it cannot float; `None` if
+/// there is no such state, or it was not found. The cost is added to `stats`.
 pub fn touching(
     motor: &Motor,
     plan: &Plan,
@@ -165,9 +165,9 @@ pub fn touching(
 /// One solve of a motor by a plan.
 struct Search<'a> {
     motor: &'a Motor,
-    /// Rounds that a start from another motor's state is given.
+    /// Most rounds of a solve that starts from another motor's state.
     warm_rounds: usize,
-    /// Cycle after cycle of every tooth is marched, in place of rounds of all instants at once.
+    /// Whether every tooth is marched cycle after cycle, instead of iterating over all instants at once.
     marching: bool,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
@@ -175,8 +175,9 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve
-    /// may take. Over asperities, whose contact problems cost many times as much, that would be too much.
+    /// The state to which marching every tooth, cycle after cycle, converges on the grids of `plan`; `None` if it does not converge, or if
+    /// work or memory exceed what a solve may take. Faces with asperities are excluded, because their contact problems cost many times as
+    /// much.
     fn march(&mut self, plan: &Plan) -> Option<SolvedGrids<MotorLevel>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
@@ -233,12 +234,12 @@ impl GridSolver for Search<'_> {
         loop {
             match level.converge(plan, rounds, self.stats, &mut report, &cancel) {
                 Err(Stop::Cancelled) => return Ok((Status::Cancelled, level)),
-                // A motor too far from the last one is soon known, and started anew.
+                // A start too far from the solution is soon detected and replaced by a fresh start.
                 Ok(Status::NotConverged { .. }) | Err(Stop::Failed(_)) if rounds < limit => {
                     level = anew();
                     rounds = limit;
                 }
-                // Gas that leaves at once is no spring; where all is taken for one, many rounds do not reach the state.
+                // Gas that leaves within a step is not a spring; if all gas is treated as one, even many rounds do not reach the state.
                 Ok(Status::NotConverged { .. }) if !softened && !level.is_soft() => {
                     level = anew();
                     level.soften();
@@ -255,7 +256,7 @@ impl GridSolver for Search<'_> {
     }
 
     fn settled(&self, plan: &Plan, found: &SolvedGrids<MotorLevel>) -> bool {
-        // Over asperities there is contact everywhere, however little.
+        // On asperities there is always some contact everywhere.
         if self.motor.surface.asperities.is_none() && may_open(found) {
             return false;
         }
@@ -274,7 +275,7 @@ pub struct MotorTransient<'a> {
 }
 
 impl<'a> MotorTransient<'a> {
-    /// At rest, every tooth by itself. `width_error`: that of α, by the nodes across.
+    /// The motor at rest, with every tooth. `width_error` is the error of α due to the nodes across.
     ///
     /// # Errors
     /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
@@ -285,13 +286,13 @@ impl<'a> MotorTransient<'a> {
         Ok(Self { motor, plan, levels, width_error })
     }
 
-    /// The next cycle, from the present instant on; `stats`: what all has cost so far, to which this is added. `None` if cancelled.
+    /// Marches the next cycle from the present instant; its cost is added to `stats`. `None` if cancelled.
     ///
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
     pub fn cycle(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<Option<TransientCycle>, MotorError> {
         let (motor, plan) = (self.motor, &self.plan);
-        // What film and contact have to agree to in every step, in ln ζ.
+        // Tolerance to which film and contact have to agree in every step, in ln ζ.
         let tolerance = 0.025 * plan.tolerance;
         let marched = march_cycle(
             &mut self.levels,
@@ -302,22 +303,22 @@ impl<'a> MotorTransient<'a> {
         );
         let Some(Marched { mut recording, change, mean, end }) = unless_cancelled(marched)? else { return Ok(None) };
         let astray = self.levels.iter().map(|level| level.residual).fold(tolerance, f64::max);
-        // What floats carries its load whatever the gas is, and whatever was left out.
+        // A floating rotor carries its load whatever the gas and the terms left out.
         let floats = recording.teeth_in_contact.iter().all(|teeth| *teeth == 0);
         let left_out = match floats {
             true => plan.forced.min(1.0),
             false => plan.left_out * mean.value.abs() + self.width_error,
         };
-        // What film and contact still disagree by, as a force of the gas.
+        // The remaining disagreement between film and contact, as a force of the gas.
         let finest = self.levels.last().filter(|_| !floats);
         let gas = finest.map_or(1.0, |level| level.gas_force() / motor.load);
         let elsewhere = left_out + astray.min(1.0) * gas.max(1.0);
-        // What is a share of the load, as one of the gas.
+        // Converts a fraction of the load to a fraction of the gas's force.
         let of_gas = astray.min(1.0) + left_out / (gas + f64::MIN_POSITIVE);
         recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
         recording.across = self.width_error / (mean.value.abs() + f64::MIN_POSITIVE);
         let mut result = summarise(motor, &recording);
-        // Its frames begin with the start of the cycle, and have not its end.
+        // The frames include the start of the cycle, but not its end.
         let grown = end - recording.film_load[0] / motor.load;
         let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
         let grids = (mean.error * plan.irregular).min(1.0);
@@ -328,21 +329,22 @@ impl<'a> MotorTransient<'a> {
     }
 }
 
-/// Error of the load at an instant over that of its mean, where contact begins and ends (calibrated: docs/validation.md).
+/// Error of the load at an instant, as a multiple of the error of its mean, where contact begins and ends (calibrated: docs/validation.md).
 const UNEVEN: f64 = 1.25;
 
-/// Where the least contact load falls from one grid to the next by more than this part of what is left, finer ones may open.
+/// Contact may open on finer grids where the least contact load falls from one grid to the next by more than this fraction of the remaining
+/// load.
 const OPENING: f64 = 0.5;
 
-/// Whether every node touches at every instant on the finest grid, and the contact load in between may vanish. Such grids agree, α being 0 on
-/// all of them, and only finer ones tell what the film does where faces part.
+/// Whether every node touches at every instant on the finest grid, but the least contact load may vanish on finer ones. Such grids agree,
+/// because α is 0 on all of them; only finer grids show the effect of the film where the faces part.
 fn may_open(found: &SolvedGrids<MotorLevel>) -> bool {
     let [.., before, now] = &found.levels[..] else { return false };
     let now = now.least_contact();
     now > 0.0 && before.least_contact() - now > OPENING * now
 }
 
-/// α with what the grids tell of its error.
+/// α with the error that the grids show.
 fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let Estimate { value, error } = extrapolate_means(&found.headlines());
     Estimate { value, error: error * plan.irregular }
@@ -352,7 +354,7 @@ fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
 fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     let estimate = of_grids(plan, found);
     let Some(level) = found.levels.last() else { return estimate };
-    // What floats carries its load whatever the gas is, and whatever little was left out; only the height changes.
+    // A floating rotor carries its load whatever the gas and the small terms left out; only the height changes.
     if level.floats() {
         let error = if found.status == Status::Converged { level.mean_imbalance() + plan.forced.min(1.0) } else { 1.0 };
         return Estimate { value: 1.0, error };
@@ -364,7 +366,7 @@ fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
     Estimate { value, error: claimed(plan, value, error) }
 }
 
-/// The `error` of α, and a quarter of what is asked for at least if α is so small that the accuracy is not relative to it.
+/// The `error` of α; at least a quarter of the error asked for if α is so small that the accuracy is not relative to it.
 fn claimed(plan: &Plan, alpha: f64, error: f64) -> f64 {
     let small = plan.accuracy > 0.0 && unit(alpha) > alpha.abs();
     if small { error.max(0.25 * plan.target_error * unit(alpha)) } else { error }
@@ -379,7 +381,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines()).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
-    // A pressure changes by what is left out also where the mean load has no share of it.
+    // The terms left out change a pressure even where they have no effect on the mean load.
     recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);
     recording.across = found.width_error() / (estimate.value.abs() + f64::MIN_POSITIVE);
     if motor.surface.asperities.is_some()
@@ -389,7 +391,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     }
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
-    // Extrapolated, little contact may vanish. Asperities always carry something.
+    // A small contact load may vanish by extrapolation. Asperities always carry some load.
     result.levitated &= motor.surface.asperities.is_some() || level.floats();
     let alpha = result.alpha.value;
     let error = estimate.error + (alpha - estimate.value).abs();
@@ -414,7 +416,7 @@ fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let touching = recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames;
     let teeth_in_contact = Estimate {
         value: touching,
-        // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
+        // The beginning and the end of a tooth's contact are each known to half a frame. A tooth that nearly touches may in fact touch.
         error: if levitated {
             recording.touching_errors(motor.touching_thickness()).iter().sum::<f64>() / frames
         } else {
@@ -434,7 +436,7 @@ fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
         ..MotorResult::default()
     };
     let alpha = loads.iter().sum::<f64>() / frames / motor.load;
-    // What floats carries its load, whatever rounding has left.
+    // A floating rotor carries its load exactly, apart from round-off.
     result.set_alpha(motor, Estimate::exact(if (alpha - 1.0).abs() < ROUNDING { 1.0 } else { alpha }));
     result
 }

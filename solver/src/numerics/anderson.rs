@@ -32,7 +32,7 @@ impl Anderson {
         let residual: Vec<f64> = image.iter().zip(x.iter()).map(|(g, x)| g - x).collect();
         let norm = dot(&residual, &residual).sqrt();
         if norm > 3.0 * self.previous_norm {
-            // The history is forgotten.
+            // Discard the history.
             *self = Self::new(self.depth, self.longest_step);
         }
         if let Some((last_x, last_residual)) = &self.previous {
@@ -51,7 +51,7 @@ impl Anderson {
         if count > 0 {
             let gram = DMatrix::from_fn(count, count, |i, j| dot(&self.changes[i], &self.changes[j]));
             let right = DVector::from_fn(count, |i, _| dot(&self.changes[i], &residual));
-            // Columns scaled to unit length; singular directions, the repeated ones, are left out.
+            // Columns are scaled to unit length; singular directions, which repeat others, are left out.
             let scale: Vec<f64> = (0..count).map(|i| gram[(i, i)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
             let gram = DMatrix::from_fn(count, count, |i, j| gram[(i, j)] * scale[i] * scale[j]);
             let right = DVector::from_fn(count, |i, _| right[i] * scale[i]);

@@ -1,8 +1,9 @@
 //! Modified Bessel functions of orders 0 and 1 of a complex argument in the right half plane, |arg z| ≤ π/4, scaled so that nothing
 //! overflows: I e^(−z) and K e^z.
 //!
-//! Up to |z| = 25: I by its power series, of which cancellation leaves thirteen digits; K(z) e^z = ∫ exp(−z (cosh t − 1)) cosh νt dt by the
-//! trapezoidal rule, which converges exponentially. Beyond: Hankel's asymptotic series. (Abramowitz and Stegun 1964, sections 9.6 and 9.7.)
+//! Up to |z| = 25, I is computed by its power series, in which cancellation leaves thirteen digits, and K(z) e^z = ∫ exp(−z (cosh t − 1))
+//! cosh νt dt by the trapezoidal rule, which converges exponentially. Beyond that, Hankel's asymptotic series is used. (Abramowitz and
+//! Stegun 1964, sections 9.6 and 9.7.)
 
 use nalgebra::Complex;
 
@@ -18,9 +19,9 @@ pub struct Bessel {
 /// First zero of the Bessel function J₀.
 pub const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
 
-/// Largest |z| of the series.
+/// Largest |z| at which the power series is used.
 const SMALL: f64 = 25.0;
-/// Step of the trapezoidal rule, and the exponent beyond which its integrand is nothing.
+/// Step of the trapezoidal rule, and the exponent beyond which its integrand is negligible.
 const STEP: f64 = 0.1;
 const NOTHING: f64 = 45.0;
 

@@ -42,7 +42,7 @@ pub fn map(beta: f64, eta: f64) -> f64 {
     }
 }
 
-/// Its slope at η.
+/// The derivative of the map at η.
 pub fn slope(beta: f64, eta: f64) -> f64 {
     if beta.abs() < 1e-9 {
         1.0

@@ -1,7 +1,7 @@
 //! Nodes, weights and derivatives of polynomials on [−1, 1] (Canuto and others, Spectral Methods, Springer 2006).
 
-/// Nodes, ascending, and weights of Gauss, Lobatto and Legendre's rule with the ends and `order` − 1 nodes between them: exact for
-/// polynomials up to degree 2 order − 1. `order` ≥ 1.
+/// Nodes, ascending, and weights of the Gauss–Lobatto–Legendre rule with the ends and `order` − 1 nodes between them: exact for polynomials
+/// up to degree 2 order − 1. `order` ≥ 1.
 pub fn lobatto(order: usize) -> (Vec<f64>, Vec<f64>) {
     let n = order as f64;
     let mut nodes = vec![0.0; order + 1];
@@ -35,7 +35,7 @@ fn legendre(order: usize, x: f64) -> (f64, f64) {
     (last, before)
 }
 
-/// Slopes at `nodes` of the polynomial through values at `nodes`: `[node][value]`. Rows add up to 0.
+/// Derivative matrix: slopes at `nodes` of the polynomial through the values at `nodes`, `[node][value]`. Rows add up to 0.
 pub fn derivative(nodes: &[f64]) -> Vec<f64> {
     let count = nodes.len();
     let product = |i: usize| (0..count).filter(|k| *k != i).map(|k| nodes[i] - nodes[k]).product::<f64>();

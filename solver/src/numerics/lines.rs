@@ -1,25 +1,25 @@
-//! Linear systems of nodes in rows that couple to their neighbours alone: multigrid with ever fewer columns.
+//! Linear systems of nodes in rows that couple to their neighbours only: multigrid that coarsens the columns.
 //!
-//! The system is that of [`super::system`], with a tridiagonal A. A column, all its nodes along x, is a line, and the tridiagonal systems of
-//! all odd lines, or of all even ones, are solved at once, which suits vector registers. A cycle solves the odd lines, then the even ones as if
-//! there were no others (those are half as many columns, with the conductances of every two intervals in series and twice the width, and have a
-//! cycle of their own), and from there the odd, the even and the odd lines again. It leaves about a tenth of the error, whatever the
-//! number of nodes, their clustering, and how much flows within a step; and its work is in proportion to the nodes.
+//! The system is that of [`super::system`], with a tridiagonal A. All nodes of a column, along x, form a line. The tridiagonal systems of
+//! all odd lines, or of all even ones, are solved together, which suits vector registers. A cycle first solves the odd lines. It then
+//! solves the even lines as a system of their own, with half as many columns, the conductances of every two intervals in series and twice
+//! the width, by a cycle of its own. Finally it solves the odd, the even and the odd lines again. A cycle leaves about a tenth of the
+//! error, whatever the number of nodes, their clustering, and the flow within a step; its work is proportional to the number of nodes.
 
 use super::system::{Coupling, Tridiagonal};
 use super::vectorised;
 
-/// Part of the largest residual that may be left: where Newton's method ends, it changes next to nothing any more.
+/// Allowed residual, relative to the largest right-hand side: when Newton's method converges, what is left hardly changes anything.
 const LEFT: f64 = 1e-4;
-/// Cycles after which it is left as it is.
+/// Cycles after which the solution is accepted as it is.
 const MOST_CYCLES: usize = 20;
 
 /// Solver for systems of one size and one A, with its workspace.
 #[derive(Clone, Debug)]
 pub struct LineSolver {
-    /// All columns, then every other one, and so on.
+    /// The level of all columns, that of every other one, and so on.
     levels: Vec<Columns>,
-    /// The one that is left.
+    /// The single column that remains.
     last: Lines,
 }
 
@@ -28,7 +28,7 @@ pub struct LineSolver {
 struct Columns {
     even: Lines,
     odd: Lines,
-    /// Width of each even column over that which it has where it is alone.
+    /// Width of each even column over the width that it has on the next level.
     share: Vec<f64>,
 }
 
@@ -40,14 +40,14 @@ struct Lines {
     /// Reciprocal pivots of the elimination along the lines, and east over pivot.
     inverse: Vec<f64>,
     ahead: Vec<f64>,
-    /// The right-hand side, the same less what the lines beside contribute, and the solution.
+    /// The right-hand side, the same minus the contributions of the neighbouring lines, and the solution.
     given: Vec<f64>,
     known: Vec<f64>,
     solution: Vec<f64>,
 }
 
 impl LineSolver {
-    /// For `rows` × columns unknowns.
+    /// A solver for `rows` × columns unknowns.
     pub fn new(rows: usize, across: &Tridiagonal) -> Self {
         let mut levels = Vec::new();
         let mut across = across.clone();
@@ -60,7 +60,7 @@ impl LineSolver {
         Self { levels, last: Lines::new(rows, across) }
     }
 
-    /// Replaces `rhs` by the solution of the system with `coupling`, and `centre` \[a value an unknown\] in place of its own.
+    /// Replaces `rhs` by the solution of the system with `coupling`, but with `centre` \[one value for each unknown\] in place of its own.
     pub fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
         vectorised(
             #[inline(always)]
@@ -68,7 +68,7 @@ impl LineSolver {
         );
     }
 
-    /// Returns how many cycles it took.
+    /// The same; returns the number of cycles.
     #[inline(always)]
     fn cycles(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) -> usize {
         self.factor([centre, &coupling.west, &coupling.east, &coupling.within]);
@@ -79,7 +79,7 @@ impl LineSolver {
             self.cycle();
             self.levels[0].add_to(rhs);
             let Columns { even, odd, .. } = &mut self.levels[0];
-            // What is left: nothing of the odd lines, and of the even ones what they took for known and is not.
+            // The residual: zero on the odd lines; on the even ones the change of the known part since they were solved.
             odd.given.fill(0.0);
             even.solution.copy_from_slice(&even.known);
             even.beside(odd, 0);
@@ -114,7 +114,7 @@ impl LineSolver {
         self.last.factor();
     }
 
-    /// One cycle from nothing, of what the first level is given.
+    /// One cycle from a zero initial guess, for the right-hand side of the first level.
     #[inline(always)]
     fn cycle(&mut self) {
         for k in 0..self.levels.len() {
@@ -153,7 +153,7 @@ impl LineSolver {
 }
 
 impl Columns {
-    /// Takes the even and the odd columns of `all` apart.
+    /// Splits the columns of `all` into even and odd ones.
     #[inline(always)]
     fn take(&mut self, all: &[f64], field: impl Fn(&mut Lines) -> &mut Vec<f64>) {
         let (many, few) = (self.even.across.columns(), self.odd.across.columns());
@@ -162,7 +162,7 @@ impl Columns {
             for (pair, (even, odd)) in all.chunks_exact(2).zip(even.iter_mut().zip(&mut *odd)) {
                 (*even, *odd) = (pair[0], pair[1]);
             }
-            // One column more is even.
+            // There may be one more even column than odd ones.
             if many > few {
                 even[few] = all[2 * few];
             }
@@ -227,7 +227,7 @@ impl Lines {
         }
     }
 
-    /// The solution of the lines by themselves for what is known.
+    /// Solves the lines for their known part, each by itself.
     #[inline(always)]
     fn solve(&mut self) {
         let (n, all) = (self.across.columns(), self.solution.len());
@@ -256,8 +256,8 @@ impl Lines {
         }
     }
 
-    /// Sets what is known to what is given, less what the solution of the `other` lines contributes. Line j lies between j − 1 and j of
-    /// the others where `first` = 0 (the even lines), and between j and j + 1 where it is 1 (the odd ones).
+    /// Sets the known part to the right-hand side minus the contributions of the `other` lines. Line j lies between lines j − 1 and j of
+    /// the others if `first` = 0 (even lines), and between j and j + 1 if it is 1 (odd lines).
     #[inline(always)]
     fn beside(&mut self, other: &Self, first: usize) {
         let (n, m) = (self.across.columns(), other.across.columns());
@@ -290,7 +290,8 @@ mod tests {
     use crate::numerics::system::Across;
     use nalgebra::{DMatrix, DVector};
 
-    /// A system of a film: nodes clustered by β, conductivities that vary by ten, a diffusion number, and a wind along x.
+    /// The system of a film: nodes clustered by β, conductivities that vary by a factor of ten, a diffusion number `flows`, and a
+    /// convection `wind` along x.
     fn system(rows: usize, columns: usize, beta: f64, flows: f64, wind: f64) -> (Vec<f64>, Coupling) {
         let nodes = grading::one_sided(1.0, columns, beta);
         let lengths = grading::node_lengths(&nodes);

@@ -1,4 +1,4 @@
-//! Numerical building blocks that know no physics.
+//! Numerical building blocks without physics.
 
 pub mod anderson;
 pub mod bessel;
@@ -15,7 +15,7 @@ pub fn vectorised<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
 }
 
-/// ∫ f from a to b by Gauss and Legendre's ten points.
+/// ∫ f from a to b by Gauss–Legendre quadrature with ten points.
 pub fn gauss_legendre(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     const HALF: [(f64, f64); 5] = [
         (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
@@ -34,8 +34,8 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     sum_of(a, b, |u, v| u * v)
 }
 
-/// Sum of a term for each pair of values, in sixteen running sums, so that the compiler may use vector registers, several at once. Same result
-/// on every run.
+/// Sum of a term over all pairs of values, in sixteen partial sums, so that the compiler can use several vector registers at once. The
+/// result is the same on every run.
 #[inline(always)]
 pub fn sum_of(a: &[f64], b: &[f64], term: impl Fn(f64, f64) -> f64) -> f64 {
     const SUMS: usize = 16;

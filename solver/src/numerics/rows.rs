@@ -1,5 +1,5 @@
-//! Solves the systems of [`super::system`], dense within a row: block LU without pivoting. Of many nodes to a row that couple to their neighbours
-//! alone: [`super::lines`].
+//! Solves the systems of [`super::system`], dense within a row, by block LU without pivoting. Rows with many nodes that couple to their
+//! neighbours only are solved by [`super::lines`].
 //!
 //! By rows the system is block tridiagonal, with dense blocks D = diag(centre) + A diag(within) on the diagonal and diagonal blocks W, E
 //! beside it:
@@ -40,14 +40,14 @@ const LANES: usize = 4;
 /// Solver for systems of one size and one A, with its workspace.
 #[derive(Clone, Debug)]
 pub enum RowSolver {
-    /// By elimination.
+    /// Block elimination.
     Blocks(BlockSolver),
-    /// Where A is [`Across::Neighbours`].
+    /// Multigrid by lines, where A is [`Across::Neighbours`].
     Lines(Box<LineSolver>),
 }
 
 impl RowSolver {
-    /// For `rows` rows of so many columns.
+    /// A solver for `rows` rows of so many `columns`.
     pub fn new(rows: usize, columns: usize, across: &Across) -> Self {
         match across {
             Across::Full(matrix) => Self::Blocks(BlockSolver::new(rows, columns, matrix)),
@@ -55,8 +55,8 @@ impl RowSolver {
         }
     }
 
-    /// Replaces `rhs` by the solution of the system with `coupling`, and `centre` \[a value an unknown\] in place of its
-    /// own. Couplings that leave the grid are ignored.
+    /// Replaces `rhs` by the solution of the system with `coupling`, but with `centre` \[one value for each unknown\] in place of its own.
+    /// Couplings that leave the grid are ignored.
     pub fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
         match self {
             Self::Blocks(solver) => solver.solve(coupling, centre, rhs),
@@ -73,14 +73,15 @@ pub struct BlockSolver {
     matrix: Vec<Lanes>,
     /// D̃⁻¹ of every row, column by column, each column padded with zeros to whole registers.
     inverses: Vec<Lanes>,
-    /// For columns whose number is not a constant: what D̃⁻¹ is multiplied with, a pivot, the last product from either end, and a block.
+    /// Used if the number of columns is not a constant: the vector to multiply D̃⁻¹ by, a pivot column, the last product from either end,
+    /// and a block.
     workspace: Vec<Lanes>,
     /// Unit vectors, a column each.
     units: Vec<Lanes>,
 }
 
 impl BlockSolver {
-    /// For `rows` × `columns` unknowns, with A column by column.
+    /// A solver for `rows` × `columns` unknowns, with A stored column by column.
     fn new(rows: usize, columns: usize, matrix: &[f64]) -> Self {
         let groups = columns.div_ceil(LANES);
         let mut units = vec![[0.0; LANES]; columns * groups];
@@ -111,7 +112,7 @@ impl BlockSolver {
         });
     }
 
-    /// `G`: registers of a column, and `N` those of a block; 0 if B is.
+    /// `G` is the number of registers in a column and `N` that in a block; both are 0 if B is.
     #[inline(always)]
     fn solve_columns<const B: usize, const G: usize, const N: usize>(
         &mut self,
@@ -123,7 +124,7 @@ impl BlockSolver {
         let groups = b.div_ceil(LANES);
         let block = b * groups;
         let rows = centre.len() / b;
-        // What is at hand stays in registers if its size is known.
+        // Working columns stay in registers if their size is a constant.
         let zero = [0.0; LANES];
         let (mut columns, mut inverse) = ([[zero; G]; 4], [zero; N]);
         let [known, pivot, first, second, inverse]: [&mut [Lanes]; 5] = if B == 0 {
@@ -137,7 +138,7 @@ impl BlockSolver {
             [known, pivot, first, second, &mut inverse]
         };
         let images = [first, second];
-        // What a row has to do with the one before it or behind it, and that one with the row.
+        // Coupling of a row to the one before or after it, and of that one to the row.
         let between = |row: usize, side: usize, other: usize| {
             let (own, others) =
                 if side == 0 { (&coupling.west, &coupling.east) } else { (&coupling.east, &coupling.west) };
@@ -156,7 +157,7 @@ impl BlockSolver {
             for (g, known) in known.iter_mut().enumerate() {
                 *known = register(&rhs[at..at + b], g);
             }
-            // The last row, where both ways meet, has two rows beside it that are known.
+            // The last row, where the two eliminations meet, has an eliminated row on either side.
             for side in 0..2 {
                 let other = match side {
                     _ if side != own && turn + 1 < rows => continue,
@@ -195,8 +196,8 @@ impl BlockSolver {
     }
 }
 
-/// The row that is eliminated in a turn, and from which end its way comes: both ways are gone at once, a row of each in turn, because neither
-/// has to wait for the other one's divisions. They meet in the middle.
+/// The row that is eliminated in a turn, and the end from which its elimination comes. The eliminations from both ends take turns, row by
+/// row, because neither then has to wait for the other's divisions. They meet in the middle.
 #[inline(always)]
 fn place(turn: usize, rows: usize) -> (usize, usize) {
     if turn.is_multiple_of(2) { (turn / 2, 0) } else { (rows - 1 - turn / 2, 1) }
@@ -231,8 +232,8 @@ fn scaled(a: Lanes, by: f64) -> Lanes {
 
 /// Gauss–Jordan inversion in place of a b × b matrix of stored columns; `pivot` is workspace.
 ///
-/// Columns are only ever written in whole registers: an entry written alone would hold up the next load of its
-/// register. The pivot column's entry in row p is taken out by its unit vector.
+/// Columns are always written in whole registers: a single entry written by itself would delay the next load of its register. The pivot
+/// column's entry in row p is extracted with its unit vector.
 #[inline(always)]
 fn invert<const B: usize>(matrix: &mut [Lanes], b: usize, pivot: &mut [Lanes], units: &[Lanes]) {
     let b = if B == 0 { b } else { B };

@@ -1,16 +1,16 @@
 //! Linear systems of a film's nodes.
 //!
-//! Unknown k = row × columns + column couples to every node of its own row, by a matrix A that is the same for all rows but
-//! for a factor of each column, and to the same column of the rows on either side (west, east: k ∓ columns). [`super::rows`] solves them.
+//! Unknown k = row × columns + column couples to every node of its own row, by a matrix A that is the same for all rows except for a factor
+//! of each column, and to the same column of the rows on either side (west, east: k ∓ columns). [`super::rows`] solves such systems.
 
-/// The coefficients of a system, one value an unknown.
+/// The coefficients of a system, one value for each unknown.
 #[derive(Clone, Debug, Default)]
 pub struct Coupling {
-    /// Node itself, beside A.
+    /// Coefficient of the node itself, in addition to that in A.
     pub centre: Vec<f64>,
-    /// Node at smaller x.
+    /// Coefficient of the node at smaller x.
     pub west: Vec<f64>,
-    /// Node at larger x.
+    /// Coefficient of the node at larger x.
     pub east: Vec<f64>,
     /// Factor of the node's column of A.
     pub within: Vec<f64>,
@@ -37,13 +37,13 @@ impl Coupling {
 /// The matrix A.
 #[derive(Clone, Debug)]
 pub enum Across {
-    /// Column by column.
+    /// All entries, column by column.
     Full(Vec<f64>),
-    /// Of so many nodes that it pays to know that each couples to its neighbours alone.
+    /// Tridiagonal, with so many nodes that this structure is worth using.
     Neighbours(Tridiagonal),
 }
 
-/// Columns from which a tridiagonal A is kept as such.
+/// Number of columns from which a tridiagonal A is stored as such.
 pub const MANY_COLUMNS: usize = 20;
 
 impl Across {
@@ -61,7 +61,7 @@ impl Across {
         })
     }
 
-    /// Entry of node `j` itself, of so many columns.
+    /// Diagonal entry of node `j` in a matrix of so many columns.
     #[inline(always)]
     pub fn diagonal(&self, j: usize, columns: usize) -> f64 {
         match self {
@@ -95,14 +95,14 @@ impl Across {
     }
 }
 
-/// A matrix that couples neighbours.
+/// A tridiagonal matrix, which couples neighbours only.
 #[derive(Clone, Debug)]
 pub struct Tridiagonal {
-    /// By the node before each; of the first 0.
+    /// Coefficient of the node before each one; 0 for the first.
     pub below: Vec<f64>,
-    /// By itself.
+    /// Coefficient of the node itself.
     pub diagonal: Vec<f64>,
-    /// By the node behind it; of the last 0.
+    /// Coefficient of the node after each one; 0 for the last.
     pub above: Vec<f64>,
 }
 
@@ -112,7 +112,7 @@ impl Tridiagonal {
         self.diagonal.len()
     }
 
-    /// The rows of even and of odd nodes.
+    /// The coefficients of the rows of the even and of the odd nodes.
     pub fn apart(&self) -> [Self; 2] {
         [0, 1].map(|first| {
             let every_other = |band: &[f64]| band.iter().skip(first).step_by(2).copied().collect();
@@ -124,15 +124,15 @@ impl Tridiagonal {
         })
     }
 
-    /// The same diffusion between even nodes alone, and the width of each over the one it has there. Of a conductance divided by widths, the
-    /// widths follow from its being symmetric without them.
+    /// The same diffusion between the even nodes only, and the ratio of each of their widths here to that on the coarser grid. The widths
+    /// follow from the matrix, which is a symmetric conductance matrix divided by them.
     pub fn every_other(&self) -> (Self, Vec<f64>) {
         let n = self.columns();
         let mut width = vec![1.0; n];
         for j in 1..n {
             width[j] = width[j - 1] * self.above[j - 1] / self.below[j];
         }
-        // Behind each node, the last one's to the edge.
+        // Conductance after each node; for the last node that to the edge.
         let total = |j: usize| width[j] * (self.diagonal[j] + self.below[j] + self.above[j]);
         let conductance: Vec<f64> =
             (0..n).map(|j| if j + 1 < n { -width[j] * self.above[j] } else { total(j) }).collect();

@@ -22,9 +22,8 @@
 //! [`TOGETHER`] rounds only the lowest-numbered offender changes (Murty's rule, which cannot cycle), and after
 //! [`ROUNDS`] the set is taken as it is.
 //!
-//! If the film alone carries more than the load, L − Σ φ ≤ 0, there is no such set: the paper's iteration has no
-//! answer, since it cannot let the film thicken. The rotor is then left just touching, without contact force, and the
-//! caller is told that the load is not balanced.
+//! If the film alone carries more than the load, L − Σ φ ≤ 0, there is no such set: the paper's iteration then has no answer, since it
+//! cannot let the film thicken. The rotor is left just touching, without contact force, and the caller receives [`Balance::Overcarried`].
 
 use super::mesh::Meshes;
 use crate::problem::Motor;
@@ -34,9 +33,9 @@ use crate::rotor::Compliances;
 const TOGETHER: usize = 40;
 /// Most rounds.
 const ROUNDS: usize = 400;
-/// Contact force, as a fraction of the load, below which a negative one is rounding.
+/// A negative contact force smaller than this fraction of the load counts as round-off.
 const FORCE_ROUNDING: f64 = 1e-12;
-/// Penetration, as a fraction of the amplitude, below which it is rounding.
+/// A penetration smaller than this fraction of the amplitude counts as round-off.
 const GAP_ROUNDING: f64 = 1e-9;
 
 /// How a contact problem ended.

@@ -18,11 +18,11 @@
 //! ```
 //!
 //! so mass is not conserved across a kink of h; that error is part of what this method is kept to show. Across the
-//! width, where h is uniform, (Z + 6m) Z_yy + Z_y² is differenced as (Z²/2 + 6mZ)_yy, which it is. Differenced term by
-//! term the mesh of 11 nodes, whose spacing is that of the edge layer, gives 1.1 % less load in the fundamental case and
-//! 3.1 % more on doubling; the paper reports 2.1 % more, this form gives 2.3 % (docs/validation.md). The print
-//! (its ξ after equation (4)) has `Z(Z + 6m)(Z_xx + Z_yy)` where (Z + 6m)(Z_xx + Z_yy) is meant, a wedge term along
-//! y that does not exist, and no Λ_x, which is zero only for a U uniform in x.
+//! width, where h is uniform, (Z + 6m) Z_yy + Z_y² is differenced as the equal (Z²/2 + 6mZ)_yy. If it is differenced term by term, the mesh
+//! of 11 nodes, whose spacing is that of the edge layer, gives 1.1 % less load in the fundamental case and 3.1 % more on doubling; the
+//! paper reports 2.1 % more, this form gives 2.3 % (docs/validation.md). The paper as printed (its ξ after equation (4)) has `Z(Z +
+//! 6m)(Z_xx + Z_yy)` where (Z + 6m)(Z_xx + Z_yy) is meant, a wedge term along y that does not exist, and no Λ_x, which is zero only for a U
+//! uniform in x.
 //!
 //! # Step
 //!
@@ -114,7 +114,7 @@ impl FactoredFilm {
     /// Advances `z` (`[ix][iy]`, at level n) by `dtau` into `z_new`, the film going from `h_old` to `h_new` (`[ix]`).
     /// `wedge` is Λ at the half step (`[ix]`); `None` leaves the sliding term out.
     ///
-    /// Nothing is clamped: where the scheme goes wrong, `z_new` is negative or not finite, and the caller looks.
+    /// Nothing is clamped: where the scheme fails, `z_new` is negative or not finite, and the caller has to check it.
     pub fn step(
         &mut self,
         z: &[f64],

@@ -1,4 +1,4 @@
-//! The state of the motor and one time step of it: Fig. 1's inner loop.
+//! The state of the motor and one time step: the inner loop of the paper's Fig. 1.
 
 use super::contact::{Balance, Contact};
 use super::film::FactoredFilm;
@@ -6,13 +6,13 @@ use super::mesh::{Mesh, Meshes};
 use crate::problem::Motor;
 use crate::rotor::Compliances;
 
-/// Change of pressure and of film thickness in a round of the inner loop, relative to the greatest, that counts as none.
+/// Change of pressure and of film thickness in a round of the inner loop, relative to the greatest, at which the loop has converged.
 pub(super) const INNER_TOLERANCE: f64 = 1e-3;
 /// Most rounds of the inner loop in a time step.
 const INNER_ROUNDS: usize = 40;
-/// Rounds without a smaller change after which the inner loop is taken not to converge.
+/// Rounds without a smaller change after which the inner loop counts as not converging.
 const INNER_STALLED: usize = 8;
-/// Pressure \[p_a\] beyond which the march is taken to have blown up.
+/// Pressure \[p_a\] beyond which the march counts as having blown up.
 const BLOWN_UP: f64 = 1e4;
 
 /// Outcome of one time step.
@@ -23,11 +23,11 @@ pub(super) struct Step {
     /// Change of pressure or film thickness in the last round of the inner loop, relative to the greatest of each,
     /// whichever is greater.
     pub(super) change: f64,
-    /// Load that film and contact together miss, relative to L.
+    /// Difference between the load and the sum of film and contact load, relative to L.
     pub(super) imbalance: f64,
     /// How the last contact problem ended.
     pub(super) balance: Balance,
-    /// Whether the state is finite and not absurd; if not, the step was not taken.
+    /// Whether the state is finite and below `BLOWN_UP`; if not, the step was not taken.
     pub(super) sound: bool,
 }
 
@@ -103,14 +103,14 @@ impl<'a> March<'a> {
         march
     }
 
-    /// One time step to t = (`step` + 1) T/steps from `step`.
+    /// One time step, from t = `step` T/steps to t = (`step` + 1) T/steps.
     pub(super) fn advance(&mut self, step: usize) -> Step {
         self.move_stator((step + 1) as f64 / self.steps as f64);
         let dtau = std::f64::consts::TAU / self.steps as f64;
         let half_step = (step as f64 + 0.5) / self.steps as f64;
         let mut result = Step { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
         let (mut least, mut least_at) = (f64::INFINITY, 0);
-        // The first guess at the pressure is the last step's, which `nodal` still holds.
+        // The first guess of the pressure is that of the last step, which `nodal` still holds.
         for round in 0..INNER_ROUNDS {
             self.rounds += 1;
             result.balance = self.meet();
@@ -124,7 +124,7 @@ impl<'a> March<'a> {
                 return result;
             }
             result.change = moved.max(changed / greatest);
-            // The first round's change is that of the time step.
+            // The first round's change is due to the time step, so it does not count.
             result.settled = round > 0 && result.change < INNER_TOLERANCE;
             if result.change < least {
                 (least, least_at) = (result.change, round);

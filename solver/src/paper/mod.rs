@@ -1,9 +1,9 @@
-//! The paper's own algorithm, literally: the yardstick that the other method is measured against.
+//! The paper's own algorithm, literally: the reference against which the other method is measured.
 //!
-//! T. Maeno and D. B. Bogy, "Effect of the hydrodynamic bearing on rotor/stator contact in a ring-type ultrasonic
-//! motor", IEEE Trans. UFFC 39 (1992). Neither made clever nor made slow: flat arrays and tridiagonal sweeps, but every
-//! tooth, the full width, a uniform 51 × 11 mesh on each ([`FactoredFilm`]), 181 contact nodes in a wavelength, and
-//! a march in time from ambient pressure with contact and film solved in turn.
+//! T. Maeno and D. B. Bogy, "Effect of the hydrodynamic bearing on rotor/stator contact in a ring-type ultrasonic motor", IEEE Trans. UFFC
+//! 39 (1992). The implementation is efficient (flat arrays, tridiagonal sweeps) but takes no shortcuts: every tooth, the full width, a
+//! uniform 51 × 11 mesh on each ([`FactoredFilm`]), 181 contact nodes in a wavelength, and a march in time from ambient pressure with
+//! contact and film solved in turn.
 //!
 //! # One time step (the paper's Fig. 1)
 //!
@@ -13,8 +13,8 @@
 //! 4. Until pressure and spacing at t no longer change by 1e-3 of the greatest, back to 2; given up after 8 rounds without
 //!    progress, or 40.
 //!
-//! The cycle is over when all pressures and spacings are those of one period before, to 1e-5 of the greatest. Since
-//! the teeth are as many phases of one motion, comparing them at one instant compares the cycle at several.
+//! The cycle repeats when all pressures and spacings equal those of one period before, to 1e-5 of the greatest. Since the teeth are at
+//! different phases of the same motion, comparing them at one instant compares the cycle at several.
 //!
 //! # What the paper leaves open, and what is done here
 //!
@@ -68,8 +68,8 @@ const LIMIT_CYCLE: f64 = 1e-2;
 /// Error of α on the paper's mesh, relative: see [`discretisation_error`].
 const PAPER_MESH_ERROR: f64 = 0.045;
 
-/// Solves for the periodic state of `motor` by the paper's algorithm, on the paper's meshes unless `numerics` says
-/// otherwise. The observer hears of every cycle; `cancel` is looked at in every time step.
+/// Solves for the periodic state of `motor` by the paper's algorithm, on the paper's meshes unless `numerics` says otherwise. The observer
+/// is called after every cycle; `cancel` is checked in every time step.
 ///
 /// # Errors
 /// [`RotorError`] if the rotor has no compliance.
@@ -97,7 +97,7 @@ pub fn solve(
     let mut counts = Counts::default();
     let status = counts.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
 
-    // Of a state that is not one, the residual is the only measure there is.
+    // If there is no periodic state, the residual is the only measure of the error.
     let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
     let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error;
     let recording = recorder.recording;
@@ -126,7 +126,7 @@ pub fn solve(
         ..MotorResult::default()
     };
     outcome.set_alpha(motor, alpha);
-    // Film and contact share the load as well as the march makes them.
+    // Film and contact share the load as accurately as the march determines it.
     outcome.film_load.value = film_load;
     outcome.contact_load.value = mean(&recording.contact_load);
     let teeth = motor.teeth as u64;
@@ -155,11 +155,11 @@ pub fn solve(
     })
 }
 
-/// Relative error of α that comes with the meshes: 4.5 % on the paper's own, and in proportion to the coarsest of the
-/// three spacings, which is cautious, since the error falls faster. One mesh gives no estimate; this one is from
-/// the fundamental case (0.2383 and, doubled, 0.2437, where 0.2459 is the converged value of our own method: 3.1 %), with
-/// a margin, since the film's boundary layer, one cell wide there, differs from case to case. Almost all of it is the
-/// mesh across the width. Steps in time matter less: 90, 180 and 360 in a cycle give 0.2381, 0.2383 and 0.2383.
+/// Relative error of α due to the meshes: 4.5 % on the paper's own, scaled in proportion to the coarsest of the three spacings, which is
+/// cautious, since the error falls faster. One mesh gives no estimate; this one is from the fundamental case (0.2383 and, with the meshes
+/// doubled, 0.2437; our own method converges to 0.2459, a difference of 3.1 %), with a margin, since the film's boundary layer, one cell
+/// wide there, differs from case to case. Almost all of the error is due to the mesh across the width. Time steps matter less: 90, 180 and
+/// 360 in a cycle give 0.2381, 0.2383 and 0.2383.
 fn discretisation_error(&Mesh { nx, ny, n, .. }: &Mesh) -> f64 {
     let coarseness = |paper: usize, own: usize| (paper - 1) as f64 / own as f64;
     let (along, across, contact) = PAPER_MESH;
@@ -207,7 +207,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Counts of the march, and how far α still has to go.
+/// Counts of the march, and the remaining change of α.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     steps: u64,
@@ -230,7 +230,7 @@ impl Counts {
         let (mut film_before, mut change_before) = (0.0, f64::INFINITY);
         let (mut least, mut least_at) = (f64::INFINITY, 0);
         let mut report = Reporter::new(observer, 0, 1, CYCLE_TOLERANCE);
-        // Before the first cycle is over nothing has repeated at all.
+        // Before the first cycle is complete, nothing has repeated.
         let mut residual = 1.0;
         for cycle in 1..=CYCLES {
             let mut trouble = Trouble::default();
@@ -257,7 +257,7 @@ impl Counts {
             h_before.copy_from_slice(&march.h);
             let film = mean(&recorder.recording.film_load);
             let moved = (film - film_before).abs() / march.motor.load;
-            // Geometric: the changes to come are the last one over (1 − ratio), if the ratio is below one at all.
+            // Geometric series: the changes to come are the last one over (1 − ratio), if the ratio is below one.
             let ratio = if moved < change_before { moved / change_before } else { 0.5 };
             self.alpha_remaining = moved / (1.0 - ratio).max(0.01);
             (film_before, change_before) = (film, moved);

@@ -22,7 +22,7 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    /// Every frame as the march stands: what is not reached before a cancellation stays so.
+    /// Every frame initially holds the present state of the march; after a cancellation, frames that were not reached keep it.
     pub(super) fn new(march: &March<'_>, rotor: &Compliances) -> Self {
         let (motor, meshes) = (march.motor, &march.meshes);
         let (teeth, frames, nx, ny) = (motor.teeth, march.steps, march.film.nx(), march.film.ny());

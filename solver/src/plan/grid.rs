@@ -20,12 +20,12 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Work of one cycle, in multiplications of the elimination: its blocks are full across the width, unless they are many.
+    /// Work of one cycle, in multiplications of the elimination, whose blocks are full across the width unless they have many nodes.
     pub fn work(&self) -> f64 {
         (self.along * self.across.max(1) * self.across.clamp(1, MANY_COLUMNS) * self.steps) as f64
     }
 
-    /// Twice as fine. A polynomial across stays what it is.
+    /// A grid of half the spacing. The number of nodes of a polynomial across does not change.
     pub fn finer(&self, spectral: bool) -> Self {
         Self {
             along: 2 * self.along,
@@ -39,12 +39,12 @@ impl Grid {
 /// Edge intervals are not made smaller than this fraction of a uniform grid's.
 const SMALLEST_RATIO: f64 = 1e-5;
 
-/// Rounded up so that it can be halved for the coarser grids.
+/// `count` rounded up so that it can be halved for the coarser grids.
 pub(super) fn round_up(count: usize) -> usize {
     count.max(1).next_multiple_of(1 << (GRIDS - 1))
 }
 
-/// The grids down to the coarsest. A polynomial across is the same on all of them.
+/// The grids from the coarsest to `finest`. The nodes of a polynomial across are the same on all of them.
 pub(super) fn nested(finest: Grid, spectral: bool) -> Vec<Grid> {
     (0..GRIDS)
         .rev()

@@ -1,4 +1,4 @@
-//! The plan of a solve: which terms, teeth, symmetries and grids the scene needs, and why (shown to the user).
+//! The plan of a solve: the terms, teeth, symmetries and grids that the scene needs, and why (shown to the user).
 
 mod grid;
 mod motor;
@@ -16,16 +16,16 @@ use crate::rotor::{Compliances, MOST_HARMONICS, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};
 
-/// The decision about one part of the model; `analysis::decision` of the crate `squeezefilm` puts it, and the reason, into words.
+/// The decision about one part of the model; `analysis::decision` of the crate `squeezefilm` describes it, and the reason, in words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The part, and how it is solved.
     pub chosen: Choice,
     /// Whether the scene overruled what the plan would have done.
     pub overruled: bool,
-    /// Bound of what it changes, relative to α; 0 is exact.
+    /// Bound of the effect of the decision, relative to α; 0 if the decision is exact.
     pub effect: f64,
-    /// Reasons for and against leaving the part out; `None` if nothing had to be weighed.
+    /// Reasons for and against leaving the part out; `None` if there was nothing to weigh.
     pub weighed: Option<Weighed>,
 }
 
@@ -40,7 +40,7 @@ pub enum Choice {
     Wedge(Wedge),
     /// No wedge term, because the scene says `shear = false`.
     NoShear,
-    /// Teeth whose film is solved, of so many.
+    /// Teeth whose film is solved, and the number of teeth.
     Teeth(Teeth, usize),
     /// Width of the film.
     Width(Width),
@@ -52,29 +52,29 @@ pub enum Choice {
         layer: f64,
         /// First interval along, as a share of that layer.
         edge_fraction: f64,
-        /// The intervals along are densest in the middle, where the crown is highest.
+        /// Whether the intervals along are densest in the middle, where the crown is highest.
         middle: bool,
-        /// Across the width a field is a polynomial.
+        /// Whether a field is a polynomial across the width.
         spectral: bool,
     },
-    /// The finest grid of a plate; across half the width `None` of a strip and of a round plate.
+    /// The finest grid of a plate.
     PlateGrid {
         /// Intervals along half the length, or half a section of a round plate.
         along: usize,
-        /// Intervals across half the width.
+        /// Intervals across half the width; `None` for a strip and a round plate.
         across: Option<usize>,
-        /// Whether it is a disc or a ring.
+        /// Whether the plate is a disc or a ring.
         round: bool,
     },
-    /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
+    /// Steps in a cycle of a plate, and whether they are shorter where the plate is closer.
     Steps(usize, bool),
-    /// A rotor that is known to a stated error only.
+    /// A rotor whose compliance has a stated error.
     Rotor {
         /// [`Compliances::relative_error`].
         error: f64,
-        /// Whether it is computed from its cross-section.
+        /// Whether the compliance is computed from its cross-section.
         ring: bool,
-        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a ring; a draft does not ask for it.
+        /// Of a ring, the lowest natural frequency of the shape of each of the first harmonics \[Hz\]; not computed for a draft.
         resonances: Option<[f64; RESONANCES]>,
     },
     /// Nothing leaks from under a plate: its gas is trapped.
@@ -89,23 +89,23 @@ pub struct Weighed {
     /// The number that decides: Λ/σ for the wedge term; otherwise the boundary layer over the distance between the two edges
     /// whose leakage is neglected (for the film in time, the shorter of tooth and contact width).
     pub number: f64,
-    /// Whether the scene says so.
+    /// Whether the scene's switch leaves the part out.
     pub asked: bool,
-    /// Bound of what leaving it out changes, relative to α.
+    /// Bound of the effect of leaving the part out, relative to α.
     pub effect: f64,
-    /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
+    /// Bound of the error of solving it on a grid that is too coarse for it, relative to α.
     pub unresolved: f64,
-    /// The error of α that is asked for, relative.
+    /// The relative error of α that is asked for.
     pub target_error: f64,
 }
 
 impl Decision {
-    /// A decision that changes nothing, and that no key overrules.
+    /// A decision that does not change the result and that no key overrules.
     fn exact(chosen: Choice) -> Self {
         Self { chosen, overruled: false, effect: 0.0, weighed: None }
     }
 
-    /// Its effect, if the scene says to leave the part out.
+    /// Its effect, if the scene's switch leaves the part out.
     pub(crate) fn forced(&self) -> f64 {
         let asked = self.weighed.is_some_and(|weighed| weighed.asked && weighed.reduced == self.chosen);
         if asked { self.effect } else { 0.0 }
@@ -147,11 +147,12 @@ pub struct Plan {
     pub clustering_across: f64,
     /// Clustering parameter of the steps of a cycle about its middle, where a plate is closest; 0: even steps.
     pub clustering_in_time: f64,
-    /// Frames of a recording for each step: a recording is even in time, steps that cluster are not.
+    /// Frames of a recording for each step. Frames are uniform in time; clustered steps are not.
     pub frames_per_step: usize,
-    /// Across the width a field is one polynomial, on the same nodes on all grids; or finite volumes, which nothing breaks.
+    /// Whether a field is one polynomial across the width, on the same nodes on all grids, or finite volumes, which keep the pressure
+    /// positive.
     pub spectral: bool,
-    /// A plate is solved turned by a quarter: much wider than it is long, it has its polynomial along the length.
+    /// Whether a plate is solved turned by a quarter: one much wider than it is long has its polynomial along the length.
     pub turned: bool,
     /// Solve half the width and mirror it.
     pub half_width: bool,
@@ -163,17 +164,17 @@ pub struct Plan {
     pub flow: Flow,
     /// The gas has no time to move: its trapped height does not change during the cycle.
     pub trapped: bool,
-    /// Bound of what everything that was left out changes, relative to α.
+    /// Bound of the effect of all terms that are left out, relative to α.
     pub left_out: f64,
-    /// The part of it that the scene's switches leave out, whether or not it is small.
+    /// The part of that bound due to the scene's switches, however large it is.
     pub forced: f64,
     /// The rotor; a plate has none.
     pub rotor: Compliances,
     /// Rotor that decides how many harmonics are kept, if not `rotor`: a similar rotor then keeps the same number.
     pub counted: Option<Compliances>,
-    /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
+    /// Relative error of α that is asked for; 0 on grids that the scene prescribes, which are not refined.
     pub accuracy: f64,
-    /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
+    /// Relative error of α that the fidelity aims at, whether or not the scene prescribes its grids.
     pub target_error: f64,
     /// Most grids, those of `grids` included.
     pub most_grids: usize,
@@ -193,20 +194,20 @@ pub struct Plan {
     pub decisions: Vec<Decision>,
 }
 
-/// Effect on α, relative, of leaving out the leaks at one pair of edges, as a multiple of their layer over the length
-/// between them, the layer being that of the closed film times how far the gap opens in the mean. Of a plate whose gap
-/// is uniform it is 1 as the amplitude vanishes, tanh(κ/2)/(κ/2), and less for a larger one (`film::exact`); a rotor that
-/// is half afloat opens the gap a little more.
+/// Relative effect on α of leaving out the leaks at one pair of edges, as a multiple of their layer over the distance between them. The
+/// layer is that of the closed film times the mean opening of the gap. For a plate with a uniform gap the multiple is 1 as the amplitude
+/// vanishes, tanh(κ/2)/(κ/2), and less for a larger amplitude (`film::exact`); a rotor that half floats opens the gap a little more.
 const LEAK_EFFECT: f64 = 1.2;
-/// Share of the fidelity's aim that may be left out with each term.
+/// Fraction of the fidelity's target error that may be left out with each term.
 const SHARE: f64 = 0.2;
-/// Boundary layer over half the width down to which a polynomial across is used: a thinner one asks for so strong a stretching that
-/// the nodes in between no longer tell what the last one changes.
+/// Boundary layer over half the width down to which a polynomial across is used. A thinner layer needs so strong a stretching that the
+/// change due to the last node no longer shows the error.
 const THINNEST_LAYER: f64 = 0.03;
 const ROUND_LIMIT: usize = 300;
 
-/// Harmonics kept at most, down to this fraction of the local compliance: 30 over its third root. The beam's own number grows with the
-/// fourth root, so that where this is less, grids differ more, and their differences show what is cut.
+/// Most harmonics that are kept if they are to fall below this fraction of the local compliance: 30 over its cube root. The number that a
+/// beam needs grows with the inverse fourth root; where the limit here is smaller, the grids differ more, and their differences show the
+/// error of the cut-off.
 fn most_harmonics(fraction: f64) -> usize {
     ((30.0 / fraction.cbrt()) as usize).min(MOST_HARMONICS)
 }
@@ -218,7 +219,7 @@ impl Plan {
         cutoff(rotor, fraction, most_harmonics(fraction))
     }
 
-    /// This plan for a scene near its own, whose rotor is `rotor`: nothing else differs.
+    /// This plan for a neighbouring scene with the rotor `rotor`: nothing else differs.
     pub fn near(&self, rotor: &Compliances) -> Self {
         let counted = self.counted.clone().or_else(|| Some(self.rotor.clone()));
         Self { rotor: rotor.clone(), counted, ..self.clone() }
@@ -229,7 +230,7 @@ impl Plan {
         let (across, clustering_across) = self.robust;
         let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
         let mut grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
-        // As many grids as there were.
+        // The number of grids stays the same.
         grids.drain(..grids.len().saturating_sub(self.grids.len()));
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
@@ -241,7 +242,7 @@ impl Plan {
         Self { grids, robust, most_grids: self.most_grids.saturating_sub(1), ..self.clone() }
     }
 
-    /// The same plan with the sides of the plate as they are in the scene; of finite volumes.
+    /// The same plan with finite volumes and with the sides of the plate as in the scene.
     pub fn not_turned(&self) -> Self {
         if !self.turned {
             return self.clone();
@@ -251,14 +252,14 @@ impl Plan {
         Self { grids, clustering_along, clustering_across, turned: false, ..self.clone() }
     }
 
-    /// The same plan marched by even steps, one for each frame.
+    /// The same plan with uniform steps, one for each frame.
     pub fn even_steps(&self) -> Self {
         let even = |grid: &Grid| Grid { steps: grid.steps * self.frames_per_step, ..*grid };
         let grids = self.grids.iter().map(even).collect();
         Self { grids, clustering_in_time: 0.0, frames_per_step: 1, trapped: false, ..self.clone() }
     }
 
-    /// The same plan on its finest grid alone: fields as they are solved, and no error estimate.
+    /// The same plan on its finest grid alone: fields without extrapolation, and no error estimate.
     pub fn on_one_grid(&self) -> Self {
         let grids = self.grids.last().copied().into_iter().collect();
         Self { grids, most_grids: 1, accuracy: 0.0, ..self.clone() }

@@ -12,15 +12,15 @@ use crate::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, Wedge,
 use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
 use std::f64::consts::TAU;
 
-/// Effect on α, relative, of an error of the rotor's compliance, as a multiple of [`Compliances::relative_error`] (measured, and bounded by
-/// `tests/plan.rs`).
+/// Relative effect on α of an error of the rotor's compliance, as a multiple of [`Compliances::relative_error`] (measured; `tests/plan.rs`
+/// checks it as a bound).
 pub const ROTOR_EFFECT: f64 = 2.0;
-/// Additional intervals along a crowned tooth, as a multiple of ln r times those of a flat tooth, where the intervals in its middle have to be
-/// shorter than uniform ones by the factor r.
+/// Additional intervals along a crowned tooth, as a multiple of ln r times the intervals of a flat tooth, if the intervals in its middle
+/// have to be shorter than uniform ones by the factor r.
 const MIDDLE: f64 = 1.0;
 /// Grids beyond those of the plan, at most: each costs about four times the one before.
 const MORE_GRIDS: usize = 3;
-/// Intervals along a tooth that leave a node to solve on the coarsest grid.
+/// Fewest intervals along a tooth with which the coarsest grid has an unknown node.
 const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 
 /// Most unknown nodes of a polynomial across half the width.
@@ -69,10 +69,10 @@ impl Plan {
         };
         let half = 0.5 * motor.contact_width;
         let robust = graded(spec.volumes, numerics.film_nodes_across.map(|n| n / 2), half, edge);
-        // With fewer nodes, leaving out the last one may by chance change little although the layer at the sides is not resolved.
+        // With fewer nodes, the last one may change little by chance although the layer at the sides is not resolved.
         let least = (half / layer).sqrt().round() as usize;
         let across = numerics.film_nodes_across.map_or(spec.across.max(least), |n| (n / 2).max(1));
-        // More nodes than a polynomial ever needs are finite volumes, which cost in proportion to their number.
+        // More nodes than a polynomial ever needs are taken as finite volumes, whose cost is proportional to their number.
         let spectral = layer / half > THINNEST_LAYER && across < MANY_COLUMNS;
         let (across, clustering_across) = if spectral { (across, spectral_clustering(layer / half)) } else { robust };
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
@@ -92,7 +92,7 @@ impl Plan {
         let exact = [(teeth, every_tooth), (width, !half_width), (grid, custom(numerics))];
         decisions.extend(exact.map(|(chosen, overruled)| Decision { overruled, ..Decision::exact(chosen) }));
         decisions.extend(rotor_error(motor, &rotor, spec, cancel)?);
-        // What the trapped limit leaves out, it leaves out once.
+        // Terms that the trapped limit leaves out must not be counted twice.
         let moving =
             |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
         let sharp = 1.0 / (1.0 + (rotor.beyond(MOST_HARMONICS) / (SHARP * film)).powi(2));

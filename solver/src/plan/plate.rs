@@ -9,18 +9,18 @@ use crate::problem::{Flow, Numerics, Outline, Plate, Slip};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
 
-/// Grids beyond those of the plan, at most, and the frames of a recording beyond which there is none.
+/// Most grids beyond those of the plan, and the number of frames of a recording up to which they are added.
 const MORE_GRIDS: usize = 6;
 const MOST_FRAMES: usize = 1 << 17;
-/// Frames within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
+/// Frames within the peak of a plate's load near touching, and the narrowest such peak \[rad\] that is resolved.
 const FRAMES_IN_PEAK: f64 = 2.0;
 const NARROWEST_PEAK: f64 = 2e-4;
-/// Clustered steps of a cycle for each of even ones, and for each factor of e by which the peak is narrower than the cycle.
+/// Clustered steps of a cycle as a fraction of the uniform ones, for each factor of e by which the peak is narrower than the cycle.
 const STEPS_IN_FACTOR: f64 = 0.6;
-/// Even steps that such a peak needs, over those of a plate far from touching, above which they cluster.
+/// Steps cluster if such a peak needs more than this many times the uniform steps of a plate far from touching.
 const CLUSTERED: f64 = 2.0;
 
-/// Factor on the error that grids tell of such a peak where slip is of second order (calibrated: docs/validation.md).
+/// Safety factor on the error that grids show for such a peak with second-order slip (calibrated: docs/validation.md).
 const SHARP: f64 = 4.0;
 
 impl Plan {
@@ -32,12 +32,12 @@ impl Plan {
     /// The plan of a plate to a specification.
     pub fn plate_to(plate: &Plate, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
         let layer = plate_layer(plate);
-        // A disc has twice the edge of a strip as long as its diameter, for its area.
+        // For its area, a disc has twice as long an edge as a strip whose length is the disc's diameter.
         let sides = [Some(plate.section()), plate.width.or((plate.outline() == Outline::Disc).then_some(plate.length))];
         let leak = sides.into_iter().flatten().map(|side| LEAK_EFFECT * layer / side).sum::<f64>();
         let trapped = leak < SHARE * spec.target_error || plate.amplitude == 0.0;
         let left_out = if trapped && plate.amplitude > 0.0 { leak } else { 0.0 };
-        // Of a long plate the ends reach as far as it is narrow.
+        // On a long plate the effect of the ends reaches about as far as the plate is narrow.
         let reach = |other: f64| layer.min(other / PI);
         let thin = |side: f64, other: f64| 2.0 * reach(other) / side <= THINNEST_LAYER;
         let turned = plate.width.is_some_and(|width| thin(width, plate.length) && !thin(plate.length, width));
@@ -51,7 +51,7 @@ impl Plan {
         let (along, clustering_along) = graded(spec.plate, asked_along, 0.5 * plate.section(), edge);
         let layer = reach(plate.length);
         let edge = spec.plate_edge_fraction * layer;
-        // As in the plan of a motor: many nodes are finite volumes.
+        // As in the plan of a motor, many nodes are finite volumes.
         let thick = plate.width.is_some_and(|width| !thin(width, plate.length));
         let spectral = thick && asked_across.is_none_or(|asked| asked < MANY_COLUMNS);
         let robust = plate.width.map_or((0, 0.0), |width| graded(spec.plate, asked_across, 0.5 * width, edge));
@@ -72,12 +72,12 @@ impl Plan {
                 // sinh: the peak is where its argument is below 1.
                 let beta = (PI / narrowest).asinh();
                 let steps = (STEPS_IN_FACTOR * beta * spec.plate_steps as f64) as usize;
-                // One of them, on all grids, where the plate is closest.
+                // On all grids, one step is at the instant when the plate is closest.
                 (steps.next_multiple_of(2 << (GRIDS - 1)), -beta)
             }
             None => (spec.plate_steps.max(follow as usize), 0.0),
         };
-        // The flow through a closing gap stays finite by this law, and its peak is narrower.
+        // With this law the flow through a closing gap stays finite, so the peak is narrower.
         let sharp = clustering_in_time != 0.0 && plate.gas.slip == Slip::SecondOrder;
         let steps = round_up(steps);
         let frames_per_step = if clustering_in_time == 0.0 { 1 } else { (follow as usize).div_ceil(steps) };

@@ -1,4 +1,4 @@
-//! Terms of a motor's model that may be left out, and a bound of what leaving each of them out changes.
+//! Terms of a motor's model that may be left out, and a bound of the effect of leaving out each of them.
 
 use super::{Choice, Decision, LEAK_EFFECT, SHARE, Weighed};
 use crate::dimensionless::Dimensionless;
@@ -10,16 +10,16 @@ use std::f64::consts::{PI, TAU};
 /// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
 /// along (measured, and bounded by `tests/plan.rs`).
 const WEDGE_EFFECT: f64 = 2.0;
-/// Share of the wave's amplitude that the gap is taken to open by at least, however far the rotor follows it (measured: 0.03 is
+/// The gap is assumed to open by at least this fraction of the wave's amplitude, however far the rotor follows the wave (measured: 0.03 is
 /// too much for heavily loaded single teeth).
 const LEAST_OPENING: f64 = 0.02;
-/// Effect on α, relative, of solving the wedge term where a cell's Péclet number is above 1, per unit of that number: the
-/// upwinding it then needs spreads the gas in its stead; and more of it, the more unevenly a crown holds it (measured, and
-/// bounded by `tests/plan.rs`).
+/// Relative effect on α of solving the wedge term where a cell's Péclet number is above 1, per unit of that number: the upwinding that is
+/// then needed spreads the gas instead. The second constant is for gas that a crown holds unevenly (measured; `tests/plan.rs` checks them
+/// as bounds).
 const UPWINDING: f64 = 1e-4;
 const UPWINDING_UNEVEN: f64 = 0.1;
 
-/// A decision to leave a term out, if what that changes is small enough and the switch allows it.
+/// A candidate for a term to leave out, if its effect is small enough and the switch allows it.
 struct Reduction {
     /// For the whole model, and for the reduced one.
     choices: [Choice; 2],
@@ -77,7 +77,7 @@ pub(super) fn time(
     spec: &Spec,
 ) -> Decision {
     let layer = numbers.boundary_layer;
-    // Of what stays where the flow depends on the gap in another way than between smooth faces nothing is known.
+    // With flow factors the flow depends on the gap differently than between smooth faces, and no bound is known.
     let rough = if motor.surface.flow.is_some() { 1.0 } else { 0.0 };
     Reduction {
         choices: [Time::March, Time::Trapped].map(Choice::Time),
@@ -105,7 +105,7 @@ pub(super) fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, 
     let ends = if width > length { 1.0 } else { leaks(motor, layer, active_length(motor)) + uneven * width / length };
     let few = 1.0 / motor.teeth as f64;
     let sides = leaks(motor, layer, width) + (2.0 * uneven + few) * (length / width).min(1.0);
-    // The longer side's leaks matter less.
+    // The leaks at the ends of the longer side matter less.
     let along = match numerics.flow {
         Flow::Along => true,
         Flow::Across => false,
@@ -170,14 +170,14 @@ fn followed(motor: &Motor, rotor: &Compliances) -> f64 {
     motor.load / length * (1..=shortest).map(|n| times(n) * rotor.harmonic(n)).sum::<f64>()
 }
 
-/// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].
+/// Bound of the effect of the wedge term, relative to α, if the rotor's speed changes by `speed` \[m/s\].
 pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
     let omega = TAU * motor.frequency;
     let sliding = sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor);
     (dragged(motor) * (sliding + carried(&Dimensionless::of_motor(motor), motor, speed))).min(1.0)
 }
 
-/// How much more gas sliding drags into a closed film of rough faces than of smooth ones, or 1 if it is less.
+/// Factor by which sliding drags more gas into a closed film between rough faces than between smooth ones, at least 1.
 fn dragged(motor: &Motor) -> f64 {
     motor.surface.flow.map_or(1.0, |roughness| roughness.at(motor.min_spacing).dragged.max(1.0))
 }
@@ -221,7 +221,7 @@ pub(super) fn crown(motor: &Motor) -> f64 {
     motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width * motor.tooth_width / (8.0 * radius))
 }
 
-/// Share of the mean gap at a tooth's ends that is its crown's.
+/// Height of the crown as a fraction of the mean gap at a tooth's ends.
 fn unevenness(motor: &Motor) -> f64 {
     crown(motor) / (crown(motor) + motor.normal_amplitude + motor.min_spacing)
 }

@@ -1,4 +1,4 @@
-//! A plate that floats: the mean gap at which the film carries, in the mean of the cycle, the load that lies on the plate.
+//! A plate that floats: the mean gap at which the film carries the plate's load in the mean over the cycle.
 //!
 //! The plate is too heavy to shake, so that its gap stays harmonic. The load F that a film carries falls with the mean gap h at a given
 //! amplitude a, from arbitrarily large values where the plate nearly touches, down to zero. In x = ln(h − a) its logarithm is nearly straight:
@@ -25,24 +25,24 @@ use crate::problem::{GRAVITY, HIGHEST, Plate};
 use crate::solution::{Floating, Stats, Status};
 use std::f64::consts::TAU;
 
-/// Change of ln F that coarse grids need not tell any more.
+/// Error of ln F to which the gap is found on coarse grids.
 const ROUGHLY: f64 = 0.02;
-/// Share of the error asked for, or of the one that the load has, by which the film may carry too much or too little.
+/// Allowed difference between film load and load, as a fraction of the error asked for, or of the error of the load.
 const SHARE: f64 = 0.1;
-/// Relative tolerance likewise, where the scene prescribes its grids.
+/// Allowed relative difference, where the scene prescribes its grids.
 const ON_GIVEN_GRIDS: f64 = 1e-5;
 /// Solves after which the gap is taken as it is.
 const MOST_SOLVES: usize = 60;
-/// Step of x to either side over which dF/dh is taken, and how well a cycle repeats for it.
+/// Difference of x on either side for dF/dh, and the tolerance of a repeating cycle for it.
 const STEP: f64 = 0.03;
 const REPEATING: f64 = 1e-6;
 /// Value used for ln(F/load) where the film load F is close to zero or negative.
 const NOTHING: f64 = -30.0;
 /// Relative accuracy of the least amplitude with which the plate floats.
 const NEEDED: f64 = 0.02;
-/// By how much larger an amplitude is tried at least.
+/// Smallest factor from one tried amplitude to the next.
 const LEAST_GROWTH: f64 = 1.2;
-/// Largest amplitude that is tried for it \[m\].
+/// Largest amplitude that is tried \[m\].
 const LARGEST_AMPLITUDE: f64 = 1e-3;
 
 /// Why a plate does not float.
@@ -77,8 +77,9 @@ pub enum FloatError {
     High,
 }
 
-/// Finds the mean gap at which the film under `plate` carries its `load` \[N or N/m\]: the periodic state there, which tells the gap, and the
-/// plan by which that was solved. `rough` plans a plate at a gap coarsely, `asked` as exactly as is asked for.
+/// Finds the mean gap at which the film under `plate` carries its `load` \[N or N/m\]. Returns the periodic state there, which includes the
+/// gap, and the plan by which it was solved. `rough` makes a coarse plan for a plate at a given gap, `asked` one as accurate as is asked
+/// for.
 ///
 /// # Errors
 /// [`FloatError`]; among them that it was cancelled.
@@ -113,7 +114,7 @@ pub fn float(
     let mut periodic = finish(&turned(&at, &plan), &plan, &found, search.stats);
     let pinned = found.pinned(&plan);
     drop((found, search.warm.take()));
-    // What converges beside the gap is no part of the answer's convergence.
+    // The progress of these auxiliary solves is not that of the result.
     search.observer = &mut nobody;
     let (mut stiffness, beside) = search.stiffness(x, &pinned)?;
     periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..search.stats };
@@ -123,7 +124,7 @@ pub fn float(
     result.film_load.error = off;
     let error = off / (stiffness.value.abs() - stiffness.error).max(0.0) + left;
     let mean_gap = Estimate { value: at.mean_gap, error: error.min(search.farthest(x)) };
-    // F ~ exp(−p x), about.
+    // F is about proportional to exp(−p x).
     let power = stiffness.value.abs() * x.exp() / load;
     stiffness.error += (power + 1.0) * stiffness.value.abs() * mean_gap.error / x.exp();
     beside.add(&mut periodic, mean_gap);
@@ -148,13 +149,13 @@ struct Beside {
 }
 
 impl Beside {
-    /// Adds what the error of its `gap` does to errors of the state there.
+    /// Adds the effect of the gap's error to the errors of the state.
     fn add(&self, state: &mut Periodic, gap: Estimate) {
         let [below, above] = &self.sides[..] else { return };
         let share = gap.error / self.apart;
         let of = |side: &Periodic| numbers(&side.recording.film_load, &side.recording.max_pressure);
         let (less, more) = (of(below), of(above));
-        // S and D are of the amplitude over the gap, besides.
+        // In addition, S and D are scaled with the amplitude over the gap.
         let scale = first_harmonic(&state.recording.film_load).map(|part| part.abs() * gap.error / gap.value);
         let scale = [0.0, 0.0, 0.0, scale[0], scale[1]];
         let errors = std::array::from_fn(|k| (more[k] - less[k]).abs() * share + scale[k]);
@@ -176,15 +177,15 @@ struct GapSearch<'a> {
     load: f64,
     /// The last solve, to start the next from.
     warm: Option<SolvedGrids<PlateLevel>>,
-    /// h − a \[m\] between which the film carries the load whatever its errors are.
+    /// Range of h − a \[m\] outside which the film certainly carries too much or too little, whatever its errors.
     certain: [f64; 2],
     stats: Stats,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
 }
 
-/// A gap whose film carries the load, in x = ln(h − a); the slope of ln F there, and its solve; and if the search did not end there, what is
-/// left of its bracket \[m\].
+/// A gap at which the film carries the load, as x = ln(h − a), with the slope of ln F and the solve there. If the search ended before that,
+/// also the remaining width of the bracket \[m\].
 struct Sought {
     x: f64,
     slope: f64,
@@ -198,14 +199,14 @@ impl GapSearch<'_> {
         Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
     }
 
-    /// How far it is from the gap of `x` to the farther one between which the film carries the load for certain \[m\].
+    /// Distance from the gap of `x` to the farther end of the certain range \[m\].
     fn farthest(&self, x: f64) -> f64 {
         let [least, greatest] = self.certain;
         (greatest - x.exp()).max(x.exp() - least)
     }
 
     fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, SolvedGrids<PlateLevel>), FloatError> {
-        // The last solve is kept beside this one.
+        // The last solve is kept in memory during this one.
         let need = memory::plate(plate, plan);
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;
         let plate = &turned(plate, plan);
@@ -229,7 +230,7 @@ impl GapSearch<'_> {
     ) -> Result<Sought, FloatError> {
         let amplitude = self.plate.amplitude;
         let ratio = 1.0 + self.load / (self.plate.gas.ambient_pressure * self.plate.area());
-        // Where √((1 + ε)/(1 − ε)), the most that any film has, is just the load.
+        // The gap at which the largest possible mean pressure ratio, √((1 + ε)/(1 − ε)), just carries the load.
         let cap = amplitude * (ratio * ratio + 1.0) / (ratio * ratio - 1.0);
         let floor = self.plate.min_spacing.ln();
         let ceiling = (cap.min(HIGHEST.max(amplitude + self.plate.min_spacing)) - amplitude).ln();
@@ -255,11 +256,11 @@ impl GapSearch<'_> {
                 slope = if secant < -0.1 { secant.max(-12.0) } else { slope };
             }
             let target = if plan.accuracy > 0.0 { SHARE * plan.accuracy } else { ON_GIVEN_GRIDS };
-            // What the load is known to is no reason to be content with more than a little.
+            // A large error of the load does not justify a large difference.
             let known = SHARE * (carried.error / self.load).min(ROUGHLY);
             let close = (carried.value / self.load - 1.0).abs() <= known.max(within.max(target));
             let enough = solves == MOST_SOLVES || solves > 1 && high - low < 1e-12;
-            // The first grids alone do not tell whether it rests.
+            // The first grids alone do not show whether the plate rests.
             let may_rest = x <= floor && self.cancel.is_spent() && carried.value + carried.error >= self.load;
             if close || enough || y < 0.0 && may_rest {
                 let end = if y > 0.0 { high } else { low };
@@ -280,7 +281,8 @@ impl GapSearch<'_> {
             }
             last = Some((x, y));
             if had_time && self.cancel.is_spent() {
-                // What finer grids told does not bracket the gap of the first ones, which there are from now on.
+                // The budget is spent and only the first grids are solved from now on: a bracket found on finer grids does not hold for
+                // them.
                 (low, high, last) = (floor, ceiling.max(floor), None);
             }
             let next = x - y / slope;
@@ -310,7 +312,8 @@ impl GapSearch<'_> {
         Ok((Estimate { value: fine, error }, Beside { sides, apart: step }))
     }
 
-    /// That the plate rests on its roughness, where the film carries this `share` of the load, and what it would need.
+    /// The error that the plate rests on its roughness, where the film carries this `share` of the load, and the amplitude that it would
+    /// need.
     fn rests(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> FloatError {
         let (amplitude, min_spacing) = (self.plate.amplitude, self.plate.min_spacing);
         match self.needed(plan) {
@@ -319,8 +322,8 @@ impl GapSearch<'_> {
         }
     }
 
-    /// The least amplitude \[m\] with which the film carries the load as its least gap is that of the roughness. It carries more with
-    /// a larger one at first, as gas is trapped, until the gap is so wide that gas leaves.
+    /// The least amplitude \[m\] with which the film carries the load while the least gap is that of the roughness. At first the load grows
+    /// with the amplitude, because gas is trapped, until the gap is so wide that gas leaves.
     fn needed(&mut self, plan: &dyn Fn(&Plate) -> Plan) -> Result<Option<f64>, FloatError> {
         let (plate, spacing) = (self.plate.clone(), self.plate.min_spacing);
         self.warm = None;
@@ -331,7 +334,7 @@ impl GapSearch<'_> {
             Ok(load.value / search.load)
         };
         let ratio = self.load / (self.plate.gas.ambient_pressure * self.plate.area());
-        // No film could carry it with less.
+        // With a smaller amplitude no film could carry the load.
         let mut low = 0.5 * spacing * ratio * (2.0 + ratio);
         if low > most {
             return Ok(None);
@@ -347,7 +350,7 @@ impl GapSearch<'_> {
                 break;
             }
             if of_high < of_low {
-                // It carries the most in between.
+                // The film carries most at an amplitude in between.
                 low = before;
                 loop {
                     if high / low < 1.0 + NEEDED {

@@ -2,12 +2,12 @@
 
 use crate::problem::Plate;
 
-/// The frames of a recording, even in time, among the steps of a cycle, which cluster about its middle.
+/// The frames of a recording, uniform in time, among the steps of a cycle, which cluster about its middle.
 #[derive(Debug)]
 pub(super) struct Frames {
     /// Gap of each frame \[m\].
     pub(super) gap: Vec<f64>,
-    /// The step before each frame, and how far it is towards the next; empty if each step is a frame.
+    /// The step before each frame, and the fraction of the way to the next; empty if each step is a frame.
     places: Vec<(usize, f64)>,
     steps: usize,
 }
@@ -23,7 +23,7 @@ impl Frames {
         self.gap.len()
     }
 
-    /// Interpolates to a frame what is known at the steps, `value(step, k)` > 0: cubic in the steps.
+    /// Interpolates `value(step, k)` > 0, known at the steps, to a frame: cubic in the step number.
     pub(super) fn mix(&self, frame: usize, out: &mut [f64], value: impl Fn(usize, usize) -> f64) {
         let Some((step, t)) = self.places.get(frame).copied() else {
             out.iter_mut().enumerate().for_each(|(k, out)| *out = value(frame, k));
@@ -45,7 +45,7 @@ impl Frames {
     }
 }
 
-/// The step before each of `frames`, and how far it is towards the next.
+/// The step before each of `frames`, and the fraction of the way to the next.
 fn places(frames: usize, steps: usize, beta: f64) -> Vec<(usize, f64)> {
     let place = |frame: usize| {
         let share = 2.0 * frame as f64 / frames as f64 - 1.0;

@@ -20,13 +20,13 @@ use crate::solution::{Stats, Status};
 const DEPTH: usize = 8;
 /// Longest step of the acceleration in ln Z.
 const LONGEST_STEP: f64 = 1.5;
-/// Share of the error asked for that a cycle which does not quite repeat may have, and the change that is round-off.
+/// Fraction of the error asked for that is allowed because the cycle does not repeat exactly, and the change that counts as round-off.
 const REPEATING_SHARE: f64 = 0.2;
 const LEAST_CHANGE: f64 = 1e-12;
-/// A change that so many rounds do not halve is round-off, too, if it is below this.
+/// A change below this that is not halved within so many rounds counts as round-off, too.
 const ROUND_OFF: f64 = 1e-9;
 const PATIENCE: usize = 8;
-/// Share of the load's swing below which its mean need not be known more exactly.
+/// Fraction of the load's swing below which the mean load need not be known more exactly.
 const LEAST_SHARE_OF_SWING: f64 = 1e-4;
 
 /// Reference for the relative error of a mean load \[N; of a strip N/m\]: the mean itself, or a small share of the swing of the load where
@@ -103,7 +103,7 @@ impl PlateLevel {
         }
     }
 
-    /// Rest at the mean gap, gas at ambient pressure; then, opening first, up to the beginning of the first cycle.
+    /// Starts from rest at the mean gap, gas at ambient pressure, and marches to the beginning of the first cycle; the gap opens first.
     pub(super) fn rest(&mut self, mean_gap: f64, stats: &mut Stats) -> Result<(), Interrupted> {
         self.state = FilmState::at_rest(vec![mean_gap; self.state.trapped.len()]);
         self.cycle.remember(false);
@@ -147,7 +147,8 @@ impl PlateLevel {
         }
     }
 
-    /// One cycle on, with nothing accelerated: `told` is handed it, the first frame being the present. Returns the largest change of ln Z.
+    /// Marches one cycle without acceleration; `told` receives it, its first frame being the present state. Returns the largest change of
+    /// ln Z.
     pub(super) fn transient_cycle(
         &mut self,
         stats: &mut Stats,
@@ -215,7 +216,7 @@ impl PlateLevel {
         Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance.min(self.allowed_change(plan)) })
     }
 
-    /// The limit of gas that has no time to leave: Z is the same everywhere and at all times, what the edges leave of it
+    /// The limit of gas that has no time to leave: Z is the same everywhere and at all times, and is determined by the edges
     /// ([`edge_height`]).
     fn trap(&mut self) {
         let grid = self.cycle.grid();
@@ -247,8 +248,8 @@ impl PlateLevel {
         self.loads().iter().zip(&self.dt).map(|(load, dt)| load * dt).sum::<f64>() / self.period
     }
 
-    /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for, or of the load
-    /// where the grid is given.
+    /// Allowed change of ln Z from round to round. Its effect on the load is a fraction of the error asked for, or of the load where the
+    /// grid is prescribed.
     fn allowed_change(&self, plan: &Plan) -> f64 {
         let share = if plan.accuracy == 0.0 { plan.tolerance } else { REPEATING_SHARE * plan.accuracy };
         let grid = self.cycle.grid();

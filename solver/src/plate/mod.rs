@@ -1,4 +1,4 @@
-//! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
+//! The plate: the film alone, under a prescribed gap, uniform in space and harmonic in time.
 
 pub mod floating;
 mod frames;
@@ -70,7 +70,7 @@ fn finish(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>, stats: St
     let mut recording = level.recording(plate, plan, &coarser);
     let estimate = stated(plate, plan, found);
     let elsewhere = (estimate.error - of_grids(plan, found).error).max(0.0);
-    // What does not leak while it should is a share of the swing, whatever the mean is.
+    // Gas that fails to leak causes an error in proportion to the swing of the load, whatever its mean is.
     let swing = recording.film_load.iter().fold(0.0_f64, |swing, load| swing.max(load.abs()));
     let widths = width_errors(plate, found);
     let of_gas = elsewhere.max(plan.left_out * swing).max(widths[0]).max(widths[1]) / gas_force(plate, estimate.value);
@@ -122,7 +122,7 @@ fn stated(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estima
     let beyond = beyond_limits(plate, estimate.value);
     let mut error = estimate.error + repeating + left_out + found.width_error();
     if astray > 0.0 {
-        // Whatever it is, the load is within its limits.
+        // The load is within its limits whatever its error.
         let [least, greatest] = limits(plate);
         error = error.min(greatest - least);
     }

@@ -1,4 +1,4 @@
-//! Slow motion of a plate that floats: how it creeps back, and how it swings.
+//! Slow motion of a plate that floats: its creep back to equilibrium, and its oscillation.
 //!
 //! A plate pushed off its height h by δ e^(st), slowly beside the vibration, has m s² + K(s) = 0 with
 //!
@@ -10,12 +10,12 @@
 //! has none is a spring, k_T, and one that is leaving damps, c = dK/ds at 0. Both follow from the film of high frequency averaged over a cycle
 //! (`film::trapped`), ∂Z/∂t = ∇·[M h ψ(Z) ∇Z] with Z = Z_e(h, a) at the edges, whose load is p_a ∫ Z dA/√(h² − a²) − p_a A.
 //!
-//! Where the vibrating film leaks within a cycle c is the mean over the cycle of that of a film that is not compressed. In between both are mixed,
-//! by the square of 1 − S, S the spring of the linear film at the least gap and the frequency of the vibration, and half of S (1 − S) of what they differ by is
-//! error. A plate that is light enough to shake has an amplitude of its own, |K(iω)|/(m ω²) of the vibration's: twice that share of both
-//! stiffnesses is error, too.
+//! Where the vibrating film leaks within a cycle, c is the mean over the cycle of the damping of an incompressible film. In between, both
+//! are mixed in proportion to the square of 1 − S, with S the spring of the linear film at the least gap and the frequency of the
+//! vibration; half of S (1 − S) times their difference counts as error. A plate that is light enough to shake has an amplitude of its own,
+//! |K(iω)|/(m ω²) of the vibration's: twice that fraction of both stiffnesses counts as error, too.
 //!
-//! K is that of a row of springs with dashpots: it has a pair of complex roots or none, all others are real.
+//! K(s) is that of springs and dashpots: the equation has one pair of complex roots or none, and all other roots are real.
 
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -30,16 +30,16 @@ use std::f64::consts::{PI, TAU};
 
 /// Samples of a cycle.
 const SAMPLES: usize = 256;
-/// Share of S (1 − S) of what the two dampings differ by that is error.
+/// Fraction of S (1 − S) times the difference of the two dampings that counts as error.
 const MIXED: f64 = 0.5;
-/// Least share of a push that creeps back slowly enough to be told.
+/// Creep is reported if at least this fraction of a displacement decays by it.
 const TOLD: f64 = 0.01;
-/// Step between rates that are tried, from the least on, as a share of the leak's.
+/// Ratio of successive rates in the search for a root, and the smallest rate, as a fraction of the leak rate.
 const RATES: f64 = 1.25;
 const LEAST_RATE: f64 = 1e-9;
 
-/// Slow motion of `plate`, at the gap at which it floats, and of the mass whose weight is its `load`; `None` if it is not stable, or not slower than
-/// the vibration.
+/// Slow motion of `plate` at the gap at which it floats, for the mass whose weight is its `load`; `None` if the plate is not stable, or its
+/// motion is not slower than the vibration.
 pub(super) fn slow_motion(plate: &Plate, load: f64, floating: &Floating) -> Option<SlowMotion> {
     let (mass, Estimate { value: stiffness, error }) = (load / GRAVITY, floating.stiffness);
     if !floating.is_stable() {
@@ -84,9 +84,9 @@ struct SlowFilm {
     /// κ²/s \[s\].
     time: f64,
     outline: Outline,
-    /// How far damping and spring of gas may be off, relative.
+    /// Relative uncertainty of the damping and the spring of the gas.
     doubt: f64,
-    /// By what share a plate that is light enough to shake changes the amplitude: what the force's swing makes of its acceleration.
+    /// Relative change of the amplitude of a plate that is light enough to shake, due to the acceleration by the swing of the force.
     shakes: f64,
 }
 
@@ -104,7 +104,7 @@ impl SlowFilm {
         let mut film =
             Self { mass, stiffness, trapped, time: per_rate / law.at(height).0, outline, doubt: 0.0, shakes: 0.0 };
         let leaking = phases().map(|phase| viscous_force(plate, plate.gap(phase), -1.0)).sum::<f64>() / SAMPLES as f64;
-        // Where it is closest it damps most.
+        // The film damps most where the gap is least.
         let least = h - a;
         let vibrating = linear_response(Complex::new(0.0, omega * per_rate * h / (least * law.at(least).0)), outline);
         let (leaks, more) = ((1.0 + vibrating.re).clamp(0.0, 1.0), leaking / film.damping() - 1.0);
@@ -143,7 +143,7 @@ impl SlowFilm {
         None
     }
 
-    /// The rate at which it creeps back, the slowest real root if that is worth telling, and the one at which it swings.
+    /// The rate of creep, the slowest real root, if it is worth reporting; and the complex root of the oscillation.
     fn roots(&self) -> (Option<Complex<f64>>, Option<Complex<f64>>) {
         let fast = ((self.stiffness + self.trapped) / self.mass).sqrt();
         let slow = (self.stiffness / self.mass).sqrt();
@@ -153,7 +153,7 @@ impl SlowFilm {
         let found: Vec<_> = starts.filter_map(|start| self.newton(start)).collect();
         let (pairs, real): (Vec<_>, Vec<_>) = found.into_iter().partition(|s| s.im.abs() > 1e-6 * s.norm());
         let swing = pairs.first().map(|s| Complex::new(s.re, s.im.abs()));
-        // Of the real roots the slowest is before the first rate at which the film leaks.
+        // The slowest real root lies below the slowest leak rate of the film.
         let leak = match self.outline {
             Outline::Strip | Outline::Ring { .. } => PI * PI,
             Outline::Rectangle { aspect } => PI * PI * (1.0 + aspect.powi(-2)),

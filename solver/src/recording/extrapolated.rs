@@ -1,11 +1,11 @@
 //! The lines of a cycle extrapolated to zero spacing, point by point, from two grids one of which has half the intervals and steps.
 //!
-//! Every coarse step is a fine one. Loads are compared cell by cell: a coarse cell is the fine one of the same node and half of
-//! those beside it. A third of the difference is what the fine cells still miss, at second order; it is spread over
-//! them evenly, and between two coarse steps the mean of theirs is taken. So load extrapolates with its sum: film and contact
-//! together keep that of the grids, at every instant. What physics asks for is kept: contact never pulls, and acts where it does on
-//! the fine grid, the gap is closed there and nowhere less than closed, absolute pressure stays positive. Whatever balance this
-//! costs is put right at the end, with the contact's load or, where there is none, with the film's.
+//! Every coarse step coincides with a fine one. Loads are compared cell by cell: a coarse cell consists of the fine cell of the same node
+//! and half of its two neighbours. A third of the difference is the error of the fine cells, at second order. It is spread over them
+//! evenly; at the instants between two coarse steps, the mean of the two corrections is used. The total load is extrapolated in the same
+//! way, so film and contact together keep the load balance of the grids at every instant. Physical constraints are kept: contact never
+//! pulls and acts only where it does on the fine grid; there the gap is closed, and it is nowhere less than closed; absolute pressure stays
+//! positive. The balance that this disturbs is restored at the end, by the contact load or, where there is none, by the film's.
 
 use super::{BETWEEN, LineLoads, Recording};
 use std::ops::{Add, Range};
@@ -17,7 +17,7 @@ pub struct Balance {
     pub load: Option<f64>,
     /// Least film thickness \[m\].
     pub min_spacing: f64,
-    /// Whether a gap that is open bears no contact. (Asperities do.)
+    /// Whether there is no contact load where the gap is open. (On asperities there is.)
     pub exclusive: bool,
 }
 

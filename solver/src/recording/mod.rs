@@ -1,4 +1,4 @@
-//! Fields of one cycle: plain data, what views and exports read.
+//! Fields of one cycle: plain data for views and exports.
 
 mod extrapolated;
 pub mod sample;
@@ -10,14 +10,14 @@ use crate::rotor::Compliances;
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 
-/// Error of a greatest pressure over that of a mean which differs as much from grid to grid: it is found where contact begins, or between
-/// nodes, and comes closer with the first order only.
+/// Error of a greatest pressure, over that of a mean with the same changes from grid to grid: the maximum is where contact begins, or
+/// between nodes, and converges with first order only.
 const PEAK: f64 = 8.0;
-/// Likewise of a least film thickness: on asperities faces come closest at the edge of a tooth, where the load is steepest.
+/// The same for a least film thickness: on asperities faces are closest at the edge of a tooth, where the load is steepest.
 const ROUGH: f64 = 16.0;
 /// How far a parabola goes beyond its values at nodes or frames, in units of its departure from the chord of the two beside.
 const BETWEEN: f64 = 0.25;
-/// Least error of a series at any instant, over the mean of its errors.
+/// Least error of a series at any instant, as a fraction of the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
 /// Fields of one cycle of the periodic state, every array flat and in SI units: its [`LineLoads`], to which it dereferences, and
@@ -36,11 +36,11 @@ pub struct Recording {
     pub rotor: Compliances,
     /// Period \[s\].
     pub period: f64,
-    /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
+    /// Whether this is a cycle of a transient: it is followed by a different cycle, and a tooth is not another tooth at another time.
     pub transient: bool,
-    /// Bound of what the scene's switches leave out of the film, relative to its mean load: no grid shows it.
+    /// Bound, relative to the film's mean load, of the terms that the scene's switches leave out; no grid shows it.
     pub forced: f64,
-    /// Relative error of the film's mean load for want of nodes across: no grid shows it.
+    /// Relative error of the film's mean load due to missing nodes across; no grid shows it.
     pub across: f64,
     /// Stator's normal displacement W_S \[m\], `[tooth][frame][node]` as the lines (zero for a plate).
     pub stator: Vec<f64>,
@@ -156,7 +156,8 @@ impl Recording {
             let at = |frame: usize| factor * judged(found[frame], coarse[frame / 2], fine[frame]).error;
             let whole: Vec<f64> = (0..frames).map(|frame| at(frame / 2 * 2)).collect();
             let mean = whole.iter().sum::<f64>() / frames.max(1) as f64;
-            // Between two instants that can be judged the greater of their errors counts, and everywhere some of the mean.
+            // Between two instants with an error estimate the greater of their errors counts, and everywhere at least a fraction of the
+            // mean.
             let near = |frame: usize| whole[frame].max(whole[(frame + 1) % frames]).max(SHARE_OF_MEAN * mean);
             (0..frames).map(|frame| near(frame) + everywhere(found[frame])).collect::<Vec<f64>>()
         };
@@ -172,8 +173,8 @@ impl Recording {
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
     }
 
-    /// An extreme of a series, none of which is beyond `bound`. Its error is by how much it differs on what this recording is judged by, or by
-    /// how much any instant may be beyond it by the error of the series there.
+    /// An extreme of a series, limited by `bound`. Its error is the largest of its differences to the yardsticks, and of the amounts by
+    /// which any instant, with the error of the series there, may exceed it.
     pub fn extreme(
         &self,
         series: impl Fn(&LineLoads) -> Vec<f64>,

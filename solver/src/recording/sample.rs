@@ -1,4 +1,4 @@
-//! Reading values between nodes and between frames: no drawing in here.
+//! Values between nodes and between frames; no drawing here.
 //!
 //! An instant is a *place*, counted in frames: 3.25 is a quarter of the way from frame 3 to frame 4, and after the last
 //! frame comes the first. By lag symmetry tooth k at a place is tooth 0 at place + k·frames/teeth, so that another tooth
@@ -224,8 +224,8 @@ impl Lines {
     /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced from one
     /// tooth's edge to the next one's, the last ones beyond the wavelength.
     ///
-    /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the
-    /// harmonics of contact and film. z₀ is what is left at the edges of the two teeth, where the whole height is known.
+    /// No load acts over the groove and there is no local deflection, so the height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), with q_n
+    /// the harmonics of contact and film. z₀ is fitted at the edges of the two teeth, where the height is known.
     pub fn grooves(&self, recording: &Recording, points: usize) -> Vec<Vec<[f64; 2]>> {
         let (teeth, length) = (recording.teeth, recording.length);
         let Some(reach) = recording.x.last().copied().filter(|_| length > 0.0) else { return vec![Vec::new(); teeth] };
@@ -287,8 +287,8 @@ impl Recording {
         harmonics
     }
 
-    /// Adds to the errors of the least film thickness what the rotor is deflected by in harmonics of the load from the one `first` on, which
-    /// were left out: those of up to twice that, and up to half a pitch.
+    /// Adds to the errors of the least film thickness the rotor's deflection by the harmonics of the load that were left out, from number
+    /// `first` up to twice that, or up to half a pitch if that is shorter.
     pub fn judge_short_waves(&mut self, first: usize) {
         let last = 2 * first.max(self.teeth);
         let limit = self.rotor.beyond(last);

@@ -17,7 +17,7 @@ pub enum RotorError {
     /// A ring that needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] Excess),
-    /// A table that is no Green's function.
+    /// A table that is not a Green's function.
     #[error(
         "rotor.green: harmonic {harmonic} of the wave has the compliance {compliance:.1e} m²/N, known to {error:.1e}: allowed is a deflection \
          that yields to the first harmonic; give it over half the wavelength, or until it has died out, in steps that are shorter"
@@ -78,14 +78,14 @@ impl Compliances {
         self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
     }
 
-    /// These with no harmonic stiffer than `least` \[m²/N\], so that short waves have a limit and the harmonics come to an end.
+    /// These compliances, each at least `least` \[m²/N\], so that short waves have a limit and the number of harmonics is finite.
     #[must_use]
     pub fn at_least(self, least: f64) -> Self {
         let harmonics = self.harmonics.iter().map(|value| value.max(least)).collect();
         Self { harmonics, local: self.local.max(least), ..self }
     }
 
-    /// Whether a harmonic is stiffer than what is left beyond them all, as no body's is but a measured table's may be.
+    /// Whether a harmonic is stiffer than the limit of short waves; no real body has such a harmonic, but a measured table may.
     pub fn dips(&self) -> bool {
         let least = self.beyond(self.harmonics.len());
         self.harmonics.iter().any(|value| *value < least)

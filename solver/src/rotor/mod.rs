@@ -21,13 +21,13 @@ use ring::{Band, Section};
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
-/// Wavenumber beyond all that a beam or a table resolves \[rad/m\]: what is left of its compliance is local.
+/// Wavenumber beyond all that a beam or a table resolves \[rad/m\]: the compliance there is local.
 const LOCAL: f64 = 1e9;
-/// Harmonics that anything may ask for: those of the finest contact mesh of the paper's method.
+/// Most harmonics that may be asked for: those of the finest contact mesh of the paper's method.
 pub const MOST_HARMONICS: usize = 2500;
-/// Harmonics whose natural frequencies are computed of a ring.
+/// Harmonics for which the natural frequencies of a ring are computed.
 pub const RESONANCES: usize = 3;
-/// Rings of which is kept what was computed, for the next solve of the same one.
+/// Number of rings whose results are kept for the next solve of the same ring.
 const KEPT: usize = 64;
 
 impl RotorCompliance {
@@ -157,14 +157,14 @@ fn of_ring(section: &Section, wave: &Wave, cancel: &Cancel) -> Result<Compliance
     })
 }
 
-/// An end of a table counts as covering a wavenumber that is this near to it, relative.
+/// Relative tolerance within which the end of a table counts as covering a wavenumber.
 const NEAR: f64 = 0.01;
 /// Harmonics that contact is always resolved with.
 const FEWEST_HARMONICS: f64 = 4.0;
 
 impl Motor {
-    /// In words, what the rotor's compliance table does not cover of what contact asks of it: wavelengths from that of the wave,
-    /// k₁ = waves/r, down to the width of a tooth, 2π/b. `None` if it covers all that, or the rotor is no table.
+    /// Describes in words which wavenumbers needed by the contact problem the compliance table does not cover: from that of the wave, k₁ =
+    /// waves/r, to that of a wave as short as a tooth, 2π/b. `None` if it covers them all, or if the rotor is not a table.
     pub fn compliance_not_covered(&self) -> Option<String> {
         let RotorCompliance::Table(rows) = &self.rotor else { return None };
         let (first, last) = (rows.first()?.0, rows.last()?.0);

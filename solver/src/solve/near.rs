@@ -1,4 +1,4 @@
-//! Solves of problems that are near each other, for differences between them.
+//! Solves of neighbouring problems, for differences between them.
 //!
 //! Two solves to an accuracy of half a per cent differ by up to as much, even if the problems hardly do: each chooses its own grids, terms
 //! and harmonics, and stops as soon as its cycle repeats well enough. Here one problem is solved first, and all others by its plan: on
@@ -29,7 +29,7 @@ pub struct Centre {
     pub problem: Problem,
     /// Its solution.
     pub solved: Nested<Solution>,
-    /// Of a plate under a load.
+    /// For a plate under a load.
     floating: Option<Afloat>,
 }
 
@@ -81,10 +81,10 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
     solution
 }
 
-/// Solves at gaps near that of the centre until the film carries the load: by a stiffness that is off by a share e, the gap of the last is off
-/// by e² of its change.
+/// Number of solves at gaps near that of the centre until the film carries the load. If the stiffness has a relative error e, the last gap
+/// is off by e² times its change.
 const NEWTON: usize = 3;
-/// Where the next would be farther away than this share of the gap, the problem is not near.
+/// If the next gap would differ by more than this fraction, the problem is not near.
 const ARRIVED: f64 = 0.01;
 
 /// A plate as it was solved, at the gap at which it floats, and the plan with the grids that were used.

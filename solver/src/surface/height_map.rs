@@ -59,7 +59,7 @@ pub const MOST: usize = 1_000_000;
 pub const POINTS: usize = 16_000_000;
 /// Numbers of this size, in any unit, stand for points that were not measured.
 const LARGEST: f64 = 1e10;
-/// By how much of a step the points of a profile may lie unevenly.
+/// Largest deviation from uniform spacing of a profile's points, as a fraction of a step.
 const UNEVEN: f64 = 0.02;
 
 /// Whether text begins as heights do: with a spacing or a unit of heights, or with the columns of a profile.
@@ -104,7 +104,7 @@ fn number(cell: &str, line: usize) -> Result<f64, HeightMapError> {
     value.ok_or_else(|| HeightMapError::Line { line, what: what() })
 }
 
-/// The first characters of a cell, what cannot be seen left out.
+/// The first characters of a cell, without invisible ones.
 fn shown(cell: &str) -> String {
     cell.chars().filter(|c| !c.is_control()).take(20).collect()
 }

@@ -40,12 +40,12 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The law of a name.
+    /// The law with this name.
     pub fn law(name: &str) -> Option<&'static Law> {
         LAWS.iter().copied().find(|law| law.name == name)
     }
 
-    /// The distribution of a name.
+    /// The distribution with this name.
     pub fn heights(name: &str) -> Option<&'static Heights> {
         HEIGHTS.iter().copied().find(|heights| heights.name == name)
     }

@@ -1,4 +1,4 @@
-//! The laws against what is known of them exactly.
+//! The laws against exact results.
 
 use super::*;
 use crate::numerics::gauss_legendre;

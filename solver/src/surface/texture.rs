@@ -37,7 +37,7 @@ pub struct Texture {
     pub autocorrelation: [Vec<(f64, f64)>; 2],
 }
 
-/// Points of an autocorrelation that is kept beyond its fall to 0.2.
+/// Points of an autocorrelation that are kept beyond its fall to 0.2.
 const TAIL: usize = 3;
 /// Round-off in levelled heights, relative to the largest height.
 const ROUNDING: f64 = 1e-12;
@@ -129,7 +129,7 @@ fn autocorrelation(face: &HeightMap, axis: usize, middle: f64) -> Vec<(f64, f64)
         let value = mean_along(face, axis, lag, |k, stride| (z[k] - middle) * (z[k + lag * stride] - middle)) / whole;
         found.push((lag as f64 * face.spacing[axis], value));
         beyond += usize::from(value < 0.2 || beyond > 0);
-        // Past its fall, as far again is enough to look at.
+        // Beyond its fall, the autocorrelation is computed over as many lags again.
         if beyond > found.len() / 2 + TAIL {
             break;
         }

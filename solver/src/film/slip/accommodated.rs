@@ -1,8 +1,8 @@
-//! The linearised Boltzmann equation between walls that reflect some molecules as a mirror does.
+//! The linearised Boltzmann equation between walls that reflect some of the molecules specularly.
 //!
-//! With Maxwell's boundary condition a share α of the molecules leaves a wall diffusely and the others as light from a mirror. The
-//! flow rate Q_P(D) of the linearised BGK equation with it was computed by discrete ordinates, as `tests/boltzmann.rs` does again, and its
-//! excess over that for α = 1 is fitted here for 0.3 ≤ α ≤ 1 and 0.01 ≤ D ≤ 100:
+//! With Maxwell's boundary condition a fraction α of the molecules leaves a wall diffusely and the others are reflected specularly. The
+//! flow rate Q_P(D) of the linearised BGK equation with this condition was computed by discrete ordinates, as `tests/boltzmann.rs` does
+//! again. Its excess over the flow rate for α = 1 is fitted here for 0.3 ≤ α ≤ 1 and 0.01 ≤ D ≤ 100:
 //!
 //! ΔQ_P = (1 − α)/α · (a₀ + a₁ ln(1 + α d₁/D) + a₂ d₂/(d₂ + D) + a₃ d₃/(d₃ + D)), aᵢ linear in α,
 //!
@@ -18,7 +18,7 @@ const TERMS: [f64; 4] = [1.7651, 0.7453, -0.7838, 0.1894];
 /// Increase of each of them up to α = 1.
 const GROWTH: [f64; 4] = [0.1369, 0.4021, -0.7898, -1.5492];
 
-/// As [`FukuiKaneko`], between walls that reflect a share of the molecules specularly: more flow.
+/// As [`FukuiKaneko`], between walls that reflect a fraction of the molecules specularly, which increases the flow.
 #[derive(Clone, Copy, Debug)]
 pub struct Accommodated {
     diffuse: FukuiKaneko,

@@ -46,12 +46,12 @@ pub(super) fn flow_rate(x: f64) -> (f64, f64) {
     }
 }
 
-/// D at which the fit ends.
+/// Inverse Knudsen number D below which the fit does not hold.
 const RAREFIED_END: f64 = 0.01;
-/// Kn at which it does, √π/(2D).
+/// The corresponding Knudsen number, √π/(2D).
 pub(super) const FIT_ENDS: f64 = 88.622_692_545_275_8;
 
-/// D up to which F(D) = ∫ Q_P dD is a table, and the intervals of that, even in ln D.
+/// D up to which F(D) = ∫ Q_P dD is tabulated, and the number of intervals of the table, uniform in ln D.
 const LAST: f64 = 10.0;
 const INTERVALS: usize = 800;
 
@@ -72,11 +72,11 @@ static NODES: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     nodes
 });
 
-/// F(D): cubics in ln D between nodes, and in closed form beyond either end.
+/// F(D): cubic in ln D between nodes, and in closed form beyond either end of the table.
 fn flow_potential(x: f64) -> f64 {
     let (first, last) = (NODES[0], NODES[INTERVALS]);
     if x <= RAREFIED_END {
-        // ∫ of end − fall ln(D/D₀).
+        // The integral of end − fall ln(D/D₀).
         let (end, fall) = (piece(RAREFIED, RAREFIED_END).0, std::f64::consts::PI.sqrt().recip());
         let ratio = x / RAREFIED_END;
         let whole = |ratio: f64| RAREFIED_END * ratio * (end - fall * (ratio.ln() - 1.0));

@@ -1,11 +1,11 @@
 //! Slip laws: the mobility ψ(Z) of the film.
 //!
-//! The Poiseuille flow, as volume at ambient pressure per metre of width \[m²/s\], is −k h² ψ(Z) ∇(p/p_a) p_a/(12μ) with Z = h p/p_a
-//! \[m\] and ψ = Z Q, Q the factor of slip, a function of the local Knudsen number Kn = λ_a/Z only. k, a function of the gap only, is
-//! that of rough faces (`surface::flow`), and 1 of smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the
+//! The Poiseuille flow, as volume at ambient pressure per metre of width \[m²/s\], is −k h² ψ(Z) ∇(p/p_a) p_a/(12μ). Here Z = h p/p_a \[m\]
+//! and ψ = Z Q, where the slip factor Q depends on the local Knudsen number Kn = λ_a/Z only. k depends on the gap only: it is the flow
+//! factor of rough faces (`surface::flow`), and 1 for smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the
 //! discrete film an M-matrix (`film::stepper`); k does not change that.
 //!
-//! Each law is a file, its line in `laws!` and its arm in [`SlipLaw::of`]; a step of the film is compiled for each (`Film::step`).
+//! Each law has its own file, a line in `laws!` and an arm in [`SlipLaw::of`]; a step of the film is compiled for each law (`Film::step`).
 
 mod accommodated;
 mod affine;
@@ -49,12 +49,12 @@ laws! {
     SecondOrder,
     /// Linearised Boltzmann.
     FukuiKaneko,
-    /// Linearised Boltzmann, walls that are not wholly diffuse.
+    /// Linearised Boltzmann, between walls that are not fully diffuse.
     Accommodated,
 }
 
 impl SlipLaw {
-    /// The law of a gas. Without a mean free path every law is the continuum's.
+    /// The law of a gas. With a mean free path of zero every law reduces to the continuum.
     pub fn of(gas: &Gas) -> Self {
         let mean_free_path = gas.mean_free_path;
         match gas.slip {

@@ -1,4 +1,4 @@
-//! A finer grid starts from what a coarser one has found.
+//! Starts a finer grid from the state of a coarser one.
 
 use super::MotorLevel;
 use crate::film::grid::Between;
@@ -32,7 +32,7 @@ impl MotorLevel {
                     *p = when.mix(*p, *q);
                 }
                 let gap = |i: usize| when.mix(coarse.film_thickness[lines[0] + i], coarse.film_thickness[lines[1] + i]);
-                // What is trapped changes less in time than gap and pressure do.
+                // The trapped gas varies less in time than gap and pressure.
                 let trapped = |i: usize| {
                     let open = i == 0 || i == cnx - 1;
                     let at = |k: usize| if open { widths * coarse.film_thickness[k] } else { coarse.trapped[k] };
@@ -72,7 +72,7 @@ impl MotorLevel {
         }
     }
 
-    /// Writes a field of unknown nodes into one with edges, `[ix][iy]`; edges keep their values.
+    /// Copies a field of unknown nodes into one with edges, `[ix][iy]`; the edges keep their values.
     fn with_edges(&self, out: &mut [f64], value: impl Fn(usize) -> f64) {
         for (k, node) in self.grid().rows().flat_map(|(_, row)| row).enumerate() {
             out[node] = value(k);

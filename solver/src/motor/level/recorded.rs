@@ -1,4 +1,4 @@
-//! The cycle of one grid as it is drawn and exported.
+//! The cycle of one grid in the form that is drawn and exported.
 
 use super::MotorLevel;
 use crate::film::grid::Start;
@@ -7,7 +7,7 @@ use crate::problem::Motor;
 use crate::recording::{Balance, LineLoads, Recording, Touching};
 
 impl MotorLevel {
-    /// Film, contact and gap.
+    /// Film, contact and gap of the cycle.
     pub(in crate::motor) fn line_loads(&self, motor: &Motor) -> LineLoads {
         let x = &self.grid().x;
         let (rows, columns) = (x.unknown(), self.grid().y.unknown().len());
@@ -38,8 +38,8 @@ impl MotorLevel {
         }
     }
 
-    /// The cycle as it is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
-    /// coarse to fine; without them as they are.
+    /// The cycle in the form that is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
+    /// coarse to fine, or without extrapolation if there are none.
     pub(in crate::motor) fn recording(&self, motor: &Motor, plan: &Plan, coarser: &[LineLoads]) -> Recording {
         let grid = self.grid();
         let nx = self.nx;

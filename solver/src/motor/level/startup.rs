@@ -1,9 +1,9 @@
-//! The transient from rest, instant after instant: every tooth, nothing accelerated. Cycle after cycle it leads to the periodic
-//! state, slowly, also where the rounds of all instants at once do not.
+//! The transient from rest, instant after instant, with every tooth and without acceleration from cycle to cycle. It converges to the
+//! periodic state slowly, but also where the rounds over all instants at once do not converge.
 //!
-//! At each instant film and contact have to agree: contact asks how much gas is trapped, ζ, the film's step asks for the gap. A
-//! fixed point of the two, driven by Anderson acceleration of ln ζ, starts from ζ continued from the last two instants. What it
-//! settles to is a step of the same scheme as the periodic state's, so that this is where the transient ends, to the last digits.
+//! At each instant film and contact have to agree: the contact problem needs the trapped gas ζ, and the film's step needs the gap. The
+//! fixed point of the two is found by Anderson acceleration of ln ζ, starting from ζ extrapolated from the last two instants. It satisfies
+//! the same discrete equations as a step of the periodic state, so the transient ends in that state, to round-off.
 
 use super::{CONTACT_SHARE, MotorLevel, step_tolerance};
 use crate::contact::{Instant, Shape};
@@ -17,20 +17,21 @@ use crate::solution::{Stats, Status};
 
 const DEPTH: usize = 6;
 const LONGEST_STEP: f64 = 1.0;
-/// Rounds of a step: gas and balance of the load have to be settled. One that needs more is taken as it is, and counted.
+/// Most rounds of a step, until gas and load balance have settled. A step that needs more is accepted as it is, and counted.
 const ROUND_LIMIT: usize = 60;
 
-/// Cycles that a state is given to repeat.
+/// Most cycles until a state repeats.
 const CYCLE_LIMIT: usize = 250;
-/// Cycles in a row whose steps leave the load out of balance by more than is allowed: as many do not settle later, and each takes all its rounds.
+/// The march is given up after so many cycles in a row whose steps leave the load more unbalanced than is allowed: such a march does not
+/// settle later, and each of its cycles takes the most rounds.
 const UNBALANCED_LIMIT: usize = 10;
-/// Residual of their steps, as a share of the plan's tolerance.
+/// Tolerance of the steps, as a fraction of the plan's tolerance.
 const SETTLED_SHARE: f64 = 0.01;
-/// Where three cycles change the film's load hardly less than the three before, the state may be that many times as far off.
+/// Where three cycles change the film's load hardly less than the three before, the remaining change is taken to be this many times theirs.
 const CREEP: f64 = 10.0;
 
 impl MotorLevel {
-    /// Rest: the wave stands still, pressed against the rotor without a film, and the gas is at ambient pressure.
+    /// Sets the state of rest: the wave stands still, pressed against the rotor without a film, and the gas is at ambient pressure.
     ///
     /// # Errors
     /// [`MotorError::Contact`] if the dry contact problem has no solution to working precision.
@@ -52,9 +53,9 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ; `told` is handed the cycle
-    /// whose first frame is the present. Returns the largest change of ln Z over the cycle. The residual of the level is then the largest
-    /// of a step.
+    /// Marches one cycle from the present instant, t = 0 of the cycle, with each step solved to `tolerance` in ln ζ. `told` receives the
+    /// cycle, whose first frame is the present state. Returns the largest change of ln Z over the cycle. The level's residual is then the
+    /// largest residual of a step.
     pub(in crate::motor) fn transient_cycle(
         &mut self,
         tolerance: f64,
@@ -122,7 +123,7 @@ impl MotorLevel {
         let (teeth, nx, steps, nodes) = (self.teeth, self.nx, self.steps, self.contact.nodes());
         let line = |tooth: usize, m: usize| (tooth * steps + m) * nx;
         let (last, earlier) = ((m + steps - 1) % steps, (m + steps - 2) % steps);
-        // Gas that is trapped changes slowly, and steadily.
+        // Trapped gas changes slowly and steadily.
         let mut present = vec![0.0; nodes];
         for tooth in 0..teeth {
             for ix in 0..nx {

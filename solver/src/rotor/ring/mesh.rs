@@ -1,10 +1,9 @@
 //! The mesh of a section: quadratic quadrilaterals on a tensor grid, dense at the contact and at corners.
 //!
-//! Every edge of a part, a support or the contact band is a line of the grid. Between two lines the size of an
-//! element grows from what is fine there by a constant share of the distance, so that it follows the singular stress
-//! at a corner. All sizes are scaled by one factor, so that the mesh has about as many elements as were asked for. A
-//! finer mesh halves every element, and contains the displacements of the coarser one: its compliance can only be
-//! greater.
+//! Every edge of a part, a support or the contact band is a grid line. Elements are small at a line and grow in proportion to the distance
+//! from it, so that they follow the singular stress at a corner. All sizes are scaled by one factor, so that the mesh has about as many
+//! elements as asked for. A finer mesh halves every element and contains the displacements of the coarser one, so its compliance can only
+//! be greater.
 //!
 //! Nodes are numbered in the order in which their displacements are eliminated, so that the factor of the matrix has few entries, and the
 //! matrix is factorised as it is assembled: by approximate minimum degree (P. R. Amestoy and others, SIAM J. Matrix Anal. Appl. 17 (1996) 886).
@@ -98,15 +97,15 @@ impl Halved {
     }
 }
 
-/// Elements of the mesh that is to be halved once more.
+/// Elements of the coarser mesh, which is halved to make the finer one.
 const COARSE: usize = 500;
-/// The most elements of it, if lines alone make that many.
+/// Most elements of that mesh, if the grid lines alone need more than `COARSE`.
 const MOST: usize = 4 * COARSE;
-/// Size of elements at a line, in shares of the narrower of the intervals beside it.
+/// Size of elements at a line, as a fraction of the narrower interval beside it.
 const AT_LINE: f64 = 0.03;
 /// Size of elements at the contact, in shares of its width or of the height of the part that is in contact.
 const AT_CONTACT: f64 = 0.1;
-/// Growth of elements with the distance from a line.
+/// Growth of the element size per distance from a line.
 const GROWTH: f64 = 1.0;
 
 impl Section {
@@ -262,7 +261,7 @@ pub(super) fn neighbours(count: usize, elements: &[Element]) -> (Vec<usize>, Vec
     (first, others)
 }
 
-/// Which of `count` nodes is eliminated when, and when each is.
+/// Elimination order of `count` nodes, and the position of each node in it.
 fn elimination(count: usize, elements: &[Element]) -> Result<[Vec<usize>; 2], RingError> {
     let (first, others) = neighbours(count, elements);
     let (mut order, mut number) = (vec![0; count], vec![0; count]);

@@ -16,7 +16,8 @@ use crate::numerics::dot;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
-/// Vectors that are iterated beside those asked for: on the coarser mesh, and on the finer one, which starts from its modes.
+/// Additional vectors of the iteration, beyond those asked for: on the coarser mesh, and on the finer one, which starts from the coarser
+/// modes.
 const BESIDE: usize = 8;
 const BESIDE_FINER: usize = 2;
 /// The most iterations.
@@ -63,7 +64,7 @@ impl Section {
         orders.par_iter().map(of_order).collect()
     }
 
-    /// Spectral shift of the squared frequencies \[1/s²\]: far below that of a wave as long as the ring is round, far above rounding.
+    /// Spectral shift of the squared frequencies \[1/s²\]: far below that of a wave as long as the circumference, far above round-off.
     fn shift(&self) -> f64 {
         let squares = self.parts().iter().map(|part| part.material.youngs_modulus / part.material.density);
         let outer = self.parts().iter().map(|part| part.outer_radius).fold(0.0, f64::max);

@@ -185,7 +185,7 @@ pub enum RingError {
     Memory,
 }
 
-/// A checked cross-section: parts that do not overlap and hang together, supports that hold something.
+/// A checked cross-section: connected parts that do not overlap, and supports that hold something.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     parts: Vec<Part>,

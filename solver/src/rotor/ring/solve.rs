@@ -51,7 +51,7 @@ pub(super) fn cancelled(cancel: &Cancel) -> Result<(), RingError> {
     if cancel.is_cancelled() { Err(RingError::Cancelled) } else { Ok(()) }
 }
 
-/// Whether a place couples θ with another direction.
+/// Whether an entry of a 3 × 3 block couples θ with another direction.
 fn mixed(p: usize, q: usize) -> bool {
     (p == 1) != (q == 1)
 }
