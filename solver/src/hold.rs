@@ -41,8 +41,7 @@ const GROWTH: f64 = 2.0;
 const CARRIED_FLOOR: f64 = 0.1;
 
 /// Warning about a plate that the vibrating face has struck ([`Free::struck`]).
-pub const STRUCK: &str =
-    "The vibrating face has struck the plate, which took the face's speed; the model does not describe how a real plate rebounds";
+pub const STRUCK: &str = "The vibrating face has struck the plate, which took the face's speed; the model does not describe how a real plate rebounds";
 
 /// Steps in a cycle of the vibration, and the longest step as a fraction of the time in which the gas under a falling plate reverses its
 /// motion.

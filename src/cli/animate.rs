@@ -86,7 +86,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     files::animation(&arguments.out, &solved, &options, &control)?;
     drop(bar);
     let Accuracy { stated, stopped_by, .. } = solution.accuracy;
-    let late = if stopped_by == StoppedBy::Budget { format!("; {TIME_UP}, stated error {}", percent(stated)) } else { String::new() };
+    let late = if stopped_by == StoppedBy::Budget {
+        format!("; {TIME_UP}, stated error {}", percent(stated))
+    } else {
+        String::new()
+    };
     terminal::note(&format!("wrote {}: {count} frames{late}", arguments.out.display()));
     let is_there = |number: &usize| arguments.out.join(frame_name(*number)).is_file();
     let older = (count + 1..).take_while(is_there).count();

@@ -181,7 +181,8 @@ fn text(
 
 /// The stated error and the one asked for, in a sentence.
 fn exactness(accuracy: &Accuracy) -> String {
-    let mut text = format!("The stated error of each cycle mean is at most {} of the largest mean", percent(accuracy.stated));
+    let mut text =
+        format!("The stated error of each cycle mean is at most {} of the largest mean", percent(accuracy.stated));
     if accuracy.asked > 0.0 {
         text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));
     }

@@ -266,7 +266,8 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
         Quantity::FilmLoad => Some(point.film_load),
         _ => None,
     };
-    let published: Vec<[f64; 2]> = sweep.published().into_iter().filter_map(|point| Some([point.values[0], value(&point)?])).collect();
+    let published: Vec<[f64; 2]> =
+        sweep.published().into_iter().filter_map(|point| Some([point.values[0], value(&point)?])).collect();
     with_points(panel, "published (Table I)", published, Colour::BLACK, Marker::hollow(Shape::Square))
 }
 

@@ -18,7 +18,9 @@ pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_means};
-use crate::ladder::{self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, enough, march_cycle};
+use crate::ladder::{
+    self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, enough, march_cycle,
+};
 use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;

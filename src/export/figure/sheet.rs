@@ -73,7 +73,9 @@ fn with_braces(piece: &Piece) -> Piece {
         let mut rest = text.chars().peekable();
         while let Some(c) = rest.next() {
             out.push(c);
-            if matches!(c, '_' | '^') && let Some(next) = rest.next_if(|next| next.is_alphanumeric()) {
+            if matches!(c, '_' | '^')
+                && let Some(next) = rest.next_if(|next| next.is_alphanumeric())
+            {
                 out.push_str(&format!("{{{next}}}"));
             }
         }

@@ -63,7 +63,9 @@ impl Updater {
             Link::Lesson { lesson, step } => {
                 let Some(found) = self.state.lessons.lessons.get(lesson - 1) else {
                     let most = self.state.lessons.lessons.len();
-                    return self.state.fail(format!("there is no lesson {lesson}: the lessons are numbered from 1 to {most}"));
+                    return self
+                        .state
+                        .fail(format!("there is no lesson {lesson}: the lessons are numbered from 1 to {most}"));
                 };
                 let most = found.steps.len();
                 if step > most {

@@ -103,7 +103,8 @@ fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     cx.note(ui, format!("The film's leak time at the mean gap is {leak}. Drag the plate."));
     let now = &hold.now;
     let longer = 1.0 / now.pace.max(1e-3);
-    let slow = (now.pace < SLOW).then(|| format!("This computer is slower than real time: it takes {longer:.1} times as long"));
+    let slow = (now.pace < SLOW)
+        .then(|| format!("This computer is slower than real time: it takes {longer:.1} times as long"));
     let floating = hold.plate.load.is_some() && hold.plate == hold.plate.resting();
     let rests =
         floating.then_some("It does not float: its mean gap here is that at which it would rest on its roughness");
