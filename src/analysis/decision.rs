@@ -100,8 +100,12 @@ pub fn words(decision: &Decision) -> String {
             let of =
                 if ring { "a ring of finite elements" } else { "a table of its deflection, turned into harmonics" };
             let (known, effect) = (percent(error), percent(decision.effect));
-            let mass =
-                if ring && resonances.is_none() { "; its natural frequencies are not computed here" } else { "" };
+            let mass = match resonances {
+                None if ring => {
+                    "; its natural frequencies are not computed at this accuracy or within a budget, so rotor-resonance is not judged"
+                }
+                _ => "",
+            };
             format!(
                 "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect}{mass}"
             )

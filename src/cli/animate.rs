@@ -56,7 +56,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
-    // A wrong extension or folder is told before the work, not after it.
+    // A wrong extension or folder is reported before the work, not after it.
     let format = Format::of(&arguments.out)?;
     match format {
         Format::Folder => check_writable(&arguments.out)?,

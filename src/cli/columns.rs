@@ -1,4 +1,4 @@
-//! Text in columns and paragraphs. What comes from a file is escaped: a name may hold anything.
+//! Text in columns and paragraphs. Text from files is escaped, because a name may contain any character.
 
 use crate::scene::escaped;
 use comfy_table::{CellAlignment, Table};
@@ -26,7 +26,8 @@ impl Columns {
         self.0.add_row(cells.into_iter().map(|cell| escaped(&cell.into())).collect::<Vec<_>>());
     }
 
-    /// The rows, each on a line, begun with two spaces and cells as far apart; the columns listed in `right` are aligned to the right.
+    /// The rows, one on each line, indented by two spaces and with two spaces between columns. The columns listed in `right` are aligned
+    /// to the right.
     pub(super) fn text(mut self, right: &[usize]) -> String {
         for (i, column) in self.0.column_iter_mut().enumerate() {
             column.set_padding((0, 2));
@@ -44,8 +45,8 @@ pub(super) fn heading(words: &str) -> String {
 /// The widest line of a paragraph.
 const WIDTH: usize = 100;
 
-/// A paragraph, broken at spaces, its first line begun with `first` and the others with `rest`. A number is not parted from its error, nor from
-/// per cent.
+/// A paragraph, wrapped at spaces. The first line begins with `first`, the others with `rest`. A number is never separated from its error
+/// or its per cent sign.
 pub(super) fn paragraph(words: &str, first: &str, rest: &str) -> String {
     let words = words.split_whitespace().map(escaped).collect::<Vec<_>>().join(" ");
     let words = words.replace(" %", "\u{a0}%").replace(" ± ", "\u{a0}±\u{a0}");

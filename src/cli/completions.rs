@@ -1,4 +1,4 @@
-//! `squeezefilm completions` and `squeezefilm man`: the command line, told to shells and to `man`.
+//! `squeezefilm completions` and `squeezefilm man`: completion scripts for shells, and man pages.
 
 use super::exit::{CliError, Exit};
 use super::options::named_path;
@@ -49,7 +49,7 @@ pub(super) fn man(arguments: &ManArguments, program: Command) -> Result<Exit, Cl
         pages.add(page.get_filename(), |file| {
             let mut text = Vec::new();
             page.render(&mut text)?;
-            // What follows the options has its own lines: tables of files, and examples to copy.
+            // The text after the options keeps its line breaks: tables of files, and examples to copy.
             let text = String::from_utf8_lossy(&text);
             let (before, after) = text.split_once(".SH EXTRA\n").unwrap_or((&text, ""));
             let (notes, rest) = after.split_at(after.find("\n.SH ").map_or(after.len(), |end| end + 1));

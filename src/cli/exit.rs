@@ -12,7 +12,7 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// How a command ended, the worse the later.
+/// How a command ended, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
     Solved,
@@ -20,7 +20,7 @@ pub(super) enum Exit {
     BadInput,
     /// Anything else.
     Other,
-    /// Nobody reads standard output any more.
+    /// The reader of standard output has closed it.
     Unread,
 }
 
@@ -59,7 +59,7 @@ pub(super) enum CliError {
     /// A sweep, comparison, fit or sensitivity that cannot be made.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// Anything else that was given: options that do not go together, answers, files; why it is of no use.
+    /// Any other input: options that do not go together, answers, files. The message says why it cannot be used.
     #[error("{0}")]
     Input(String),
     /// A file or folder of `--out`.
@@ -92,12 +92,12 @@ impl CliError {
         Self::Input(fault.to_owned())
     }
 
-    /// A file that was given, and why it is of no use.
+    /// The error for a given file, with the reason why it cannot be used.
     pub(super) fn file(path: &Path, fault: impl Display) -> Self {
         Self::Input(format!("{}: {fault}", path.display()))
     }
 
-    /// Whether nothing is to be said of it: whoever left a pipe knows.
+    /// Whether no message is printed: a program that has closed its end of a pipe needs none.
     pub(super) fn is_silent(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
     }

@@ -1,4 +1,4 @@
-//! `squeezefilm startup` of a plate under a load: it is dropped on its vibration.
+//! `squeezefilm startup` of a plate under a load: the plate is dropped while the vibration starts.
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
@@ -18,10 +18,10 @@ use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::Status;
 
-/// Rows shown to people, about.
+/// Approximate number of rows in the table on the terminal.
 const SHOWN: usize = 24;
 
-/// Drops the plate and prints its way; `None` if the scene has no plate under a load.
+/// Drops the plate and prints its motion; `None` if the scene has no plate under a load.
 pub(super) fn run(
     (scene, problem): (&Scene, &Problem),
     fidelity: Fidelity,
@@ -71,7 +71,7 @@ fn text(
         }
         Status::NotResolved { .. } => {
             format!(
-                "NOT RESOLVED after {told}: where it bounces, errors of steps and grids have grown to half of its height"
+                "NOT RESOLVED after {told}: the plate bounces, and the errors of steps and grids have grown to half of its height"
             )
         }
         Status::NotConverged { .. } if ended.cycles < most => {

@@ -1,4 +1,4 @@
-//! `squeezefilm fit`: keys chosen to agree with measurements, or so that one number is as large or as small as it can be.
+//! `squeezefilm fit`: values of keys that agree best with measurements, or that maximise or minimise one result.
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
@@ -55,7 +55,7 @@ Files of --out:
                optimum (.svg .png)
   fitted.toml  the preset with the values found";
 
-/// Fits keys of a preset to measurements, or finds their values that maximise or minimise one result
+/// Fits keys of a preset to measurements, or finds the values that maximise or minimise one result
 ///
 /// A fit minimises the sum of ((computed − measured)/error)² within the bounds by least squares, and reports values, standard errors,
 /// correlations and residuals. `table1` is a built-in table of measurements: Table I of Maeno and Bogy (1992).
@@ -167,7 +167,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 }
 
 fn cancelled() -> Exit {
-    terminal::note("cancelled; nothing was found yet");
+    terminal::note("cancelled before anything was found");
     Exit::Other
 }
 
@@ -253,7 +253,7 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
                  and all standard errors below are based on this estimate."
             )
         }
-        None => format!("{counts}. No errors were given, and nothing tells how large they are."),
+        None => format!("{counts}. No errors were given, and they cannot be estimated."),
     };
     let known = fitted.errors_known || fitted.error_scale.is_some();
     match fitted.numerical_error.filter(|_| known) {

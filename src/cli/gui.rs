@@ -51,11 +51,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let changes = !arguments.scene.changes.is_empty();
     let opened = match (&arguments.preset, &link) {
         (_, Some(_)) if changes => {
-            return Err(CliError::usage("a link says itself what is changed: leave --set away"));
+            return Err(CliError::usage("a link contains its own changes: leave --set out"));
         }
         (Some(preset), None) => {
             let built_in = BuiltIn::find(preset).is_some();
-            // What --set changed is not in the file.
+            // The changes of --set are not in the file.
             let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;
             Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset)), false))
@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     Ok(Exit::Solved)
 }
 
-/// The error, with what this system may lack.
+/// The error, with a hint at what may be missing on this system.
 fn no_window(reason: String) -> CliError {
     let advice = if cfg!(windows) {
         "\n(the window needs OpenGL 2.0 or Direct3D 12)"

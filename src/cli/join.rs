@@ -1,4 +1,4 @@
-//! `squeezefilm join`: the whole of a sweep whose parts were solved one by one.
+//! `squeezefilm join`: joins the parts of a sweep that were solved separately.
 
 use super::exit::{CliError, Exit};
 use super::options::{OutputOptions, named_path};

@@ -1,4 +1,4 @@
-//! `squeezefilm lessons`: lessons that a teacher has written, tried; and lessons on paper.
+//! `squeezefilm lessons`: checks the lessons of a teacher, prints lessons on paper, and sums up the answers of a class.
 
 use super::exit::{CliError, Exit};
 use super::options::{cancel_on_interrupt, named_path};
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }
 }
 
-/// Lessons of a folder, or those that are built in; what cannot be read is said.
+/// The lessons of a folder, or the built-in ones, and the faults of those that cannot be read; the faults are also printed.
 fn read(folder: Option<&Path>) -> (Vec<Lesson>, Vec<LessonError>) {
     let read = |names: lessons::WindowNames<'_>| match folder {
         Some(folder) => lessons::load(folder, names),
@@ -112,7 +112,7 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
 fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
     let (lessons, faults) = read(folder);
     if lessons.is_empty() {
-        // What was read is told already; handouts of before stay.
+        // The faults have been printed already; earlier handouts stay as they are.
         return Err(CliError::Input("there is no lesson to print: nothing was written".to_owned()));
     }
     let cancel = cancel_on_interrupt();

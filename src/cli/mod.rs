@@ -119,7 +119,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 terminal::error(&format!("{word} is a preset, not a command: squeezefilm solve {word}"));
                 return Exit::BadInput.code();
             }
-            // Help and version go to standard output with status 0, faults to standard error with 2. A closed pipe is fine.
+            // Help and version go to standard output with status 0, faults to standard error with status 2. A closed pipe is not an error.
             let _ = usage.print();
             return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
         }
@@ -155,7 +155,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// Runs `squeezefilm gui` with the arguments of a program without a terminal, its name first. What is wrong is told to `tell`.
+/// Runs `squeezefilm gui` for a program without a terminal. The first argument is the program's name; `tell` shows a message.
 #[cfg(feature = "gui")]
 pub fn run_window(arguments: impl IntoIterator<Item = OsString>, tell: impl FnOnce(&str)) -> ExitCode {
     let mut arguments = arguments.into_iter();
@@ -172,10 +172,10 @@ pub fn run_window(arguments: impl IntoIterator<Item = OsString>, tell: impl FnOn
     exit.code()
 }
 
-/// The stack of the thread that a command runs on \[bytes\]. On Windows the first thread has a megabyte.
+/// Stack size of the thread that a command runs on \[bytes\]. On Windows the main thread has only one megabyte.
 const STACK: usize = 8 << 20;
 
-/// Carries a command out on a thread of its own: on Windows the first one also rounds otherwise than those that solve.
+/// Runs a command on a thread of its own. On Windows the main thread also rounds differently from the threads that solve.
 fn on_a_thread(command: impl FnOnce() -> Result<Exit, CliError> + Send) -> Result<Exit, CliError> {
     thread::scope(|scope| {
         let thread = thread::Builder::new().name("squeezefilm-command".to_owned()).stack_size(STACK);
@@ -211,7 +211,7 @@ fn carry_out(command: Command, words: &[String]) -> Result<Exit, CliError> {
     }
 }
 
-/// The command line as it is recorded with results: the program by its name, wherever it lies.
+/// The command line as it is recorded with results, with the name of the program instead of its path.
 fn command_line(arguments: &[OsString]) -> Vec<String> {
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned());
     std::iter::once("squeezefilm".to_owned()).chain(words).collect()

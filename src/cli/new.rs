@@ -1,4 +1,4 @@
-//! `squeezefilm new`: a preset from what the data sheet of a motor has.
+//! `squeezefilm new`: makes a preset from the data sheet of a motor.
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
@@ -74,7 +74,7 @@ impl FromArgMatches for Given {
     }
 }
 
-/// Nothing is lost by writing `file`, unless that is wished.
+/// Refuses to overwrite an existing `file`, unless `replace` allows it.
 pub(super) fn free(file: &Path, replace: bool) -> Result<(), CliError> {
     if file.exists() && !replace {
         return Err(CliError::file(file, "there is such a file already; --replace replaces it"));
@@ -106,8 +106,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     Ok(Exit::Solved)
 }
 
-/// Asks on standard error for what is not answered yet, and reads the answers from standard input, a line each. At its end nothing
-/// more is asked.
+/// Asks the open questions on standard error, and reads the answers from standard input, one per line. When the input ends, nothing more
+/// is asked.
 fn ask(answers: &mut Answers) -> Result<(), CliError> {
     let mut lines = std::io::stdin().lock().lines();
     let open = QUESTIONS.iter().filter(|question| !answers.contains_key(question.name)).collect::<Vec<_>>();
@@ -118,7 +118,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                 None => format!("{}: ", question.title()),
             });
             let Some(line) = lines.next() else {
-                // What follows does not stand behind the question.
+                // Later output begins on a new line, not after the question.
                 terminal::say("");
                 return Ok(());
             };

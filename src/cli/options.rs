@@ -36,12 +36,12 @@ pub(super) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene of a PRESET argument with the changes made, and a name that says so. What nobody has given is told.
+    /// The scene of a PRESET argument with the changes of `--set`, and a name that says so. A note lists the values that are assumed.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
         self.scene_varied(preset, &[])
     }
 
-    /// Likewise, of a command that gives these keys values of its own.
+    /// Likewise, for a command that itself varies these keys.
     pub(super) fn scene_varied(&self, preset: &str, varied: &[&str]) -> Result<Scene, CliError> {
         let (original, text) = original(preset)?;
         let scene = self.changed(&original)?;
@@ -69,7 +69,7 @@ impl SceneOptions {
         presets.iter().map(|preset| self.scene(preset)).collect()
     }
 
-    /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
+    /// The scene of the PRESET argument, and the same scene with the changes of `--set`.
     #[cfg(feature = "gui")]
     pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let (original, _) = original(preset)?;
@@ -83,7 +83,7 @@ impl SceneOptions {
         if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
             warn_of_given_path(&scene);
         }
-        // What was changed is no longer what the preset's name and description claim.
+        // The preset's name and description do not describe a changed scene.
         scene.retitle(original);
         Ok(scene)
     }
@@ -98,11 +98,11 @@ impl SceneOptions {
 
 pub(super) const PRESSURE: &str = "film.ambient_pressure_kpa";
 
-/// Says so where the mean free path does not follow another pressure.
+/// Warns if the mean free path is given and so does not follow a change of the pressure.
 pub(super) fn warn_of_given_path(scene: &Scene) {
     if let Some(path) = scene.given_mean_free_path() {
         terminal::warning(&format!(
-            "the mean free path stays at {path} nm at another pressure; of a gas that is named it follows, as with --set film.gas=air"
+            "the mean free path stays at {path} nm at another pressure; for a named gas it follows the pressure: --set film.gas=air"
         ));
     }
 }
@@ -130,7 +130,7 @@ pub(super) fn standard_input(limit: u64) -> Result<String, CliError> {
     Ok(text)
 }
 
-/// The scene of a PRESET argument, and the text that it was read from; none of a built-in preset.
+/// The scene of a PRESET argument, and the text that it was read from (`None` for a built-in preset).
 fn original(preset: &str) -> Result<(Scene, Option<String>), CliError> {
     if preset != STANDARD_INPUT {
         return Ok(presets::read(preset)?);
@@ -139,7 +139,7 @@ fn original(preset: &str) -> Result<(Scene, Option<String>), CliError> {
     Ok((presets::disclaimed(Scene::from_toml(&text, "standard input")?), Some(text)))
 }
 
-/// Refuses a folder in which one of these files is an input of this command: each of them will be written, and its content is another one.
+/// Refuses a folder in which one of these files is an input of this command, because the command would overwrite it.
 pub(super) fn spare_inputs(folder: &Folder<'_>, names: &[&str]) -> Result<(), CliError> {
     let same = |path: &PathBuf, name: &&str| same_file::is_same_file(path, folder.path.join(name)).unwrap_or(false);
     match input::read_so_far().into_iter().find(|path| names.iter().any(|name| same(path, name))) {
@@ -155,7 +155,7 @@ pub(super) fn named_path() -> ValueParser {
     PathBufValueParser::new().try_map(named).into()
 }
 
-/// How exact a result is to be, and how long that may take.
+/// How accurate a result should be, and how long the solve may take.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(super) struct AccuracyOptions {
     /// Accuracy of the result, by name
@@ -208,16 +208,16 @@ pub(super) struct SolveOptions {
     memory: MemoryOptions,
 }
 
-/// How many times as long as was allowed a solve may take before it is told.
+/// A solve that takes longer than this many times its budget gives a warning.
 const OVER: f64 = 1.5;
 
 impl SolveOptions {
-    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
+    /// The settings, and the flag that cancels: the command on Ctrl-C, and each solve after its budget.
     pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
         self.begin_with(Fidelity::default(), Method::default())
     }
 
-    /// As `begin`, with these defaults for what was not chosen. Starts the threads and sets the memory budget.
+    /// As `begin`, with these defaults for options that were not given. Starts the threads and sets the memory limit.
     pub(super) fn begin_with(&self, fidelity: Fidelity, method: Method) -> Result<(Settings, Cancel), CliError> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|fault| {
@@ -278,7 +278,7 @@ pub(super) struct MemoryOptions {
 }
 
 impl MemoryOptions {
-    /// From now on.
+    /// Sets the limit for all solves from now on.
     pub(super) fn apply(&self) {
         if let Some(bytes) = self.memory {
             memory::allow(bytes);
@@ -320,8 +320,8 @@ pub(super) struct OutputOptions {
 }
 
 impl OutputOptions {
-    /// The folder of `--out` for results of this command line: found out, before anything is solved, to be one that can be written into, with
-    /// figures in formats that go together. Of a command that has no fields.
+    /// The folder of `--out` for results of this command line. Checks before anything is solved that it can be written into, and that
+    /// the formats of the figures go together. For a command that does not write fields.
     pub(super) fn folder<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
         if self.has("vtk") {
             return Err(CliError::usage("--figures vtk: only solve has the film at every instant"));
@@ -329,16 +329,16 @@ impl OutputOptions {
         self.folder_of_fields(command)
     }
 
-    /// As `folder`, for a command that has fields.
+    /// As `folder`, for a command that writes fields.
     pub(super) fn folder_of_fields<'a>(&'a self, command: &'a [String]) -> Result<Option<Folder<'a>>, CliError> {
         if self.has("none") && self.figures.len() > 1 {
-            return Err(CliError::usage("--figures none is no figures at all: give it alone, or leave it out"));
+            return Err(CliError::usage("--figures none means no figures: give it alone, or leave it out"));
         }
         let Some(path) = &self.out else { return Ok(None) };
         check_for_results(path)?;
         let formats = Format::ALL.into_iter().filter(|format| self.has(format.name())).collect();
         let folder = Folder { path, command, formats, vtk: self.has("vtk") };
-        // A preset that is changed is not the one that was read.
+        // A changed preset must not overwrite the file that it was read from.
         if command.iter().any(|word| word == "--set" || word.starts_with("--set=")) {
             spare_inputs(&folder, &["scene.toml"])?;
         }
@@ -350,7 +350,7 @@ impl OutputOptions {
     }
 }
 
-/// What a command is given that solves presets and writes files and figures.
+/// The options of a command that solves presets and writes files and figures.
 #[derive(Clone, Debug, Args)]
 pub(super) struct CommonOptions {
     #[command(flatten)]
@@ -364,12 +364,12 @@ pub(super) struct CommonOptions {
 }
 
 impl CommonOptions {
-    /// The folder of `--out`, and as [`SolveOptions::begin`].
+    /// The folder of `--out`, and what [`SolveOptions::begin`] returns.
     pub(super) fn begin<'a>(
         &'a self,
         command: &'a [String],
     ) -> Result<(Option<Folder<'a>>, Settings, Cancel), CliError> {
-        // Interrupted from here on, it leaves nothing behind.
+        // A command that is interrupted from here on leaves nothing behind.
         let (settings, cancel) = self.solve.begin()?;
         Ok((self.output.folder(command)?, settings, cancel))
     }

@@ -1,4 +1,4 @@
-//! `squeezefilm presets`: what is built in, and a preset's text to start one's own from.
+//! `squeezefilm presets`: lists the built-in presets, or prints one as a file to start from.
 
 use super::columns::Columns;
 use super::exit::{CliError, Exit};
@@ -62,7 +62,7 @@ fn object(preset: &str, scene: &Scene, toml: Option<&str>) -> Value {
 
 fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.scene.scene(preset)?;
-    // An unchanged built-in preset keeps the remarks in its file.
+    // An unchanged built-in preset keeps the comments in its file.
     let toml = match BuiltIn::find(preset) {
         Some(built_in) if arguments.scene.changes.is_empty() => built_in.toml.to_owned(),
         _ => scene.to_toml(),
@@ -106,7 +106,7 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Description of a preset, without the part that the heading of its group says.
+/// Description of a preset, without the part that the heading of its group repeats.
 fn about(scene: &Scene) -> String {
     let rest = ["Maeno and Bogy 1992, Table I, ", "Maeno and Bogy 1992, Table I: ", "Beyond Table I: "];
     capitalised(rest.iter().find_map(|prefix| scene.about.strip_prefix(prefix)).unwrap_or(&scene.about))

@@ -20,12 +20,12 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// For one solve, whose forces are in `unit`; or for other work of which a share is done.
+    /// For one solve, with forces in `unit`, or for other work whose progress is a share of the whole.
     pub(super) fn solve(unit: &'static str) -> Self {
         Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", unit)
     }
 
-    /// For a number of points, of which some are done; with the time left.
+    /// For a number of points, of which `done` are done already; it shows the time left.
     pub(super) fn points(points: usize, done: usize) -> Self {
         let mut bar = Self::new(points as u64, "{spinner} {bar:20} {pos}/{len}  {wide_msg}", "");
         bar.before = done as u64;
@@ -40,18 +40,18 @@ impl Bar {
         self.bar.set_message(format!("{}{point}", self.left(share)));
     }
 
-    /// Shows how far work has come whose length is not known.
+    /// Shows the progress of work whose length is not known.
     pub(super) fn count(&self, reached: &str) {
         self.bar.set_message(reached.to_owned());
     }
 
-    /// This much is done, 0 to 1.
+    /// Shows the share of the work that is done, 0 to 1.
     pub(super) fn share_done(&self, share: f64, what: &str) {
         self.bar.set_position((PARTS as f64 * share) as u64);
         self.bar.set_message(format!("{}{what}", self.left(share)));
     }
 
-    /// `2.10 min left, `, as if the rest went as what is done.
+    /// `2.10 min left, `, assuming that the rest goes as fast as what is done.
     fn left(&self, share: f64) -> String {
         let left = self.started.elapsed().as_secs_f64() * (1.0 - share) / share;
         if left.is_finite() { format!("{} left, ", duration(left)) } else { String::new() }

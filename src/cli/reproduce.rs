@@ -30,7 +30,7 @@ Files of --out:
 /// Reproduces every table and figure that the paper's text defines, in one HTML report
 ///
 /// Table I and Figs. 3, 4 and 6–12 of Maeno and Bogy (1992): published numbers beside those of the paper's algorithm on its
-/// own meshes and converged ones. The text's statements are checked. Under a minute on two cores.
+/// own meshes and converged ones. Statements in the paper's text are checked, too. This takes less than a minute on two cores.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES, mut_arg("out", |out| out.default_value("reproduction")), mut_arg("method", |method| method.hide(true)))]
 pub(super) struct Arguments {

@@ -1,4 +1,4 @@
-//! `squeezefilm sensitivity`: derivatives of the results by every key, and what uncertain keys make of them.
+//! `squeezefilm sensitivity`: derivatives of the results with respect to every key, and the effect of uncertain keys on the results.
 
 use super::columns::{Columns, heading, paragraph};
 use super::exit::{CliError, Exit};
@@ -38,8 +38,8 @@ Files of --out:
 
 /// Shows how the results depend on each parameter, and how parameter uncertainties affect them
 ///
-/// Derivatives of α, stall torque and no-load speed (for a plate: load, stiffness and damping) with respect to every numeric key, from
-/// solves on one set of grids. Each has its own error. 1 % of a temperature is 1 % of its value in kelvins. Parameter
+/// Derivatives of α, stall torque and no-load speed (for a plate: load, stiffness and damping) with respect to every numeric key are
+/// computed from solves on one set of grids. Each has its own error. 1 % of a temperature is 1 % of its value in kelvins. Parameter
 /// uncertainties give an uncertainty of each result, apart from the numerical error.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"), mut_arg("budget", |budget| budget.hide(true)))]
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     if arguments.common.solve.accuracy.budget.is_some() {
         return Err(CliError::usage(
-            "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
+            "--budget: solves that are compared must be equally accurate; allowed here: --fidelity or --accuracy",
         ));
     }
     check(&Problem::try_from(&scene)?, &settings)?;
@@ -149,10 +149,10 @@ fn warning(carlo: &MonteCarlo) -> Option<String> {
     (!all.is_empty()).then(|| all.join("; "))
 }
 
-/// An elasticity that is round-off.
+/// An elasticity below this is round-off, and is shown as 0.
 const NOTHING: f64 = 1e-9;
 
-/// For people: elasticities by key, and what uncertain keys make of the results.
+/// The result for people: elasticities by key, and the effect of uncertain keys on the results.
 fn text(found: &SensitivityStudy<'_>) -> String {
     let sensitivity = found.sensitivity;
     let (problem, outputs) = (&sensitivity.problem, sensitivity.outputs);
@@ -205,7 +205,7 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     let unknown =
         sensitivity.columns.iter().filter_map(|column| Some((column.parameter.key, column.slopes.as_ref().err()?)));
     for (key, why) in unknown {
-        text.push_str(&paragraph(&format!("No derivative by {key}: {why}"), "\n", ""));
+        text.push_str(&paragraph(&format!("No derivative with respect to {key}: {why}"), "\n", ""));
     }
     let whole = sensitivity.whole();
     if !whole.is_empty() {
@@ -217,7 +217,7 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     text
 }
 
-/// To so many digits, those of a whole number too: `4123000`, as a number with its error is.
+/// A number rounded to so many digits, a large whole number too: `4123000`. Numbers with an error are rounded in the same way.
 fn to_digits(value: f64, digits: usize) -> String {
     significant(rounded(value, digits), digits)
 }
@@ -286,7 +286,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
     if found.carlo.is_none() {
         remark(
             &beyond,
-            "more uncertain than they are large, to first order; --monte-carlo 500 says what so great a change does.",
+            "more uncertain than they are large, to first order; --monte-carlo 500 shows the effect of such large changes.",
         );
     }
     remark(&missing, "fewer than two of the random scenes have such a result.");
@@ -296,7 +296,7 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
         ""
     };
     let told = format!(
-        "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters{again}. The range says more than a standard deviation."
+        "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters{again}. Here the range is more informative than the standard deviation."
     );
     remark(&bent, &told);
     text

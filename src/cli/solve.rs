@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
                 exits.push(exit);
                 objects.extend(object);
             }
-            // The others are solved all the same.
+            // The others are still solved.
             Err(error) if several => {
                 terminal::error(&format!("{preset}: {error}"));
                 exits.push(error.exit());
@@ -115,7 +115,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(Exit::worst(exits))
 }
 
-/// Time \[s\] for torque over speed that is told, if it is longer than the solve.
+/// Time \[s\] above which the time for torque over speed is reported, if it is also longer than the solve.
 const LONG: f64 = 0.3;
 
 /// Solves one preset, prints its result and writes its files. The object of `--json` is printed only if it is alone; it is
@@ -137,7 +137,7 @@ fn one(
     drop(bar);
     let solution = solved?;
     if solution.status == Status::Cancelled {
-        // The fields are of a cycle cut short; the last complete round is what there is to tell.
+        // The fields are those of an incomplete cycle, so only the last complete round is reported.
         terminal::note(&format!("cancelled {reached}"));
         return Ok((Exit::Other, None));
     }
@@ -146,7 +146,7 @@ fn one(
     result.add_torque(TorqueCurves::of(problem, settings.fidelity, &solution, cancel));
     let more = started.elapsed().as_secs_f64() - wall_s;
     if more > wall_s.max(LONG) {
-        terminal::note(&format!("torque over speed took another {}, which the cost does not count", duration(more)));
+        terminal::note(&format!("torque over speed took another {}, which the cost does not include", duration(more)));
     }
     result.warnings.iter().for_each(|warning| terminal::warning(warning));
     arguments.common.solve.tell_if_late("the solve", wall_s);
@@ -163,7 +163,7 @@ fn one(
         }
         let control = Control { cancel, drawn: &|_, _| () };
         let written_files = files::solve(folder, &solved, &result, &control).map(|mut paths| {
-            // Of many instants their series is named.
+            // Of the many VTK files, only the file of the series is named.
             paths.retain(|path| path.extension() != Some(OsStr::new("vtk")));
             paths
         });
@@ -190,7 +190,7 @@ fn folder_name(preset: &str, names: &mut Vec<String>) -> String {
     names.push(name.clone());
     name
 }
-/// Bytes above which it is told beforehand how much will be written.
+/// Number of bytes above which the amount of output is announced before it is written.
 const MUCH: u64 = 500_000_000;
 
 /// `writing about 1.2 GB to results …`, if that is much.

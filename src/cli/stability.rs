@@ -51,11 +51,11 @@ pub(super) struct Arguments {
     common: CommonOptions,
 }
 
-/// What a cancelled run leaves.
+/// Name of the file that a cancelled run leaves.
 const INCOMPLETE: &str = "stability.incomplete.csv";
 
 fn map() -> ValueParser {
-    // The names are those of the maps: the first is never taken for want of another.
+    // Only names of maps are possible, so that the fallback to the first map is never used.
     PossibleValuesParser::new(MAPS.map(|map| map.name)).map(|name| Map::find(&name).unwrap_or(&MAPS[0])).into()
 }
 
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     });
 
     let alone = |cell: &Cell| {
-        // The key of a cell takes the place of another form of it.
+        // The key of a cell replaces any other key for the same quantity.
         let mut given = arguments.common.scene.clone();
         let varied = cell.changes.iter().filter_map(|(key, _)| Parameter::find(key));
         let replaced = varied.flat_map(|key| key.alternatives().chain([key])).map(|other| other.key);
@@ -108,7 +108,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     if let Some(folder) = folder.filter(|_| !cells.is_empty()) {
         let mut files = Files::new(&folder)?;
-        // What was cancelled does not pass for a map.
+        // A cancelled run must not be mistaken for a complete map.
         let name = if complete { "stability.csv" } else { INCOMPLETE };
         files.add(name, |out| csv::rows_of_ours(cells.iter().map(cell_object), out))?;
         if complete {
@@ -129,7 +129,7 @@ fn no_map((map, reason): &(&Map, String)) -> String {
     format!("No map {}, which varies {}: {reason}", map.name, map.axes.join(" and "))
 }
 
-/// How many of each verdict, and every cell that our method does not solve, as the command that solves it alone.
+/// The number of cells with each verdict, and for every cell that our method does not solve the command that solves it alone.
 fn text(
     name: &str,
     fidelity: Fidelity,

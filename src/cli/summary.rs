@@ -1,4 +1,4 @@
-//! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
+//! Text of a solution for people: aligned, with a unit on every number and as many digits as its error justifies.
 
 use super::columns::{Columns, paragraph};
 use crate::analysis::decision::{exactness, sentences};
@@ -32,7 +32,7 @@ pub(super) fn text(scene: &Scene, summary: &Summary) -> String {
     match (&problem.scenario, outcome) {
         (Scenario::Motor(motor), Outcome::Motor(result)) => motor_rows(&mut columns, motor, result, summary),
         (Scenario::Plate(plate), Outcome::Plate(result)) => plate_rows(&mut columns, plate, result, summary),
-        // A solver answers in kind.
+        // Cannot happen: a solver returns an outcome of the same kind as the scenario.
         _ => {}
     }
     text.push_str(&columns.text(&[]));
@@ -230,7 +230,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, load: f64, found: &Floati
 /// Rows with the exact limits beside the computed values.
 fn exact_rows(columns: &mut Columns, exact: &ExactComparison, plate: &Plate) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
-        // To as many digits as the computed number has beside it.
+        // With as many digits as the computed number beside it.
         let digits = (known / solved.error).abs().log10().ceil() + 1.0;
         let known = significant(known, if digits.is_finite() { digits.max(4.0) as usize } else { 4 });
         let solved = format!("{solved} {unit}");
@@ -337,7 +337,7 @@ fn cost(summary: &Summary) -> String {
             StoppedBy::Budget => "; the time allowed was up",
             StoppedBy::Limit => "; no finer grid was tried",
         };
-        // Of a smaller share α the accuracy is that of a hundredth of the load.
+        // For a share α below 0.01 the accuracy is relative to a hundredth of the load.
         let of =
             if summary.numbers.known(Quantity::Alpha).value.abs() < 0.01 { " of a hundredth of the load" } else { "" };
         parts.push(format!("stated error {}{of} ({} asked for{why})", percent(stated), percent(asked)));

@@ -1,4 +1,4 @@
-//! `squeezefilm surface`: what a measured face comes to.
+//! `squeezefilm surface`: statistics of measured faces, and the lines for a preset that follow from them.
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
@@ -34,7 +34,7 @@ Files of --out:
 /// Statistics of measured faces, and the spacing, asperities and flow factors from them
 ///
 /// The heights are levelled first. Two files, the rotor's face and the stator's, or one file that represents both, give H_m as the paper
-/// takes it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
+/// defines it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -115,7 +115,7 @@ fn text(faces: &[Face], pair: &Pair) -> String {
     let (number, same) = (faces.len(), "Both faces are taken to be like it. ");
     text.push_str(&paragraph(
         &format!(
-            "{}Summits follow from slopes and curvatures between neighbouring points: they are those of this resolution. Bandwidth m₀m₄/m₂² = {}.",
+            "{}Summits follow from slopes and curvatures between neighbouring points, so they depend on the resolution. Bandwidth m₀m₄/m₂² = {}.",
             if number == 1 { same } else { "" },
             significant(pair.bandwidth, 3)
         ),

@@ -1,4 +1,4 @@
-//! `squeezefilm sweep`: up to three keys of a scene varied.
+//! `squeezefilm sweep`: varies up to three keys of a scene.
 
 use super::columns::{Columns, heading};
 use super::exit::{CliError, Exit};
@@ -125,7 +125,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         _ => Vec::new(),
     };
     if !done.is_empty() {
-        terminal::note(&format!("going on: {} of {points} points were solved before", done.len()));
+        terminal::note(&format!("continuing: {} of {points} points were solved before", done.len()));
     }
 
     let saved = Mutex::new((done.clone(), Instant::now(), SAVE_FIRST));
@@ -136,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
             saved.0.push(row.clone());
             if saved.1.elapsed() > saved.2 {
-                // If it fails now it may succeed at the end, and there it is told.
+                // A failure is ignored here: saving at the end may succeed, and reports an error if it fails.
                 let _ = folder.save_unfinished(&saved.0);
                 (saved.1, saved.2) = (Instant::now(), SAVE_EVERY);
             }
@@ -149,9 +149,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             Some(_) if rows.is_empty() => {}
             Some(folder) => {
                 let path = folder.save_unfinished(&rows)?;
-                terminal::note(&format!("they are kept in {}; the same command goes on from there", path.display()));
+                terminal::note(&format!("they are kept in {}; the same command continues from there", path.display()));
             }
-            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows))),
+            None => terminal::note(&format!("results so far:\n\n{}", text(&sweep, &rows))),
         }
         return Ok(Exit::Other);
     }
@@ -163,7 +163,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(exit)
 }
 
-/// The quantity of this name, or what the sweep is about.
+/// The quantity of this name, or without a name the main result of the sweep.
 fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
     let Some(name) = name else { return Ok(primary(sweep)) };
     let column = |quantity: &Quantity| quantity.column(sweep.problem());
@@ -175,7 +175,7 @@ fn shown(sweep: &Sweep, name: Option<&str>) -> Result<Quantity, CliError> {
     )
 }
 
-/// Prints the rows, for people or as JSON. What that leads to.
+/// Prints the rows, for people or as JSON, and returns the exit status.
 pub(super) fn tell(sweep: &Sweep, rows: &[SweepRow], json: bool, command: &[String]) -> Exit {
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
@@ -188,7 +188,7 @@ pub(super) fn tell(sweep: &Sweep, rows: &[SweepRow], json: bool, command: &[Stri
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 
-/// The command line without `--part`: results say how the whole is made.
+/// The command line without `--part`, because results record the command for the whole sweep.
 fn of_the_whole(command: &[String]) -> Vec<String> {
     let mut words = command.iter();
     let mut kept = Vec::new();
@@ -202,14 +202,14 @@ fn of_the_whole(command: &[String]) -> Vec<String> {
     kept
 }
 
-/// When what is solved is saved for the first time while the rest goes on.
+/// Time after which the points solved so far are saved for the first time.
 const SAVE_FIRST: Duration = Duration::from_secs(1);
-/// How often it is saved from then on.
+/// Time between later saves.
 const SAVE_EVERY: Duration = Duration::from_secs(5);
-/// How the file ends of a sweep that is not complete.
+/// End of the file name of a sweep that is not complete.
 const UNFINISHED: &str = ".incomplete.csv";
 
-/// The file of what is solved of the whole, or of a part.
+/// Name of the file with the points solved so far of the whole sweep, or with those of a part.
 fn unfinished(part: Option<Part>) -> String {
     match part {
         None => format!("sweep{UNFINISHED}"),
@@ -217,19 +217,19 @@ fn unfinished(part: Option<Part>) -> String {
     }
 }
 
-/// The folder of `--out`, which no other sweep has meanwhile; parts of one share it.
+/// The folder of `--out`, locked against other sweeps; the parts of one sweep share it.
 struct Saved<'a> {
     out: Folder<'a>,
     sweep: &'a Sweep,
     part: Option<Part>,
     /// `None` only while being dropped.
     lock: Option<Lock>,
-    /// The folder was made by us, and is removed if nothing comes into it.
+    /// Whether this command made the folder, and has to remove it again if it stays empty.
     made: bool,
 }
 
 impl<'a> Saved<'a> {
-    /// Finds out whether another sweep is being saved there, before anything is solved.
+    /// Locks the folder before anything is solved; an error if another sweep is being saved there.
     fn open(out: Folder<'a>, sweep: &'a Sweep, part: Option<Part>) -> Result<Self, CliError> {
         let path = out.path;
         let made = !path.exists();
@@ -269,7 +269,7 @@ impl<'a> Saved<'a> {
         if self.part.is_some() {
             return self.save_unfinished(rows).map(|path| vec![path]);
         }
-        // What cannot be written is not lost: the same command goes on from there.
+        // If the files cannot be written, the rows are saved, so that the same command can continue from there.
         let paths =
             files::swept(&self.out, self.sweep, rows, shown).inspect_err(|_| drop(self.save_unfinished(rows)))?;
         remove_file(&self.out.path.join(unfinished(self.part)))?;
@@ -287,7 +287,7 @@ impl Drop for Saved<'_> {
     }
 }
 
-/// `film.min_spacing_nm = 100`: where a row is.
+/// The keys and values of a row: `film.min_spacing_nm = 100`.
 fn place(sweep: &Sweep, row: &SweepRow) -> String {
     let at = |(axis, value): (&Axis, &f64)| format!("{} = {}", axis.parameter.key, axis.text(*value));
     sweep.axes().iter().zip(&row.values).map(at).collect::<Vec<_>>().join(", ")
@@ -351,11 +351,11 @@ const SHOWN: [Quantity; 12] = [
     Quantity::FilmSteps,
 ];
 
-/// Relative error below which a number may stand without it.
+/// Relative error up to which a number may be shown without its error.
 const WELL_KNOWN: f64 = 0.1;
 
 fn number(SweepRow { numbers, .. }: &SweepRow, quantity: Quantity) -> String {
-    // Of two numbers that say the same only the first shows its error, and the load of a plate that floats is given.
+    // The film load repeats α or the load ratio, which shows its error; the load ratio of a floating plate follows from the given load.
     let floats = || numbers.get(Quantity::MeanGap).is_some();
     let said = quantity == Quantity::FilmLoad || quantity == Quantity::LoadRatio && floats();
     match numbers.estimate(quantity) {

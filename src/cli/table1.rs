@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }));
     let human = text(&rows, &settings, &arguments.scene.changes);
     if exit == Exit::Other && cancel.is_cancelled() {
-        terminal::note(&format!("cancelled; reached was\n\n{human}"));
+        terminal::note(&format!("cancelled; results so far:\n\n{human}"));
         return Ok(exit);
     }
     rows.iter().for_each(|row| terminal::warnings(&row.published.row, &row.run.solved));
@@ -85,7 +85,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     Ok(exit)
 }
 
-/// A row. Errors are estimated numerical ones, absolute; a difference is that of the film loads. What was not computed, or is not finite, is null.
+/// A row as JSON. Errors are absolute estimates of the numerical error; the difference is that of the film loads. Values that were not
+/// computed, or are not finite, are null.
 fn object(row: &Table1Row, settings: &Settings) -> Value {
     let published = &row.published;
     let result = row.result();
@@ -108,7 +109,7 @@ fn object(row: &Table1Row, settings: &Settings) -> Value {
     })
 }
 
-/// The table for people, with what to know about it below.
+/// The table for people, with notes below.
 fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -> String {
     let how = match settings.method {
         Method::Paper => "the paper's algorithm at the paper's own meshes".to_owned(),
@@ -125,7 +126,7 @@ fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -
         let published = &row.published;
         let (load, share) = (format!("{:.3}", published.published_load_n), format!("{:.3}", published.published_alpha));
         match (row.run.status(), row.result(), row.difference_percent()) {
-            // A row cut short has no numbers worth a comparison.
+            // A cancelled row has no numbers that could be compared.
             (RunStatus::GivenUp, ..) => {
                 columns.row([&published.row, &load, "cancelled", &share, "cancelled", "", ""]);
             }
@@ -142,7 +143,7 @@ fn text(rows: &[Table1Row], settings: &Settings, changes: &[(String, String)]) -
         }
     }
     text.push_str(&columns.text(&[1, 3, 5]));
-    // What is known about the differences holds for the scenes as they are.
+    // The notes on the differences hold only for unchanged scenes.
     if changes.is_empty() {
         text.push('\n');
         NOTES.iter().for_each(|note| text.push_str(&paragraph(note, "  ", "  ")));
@@ -157,7 +158,7 @@ const NOTES: [&str; 2] = [
      itself rises by 2 % when its mesh is doubled.",
 ];
 
-/// With its error, where there is an estimate: one mesh alone gives none.
+/// A number with its error, if that was estimated: one mesh alone gives no estimate.
 fn estimated(found: Estimate) -> String {
     if found.error.is_finite() { found.to_string() } else { significant(found.value, 4) }
 }

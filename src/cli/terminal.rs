@@ -13,17 +13,17 @@ static QUIET: AtomicBool = AtomicBool::new(false);
 /// The first thing that went wrong with standard output.
 static FAULT: Mutex<Option<io::Error>> = Mutex::new(None);
 
-/// From now on there are no notes and no progress.
+/// Turns notes and progress off.
 pub(super) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Whether there are to be no notes and no progress.
+/// Whether notes and progress are off.
 pub(super) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Writes data to standard output as they are. What goes wrong is told at the end, by [`ended`]: the files of `--out` are still
+/// Writes data to standard output unchanged. An error is reported at the end, by [`ended`], because the files of `--out` still have
 /// to be written.
 pub(super) fn data(text: &str) {
     let mut fault = FAULT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -56,13 +56,13 @@ fn lines(text: &str) -> String {
     text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }
 
-/// Writes text to standard error. If nobody can read it, nobody is told.
+/// Writes text to standard error. If that fails, the failure is ignored.
 pub(super) fn say(text: &str) {
     let text = lines(text);
     let _ = io::stderr().lock().write_all(format!("{}\n", text.trim_end_matches('\n')).as_bytes());
 }
 
-/// Writes a note to standard error, unless it is to be quiet.
+/// Writes a note to standard error, unless `--quiet` was given.
 pub(super) fn note(text: &str) {
     if !is_quiet() {
         say(text);
@@ -75,7 +75,7 @@ pub(super) fn wrote(folder: &Path, paths: &[PathBuf]) {
     note(&format!("wrote to {}: {}", folder.display(), names.join(", ")));
 }
 
-/// Writes a question to standard error; the answer comes behind it.
+/// Writes a question to standard error; the answer is typed on the same line.
 pub(super) fn prompt(text: &str) {
     let mut out = io::stderr().lock();
     let _ = out.write_all(escaped(text).as_bytes()).and_then(|()| out.flush());
@@ -91,7 +91,7 @@ pub(super) fn warning(text: &str) {
     say(&format!("warning: {text}"));
 }
 
-/// Says why the run `label` has no solution, or what its solution warns of.
+/// Writes why the run `label` has no solution, or the warnings of its solution.
 pub(super) fn warnings(label: &str, solved: &Result<Arc<Solution>, String>) {
     match solved {
         Err(reason) => error(&format!("{label}: {reason}")),

@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let tradeoff = Tradeoff::of(&runs);
     let human = text(&problem, &tradeoff);
     if cancel.is_cancelled() {
-        terminal::note(&format!("cancelled; measured was\n\n{human}"));
+        terminal::note(&format!("cancelled; measurements so far:\n\n{human}"));
         return Ok(Exit::Other);
     }
     let budget = arguments.budget.map(|time| Target::Budget(time.as_secs_f64()));
@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         files.figure("tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
         terminal::wrote(folder.path, &files.commit()?);
     }
-    // A target that nothing fulfils is a failure for whoever asked.
+    // A target that no setting meets is a failure.
     let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());
     Ok(if fulfilled { Exit::Solved } else { Exit::Other })
 }
@@ -146,9 +146,9 @@ fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     text.push_str(&columns.text(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
     text.push('\n');
     text.push_str(&paragraph(
-        "measured: distance from the reference plus the reference's own stated error, a share of the value; stated: what \
-         the run says of itself; error: the greater of the two. best: no other is at once as fast and as accurate. Grids are film nodes along × across × \
-         steps in a cycle, rounded up to what can be halved twice.",
+        "measured: distance from the reference plus the reference's own stated error, relative to the value; stated: the error \
+         that the run states; error: the greater of the two. best: no other setting is both faster and more accurate. Grids are film nodes along × across × \
+         steps in a cycle, rounded up so that they can be halved twice.",
         "  ",
         "  ",
     ));

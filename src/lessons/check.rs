@@ -130,7 +130,7 @@ mod tests {
             // As many digits as tell them apart.
             ("alpha < 0.5", &[], 0.500_04, "Film share of the load α is 0.50004, and should be below 0.5"),
             ("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05, ""),
-            // What is not there holds nothing.
+            // A number that is not there fulfils no comparison.
             ("film_load_n > 1", &[], 0.5, "Film load is not known for this scene"),
             ("alpha / (motor.waves - 7) > 0", &[], 0.5, "alpha / ( motor.waves - 7 ) is not known for this scene"),
             ("startup.cycles >= 5", &[], 0.5, ""),

@@ -35,7 +35,7 @@ pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piec
     let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
     for (i, step) in lesson.steps.iter().enumerate() {
         let known = quoted(step, cancel).map_err(|error| format!("{}, {}: {error}", lesson.title, step.title))?;
-        // The text of a step is on the worksheet alone, and of a step without a question or a task it is all there is.
+        // Only the worksheet has the text of a step, so the sheet with answers leaves out a step that has no question and no task.
         if !answers || step.question.is_some() || step.task.is_some() {
             pieces.push(Piece::Heading(format!("{}  {}", i + 1, step.title)));
             let body = if answers { &[] } else { &step.body[..] };

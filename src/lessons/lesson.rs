@@ -219,7 +219,7 @@ impl Step {
         said.chain(self.task.iter().flat_map(|task| &task.then))
     }
 
-    /// What `scene` has other than the scene that the step begins with: values by key, as `--set` takes them.
+    /// How `scene` differs from the scene that the step begins with: values by key, as `--set` takes them.
     pub fn changes(&self, scene: &Scene) -> BTreeMap<String, String> {
         let text = |parameter: &Parameter| scene.given_text(parameter).unwrap_or_else(|| "none".to_owned());
         scene.changed(&self.scene).map(|parameter| (parameter.key.to_owned(), text(parameter))).collect()

@@ -65,7 +65,7 @@ impl Reader<'_> {
                     continue;
                 };
                 match steps.last_mut() {
-                    None => self.fault(number, format!("a block ```{kind} stands before the first step")),
+                    None => self.fault(number, format!("a block ```{kind} comes before the first step")),
                     Some(step) if step.blocks.iter().any(|(other, _)| *other == kind) => {
                         self.fault(number, format!("this step has two blocks ```{kind}: keep one"));
                     }

@@ -149,7 +149,7 @@ pub fn read(path: &Path) -> Result<Vec<Record>, String> {
 
 /// A web page with the summary of the records of a class.
 pub fn summary(class: &[Vec<Record>]) -> String {
-    let lead = format!("{} records. What few got right, or many skipped, is worth talking about.", class.len());
+    let lead = format!("{} records. Discuss in class what few got right or many skipped.", class.len());
     let mut page = Page::new("squeezefilm, lessons", "What the class answered", &lead);
     let mut lessons: BTreeMap<&str, BTreeMap<(usize, &str), Vec<&Record>>> = BTreeMap::new();
     for record in class.iter().flatten() {

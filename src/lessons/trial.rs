@@ -171,7 +171,7 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
         findings.push(Finding::error("the check holds from the start: there is nothing to do"));
     }
     if task.example.is_empty() {
-        findings.push(Finding::advice("no try: nobody can be shown how, and the check is not tried"));
+        findings.push(Finding::advice("no try: the task cannot be shown to a student, and its check is not tested"));
     } else {
         let done = act(step, task, &task.example, &start, cancel)?;
         match done.unmet {
@@ -179,13 +179,13 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
             None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
             None => {
                 let unknown = readings(step.told()).filter(|reading| !done.known.contains_key(&reading.source));
-                let told = |of: &Reading| format!("{{{}}} is not known in the run that does the task", of.source);
+                let told = |of: &Reading| format!("{{{}}} is not known in the run that fulfils the task", of.source);
                 findings.extend(unknown.map(told).map(Finding::Error));
             }
         }
     }
     if task.wrong.is_empty() {
-        findings.push(Finding::advice("no wrong: it is not tried whether the check can fail"));
+        findings.push(Finding::advice("no wrong: it is not tested whether the check can fail"));
     } else if act(step, task, &task.wrong, &start, cancel)?.unmet.is_none() {
         findings.push(Finding::error("wrong fulfils the check"));
     }

@@ -43,7 +43,7 @@ pub struct StepWork {
     pub left: bool,
     /// Numbers of the run that fulfilled the task, by their source in the texts that quote them.
     pub readings: BTreeMap<String, f64>,
-    /// What the scene that fulfilled the task has other than that of the step: values by key, as `--set` takes them.
+    /// How the scene that fulfilled the task differs from that of the step: values by key, as `--set` takes them.
     pub changes: BTreeMap<String, String>,
     /// When the parts of the step were done.
     pub times: Times,

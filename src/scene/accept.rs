@@ -16,7 +16,7 @@ pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> R
     check_count(key, "tables", count, fewest..=MOST_RECORDS)
 }
 
-/// The name of one of an array of tables in messages: its first value if that is a text, or else its number.
+/// The name in messages of one table of an array: its first value if that is a text, or else its number.
 pub(super) fn named(first: Option<&str>, number: usize) -> String {
     first.filter(|name| !name.is_empty()).map_or_else(|| format!("number {number}"), show_text)
 }

@@ -1,5 +1,5 @@
-//! Keys that name one value in an array of tables, so that it can be set and varied like any other: `rotor.part.flange.r_outer_mm`, or with a
-//! number in place of the name, `rotor.support.1.z_top_mm`, counted from 1.
+//! Keys that name one value in an array of tables, so that the value can be set and varied like any other: `rotor.part.flange.r_outer_mm`,
+//! or, with a number from 1 in place of the name, `rotor.support.1.z_top_mm`.
 //!
 //! The [`Parameter`] of such a key is made from those of the array and of the column. It is not among `PARAMETERS`, and a scene keeps its
 //! value in the array.
@@ -81,7 +81,8 @@ impl Scene {
         records.get(row)?.get(column).cloned()
     }
 
-    /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
+    /// The array in which a key names a value, with `value` in that place; `None` for any other key. An edge that two parts share moves
+    /// in both.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), FaultKind>> {
         let put = |(array, mut records, [row, column]): Place| {
             match (value.as_number(), array.kind) {
@@ -96,8 +97,8 @@ impl Scene {
         Some(self.cell(key)?.map(put))
     }
 
-    /// The keys that name the values by which an array differs from that of `original`; none if keys cannot tell all of them, because there are
-    /// other tables.
+    /// The keys that name the values by which an array differs from that of `original`; empty if keys cannot name all differences,
+    /// because the arrays have different tables.
     pub(super) fn changed_cells(&self, original: &Self, array: &Parameter) -> Vec<&'static Parameter> {
         let (Some(Value::Records(ours)), Some(Value::Records(theirs))) = (self.get(array.key), original.get(array.key))
         else {
@@ -150,7 +151,7 @@ mod tests {
             [by_name, by_number].map(|key| scene.get(key)),
             [26.5, 26.5].map(|length| Some(Value::Number(length)))
         );
-        // The body goes with it.
+        // The edge of the body moves with it.
         assert_eq!(scene.get("rotor.part.body.r_outer_mm"), Some(Value::Number(26.5)));
         scene.set("rotor.part.body.material", "steel").unwrap();
         assert_eq!(scene.get("rotor.part.4.material"), Some(Value::Text("steel".into())));

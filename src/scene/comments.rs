@@ -4,8 +4,8 @@ use super::keys::PARAMETERS;
 use super::parameter::{Parameter, ParameterKind};
 use toml_edit::{Decor, DocumentMut, Item, RawString, Table, Value};
 
-/// `fresh`, the text of a scene, with the comments of `old`, the text of a file that it replaces. Those of a key that is gone come before the next one.
-/// Comments that this program writes itself are not carried over. If `old` cannot be read, it has none.
+/// `fresh`, the text of a scene, with the comments of `old`, the text of a file that it replaces. The comments of a key that is
+/// gone come before the next key. Comments that this program writes itself are not carried over. If `old` cannot be read, none are.
 pub(super) fn carried(fresh: &str, old: &str) -> String {
     let (Ok(mut to), Ok(from)) = (fresh.parse::<DocumentMut>(), old.parse::<DocumentMut>()) else {
         return fresh.to_owned();
@@ -18,7 +18,7 @@ pub(super) fn carried(fresh: &str, old: &str) -> String {
     without_old_assumptions(&to.to_string(), &to)
 }
 
-/// Carries the comments of a table over. `homeless`: those of keys that `to` does not have, until a key comes that it has.
+/// Carries the comments of a table over. `homeless` holds the comments of keys that `to` does not have, until a key comes that `to` has.
 fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
     for (name, item) in from {
         let key = from.key(name);
@@ -69,7 +69,7 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
     }
 }
 
-/// `text` without what [`NewMotor`](super::new_motor::NewMotor) has assumed and this scene no longer has.
+/// `text` without the comments on assumptions of [`NewMotor`](super::new_motor::NewMotor) that this scene no longer makes.
 fn without_old_assumptions(text: &str, scene: &DocumentMut) -> String {
     let held = |line: &str| {
         let told = line.strip_prefix("# Assumed: ").and_then(|told| told.split_once(" = "));
@@ -94,7 +94,7 @@ fn put(decor: &mut Decor, homeless: &mut String) {
     homeless.clear();
 }
 
-/// What stands there, and comments behind it, on lines of their own.
+/// The text that is there already, followed by comments on lines of their own.
 fn joined(there: Option<&str>, comments: &str) -> String {
     let there = there.unwrap_or_default();
     let comments = if there.is_empty() || there == "\n" || there.ends_with("\n\n") {
@@ -120,7 +120,7 @@ fn is_absent(line: &str) -> bool {
     leaf.is_some_and(|leaf| line.contains("; absent: ") && PARAMETERS.iter().any(|parameter| parameter.leaf() == leaf))
 }
 
-/// Whether a comment is what this program writes behind a key.
+/// Whether a comment is the one that this program writes behind a key.
 fn is_ours(leaf: &str, comment: &str) -> bool {
     let words = comment.trim_start_matches(['#', ' ']);
     let written = |parameter: &Parameter| match parameter.kind {

@@ -72,7 +72,7 @@ pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), Faul
     check_count(key, "rows", rows, 1..=MOST_ROWS)
 }
 
-/// Those rows of a table that are in order. `fault` is told of every other one, with its place.
+/// The valid rows of a table. `fault` is called for every other row, with its place.
 pub(super) fn in_order<P>(
     key: &'static str,
     columns: &'static [Parameter; 2],
@@ -107,10 +107,10 @@ pub(super) fn read_csv(
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
-    // Of text, with lines of any length, the reader refuses none.
+    // The reader returns no errors, because the input is text and lines may have any length.
     let mut records = reader.records().filter_map(Result::ok);
 
-    // What is in the file instead is not shown: the file may be any of this machine.
+    // The header that was found is not shown, because the path may be that of any file on this machine.
     let other_header = || {
         let (what, other) = match columns[1].key {
             "compliance_m2_per_n" => ("compliance table", "harmonic,compliance_m2_per_n or "),

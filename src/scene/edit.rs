@@ -110,11 +110,11 @@ impl Scene {
         let pairs: Vec<_> = pairs.into_iter().collect();
         let mut pairs: Vec<_> =
             pairs.iter().map(Borrow::borrow).map(|(key, text)| (key.as_ref(), text.as_ref())).collect();
-        // That a key is not given says nothing beside the one that takes its place.
+        // `key=none` changes nothing if another key for the same quantity is set too.
         let set: Vec<_> = pairs.iter().filter(|(_, text)| *text != "none").map(|(key, _)| *key).collect();
         let replaced = |parameter: &'static Parameter| parameter.alternatives().any(|other| set.contains(&other.key));
         pairs.retain(|(key, text)| *text != "none" || !Parameter::find(key).is_some_and(replaced));
-        // The contact comes before the ring that suits it.
+        // The keys of the contact come first, because the parts of a new ring depend on them.
         let contact = |key: &str| matches!(key, "motor.contact_radius_mm" | "rotor.contact_width_mm");
         pairs.sort_by_key(|(key, _)| (!contact(key), Parameter::find(key).map_or(0, Parameter::rank)));
         let mut changed = self.clone();
@@ -189,8 +189,8 @@ impl Scene {
         self.name.split(", changed").next().unwrap_or_default()
     }
 
-    /// Gives a scene that was made from `original` a name and a description that say so, and nothing that the next change makes wrong. A name or
-    /// a description of its own is kept.
+    /// Gives a scene that was made from `original` a name and a description that say so, and that stay true after further changes. A name
+    /// or a description of its own is kept.
     pub fn made_from(&mut self, original: &Self) {
         if self.about == original.about {
             self.about = format!("Made from {}.", original.name);
@@ -233,8 +233,8 @@ impl Scene {
         self.name = title;
     }
 
-    /// Its name above a figure. Of a scene with the title and the description that [`Scene::retitle`] gives, and so few changes that they
-    /// can be read, these in place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
+    /// Its name above a figure. If [`Scene::retitle`] gave the title and the description, and the changes are few enough to be read, they
+    /// are named in place of their number: `Fundamental case, minimum spacing H_m 300 nm`.
     pub fn headline(&self) -> String {
         self.headline_over(&[])
     }
@@ -319,7 +319,7 @@ mod tests {
                     let mut scene = base.clone();
                     scene.set_value(parameter.key, value.clone()).unwrap();
                     assert_eq!(scene.get(parameter.key), Some(value), "{}", parameter.key);
-                    // Rules between keys aside.
+                    // The rules between keys are not checked here.
                     let problem = scene.unchecked().unwrap();
                     assert!(!problems.contains(&problem), "{}", parameter.key);
                     problems.push(problem);

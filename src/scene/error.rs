@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// The version of the file format this program reads and writes.
 pub const SCHEMA: i64 = 1;
 
-/// Most faults told at once.
+/// Most faults reported at once.
 const MOST_FAULTS: usize = 10;
 
 /// Faults of a scene: at least one and at most ten, in the order of the file, and how many more there are.
@@ -31,7 +31,7 @@ impl SceneError {
         self.push_with(|| fault.into());
     }
 
-    /// Adds a fault, which is composed only if it will be told.
+    /// Adds a fault, which is composed only if it will be reported.
     pub(super) fn push_with(&mut self, fault: impl FnOnce() -> Fault) {
         if self.faults.len() < MOST_FAULTS { self.faults.push(fault()) } else { self.more += 1 }
     }
@@ -184,7 +184,7 @@ pub enum FaultKind {
         /// The allowed range.
         range: Range,
     },
-    /// A rule between keys that is broken, or another fault that nothing but a message is made of.
+    /// A broken rule between keys, or another fault that consists of a message only.
     #[error("{message}")]
     Rule {
         /// The dotted key to change first.

@@ -22,8 +22,8 @@ struct Following {
 /// `[numerator, denominator]` of a factor.
 type Factor = fn(&Scene) -> Option<[f64; 2]>;
 
-/// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
-/// one, which depends on the scene.
+/// Keys that replace another key and are proportional to it. The factor, which depends on the scene, times the value of the replaced
+/// key gives the value of the key.
 const ALTERNATIVES: &[(&str, Factor)] = &[
     ("motor.load_n", |scene| Some([scene.number("motor.waves").ok()?, 1.0])),
     ("motor.rotor_speed_mm_per_s", |scene| Some([TAU * scene.number("motor.contact_radius_mm").ok()?, 60.0])),
@@ -47,15 +47,15 @@ impl Scene {
         (following.value)(self, following.source)
     }
 
-    /// The value \[in its own unit\] that an optional key would have, where the scene gives the key that it could replace; `None` if the scene
-    /// gives it, or if it is not proportional to the other one.
+    /// The value \[in its own unit\] that an optional key would have, if the scene gives the key that it could replace. `None` if the
+    /// scene gives the optional key itself, or if the two keys are not proportional.
     pub fn alternative(&self, parameter: &Parameter) -> Option<f64> {
         let given = parameter.instead_of.filter(|_| self.given(parameter.key).is_none())?;
         let [factor, divisor] = self.factor(parameter.key)?;
         Some(self.number(given).ok()? * factor / divisor)
     }
 
-    /// The factor of a key in [`ALTERNATIVES`], as a fraction; `None` of any other key.
+    /// The factor of a key in [`ALTERNATIVES`], as a fraction; `None` for any other key.
     pub(super) fn factor(&self, key: &str) -> Option<[f64; 2]> {
         ALTERNATIVES.iter().find(|(alternative, _)| *alternative == key)?.1(self)
     }

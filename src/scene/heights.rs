@@ -31,7 +31,7 @@ pub(super) fn read(parameter: &'static Parameter, given: &str, path: &Path) -> R
     let fault = |fault| FaultKind::csv(parameter.key, given, path, fault);
     let text = input::read_text(path, LARGEST).map_err(|error| fault(format!(" {error}")))?;
     let (_, texture) = measured(&text, 1).map_err(|error| match error {
-        // Nothing of the line is quoted, because the file may be any of this machine.
+        // The line is not quoted, because the path may be that of any file on this machine.
         HeightMapError::Line { line, .. } => fault(format!(": line {line} has no heights of a measured face")),
         other => fault(format!(": {other}")),
     })?;

@@ -46,7 +46,7 @@ pub enum Accepts {
 const DIGITS: usize = 4;
 /// Normal amplitude over the tangential one, where only one of them is known.
 const ELLIPSE: f64 = 1.3;
-/// More friction than this is remarked on.
+/// A coefficient of friction above this gets a remark.
 const MUCH_FRICTION: f64 = 0.5;
 /// Usual coefficients of friction, in words.
 const USUAL: &str = "usual are 0.1 to 0.5, and 0.7 is that of Maeno and Bogy";
@@ -165,8 +165,8 @@ pub struct NewMotor {
     pub scene: Scene,
     /// Assumptions that were made, in the order of the questions.
     pub assumed: Vec<Assumption>,
-    /// A sentence on each answer that the motor does not have: a number of teeth that was changed, torque and speed that no motor was
-    /// found to have.
+    /// A sentence on each answer that the motor does not meet: a number of teeth that was changed, or a torque and speed for which no motor
+    /// was found.
     pub unmet: Vec<String>,
 }
 
@@ -225,7 +225,7 @@ impl Draft<'_> {
         self.pairs.push((key, value));
     }
 
-    /// What `value` makes of the answer to `name`, for a key that has to accept it; `None` if there is no answer.
+    /// `value` of the answer to `name`, which `key` has to accept; `None` if there is no answer.
     fn following(&self, name: &str, key: &str, value: impl Fn(f64) -> f64) -> Result<Option<f64>, String> {
         let Some(value) = self.number(name).map(|answer| rounded(value(answer), DIGITS)) else { return Ok(None) };
         match Scene::motor().set_value(key, Value::Number(brief(value))) {

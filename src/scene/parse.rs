@@ -264,8 +264,8 @@ impl Reader<'_> {
         self.faults.faults().iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
     }
 
-    /// Adds a fault, which is told what is written at its place. The message is composed only if it will be shown, because a hostile file may
-    /// have a fault on every line.
+    /// Adds a fault, which `what` makes from the text at its place. The message is composed only if it will be shown, because a hostile
+    /// file may have a fault on every line.
     fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce(&str) -> FaultKind) {
         self.faults.push_with(|| {
             let line = span.as_ref().map(|span| line_and_column(self.text, span.start).0);
@@ -290,7 +290,7 @@ fn value_from_toml(value: &DeValue<'_>) -> Option<Value> {
 /// Takes a fault, and the bytes of the text that are at fault.
 type OnFault<'a> = &'a mut dyn FnMut(Bytes<usize>, FaultKind);
 
-/// The rows of a table, or an array of tables: those that are in order. `fault` is told of the others.
+/// The valid rows of a table, or the valid tables of an array. `fault` is called for the others.
 fn array_from_toml(
     parameter: &'static Parameter,
     value: &Spanned<DeValue<'_>>,

@@ -74,11 +74,12 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     ],
 ];
 
-/// Keys whose defaults are what everybody expects.
+/// Keys whose defaults are usual values, so that they need not be mentioned.
 const USUAL: [&str; 2] = ["film.temperature_c", "film.accommodation"];
 
-/// Numbers and choices of `scene` that nobody has given, so that they are those of the paper, or of the default strip: the `text` of a preset
-/// does not have them, or `original`, the scene that it describes, has no such key. Built-in presets give all of theirs.
+/// Numbers and choices of `scene` that were not given, and so have the default values: those of the paper, or of the default strip.
+/// They are not in the `text` of the preset, or `original`, the scene that it describes, has no such key. Built-in presets give all of
+/// their keys.
 pub fn assumed(text: Option<&str>, original: &Scene, scene: &Scene) -> Vec<&'static Parameter> {
     let file = text.and_then(|text| text.parse::<toml::Table>().ok());
     let given = |parameter: &'static Parameter| {
@@ -115,7 +116,7 @@ pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
     Ok(read(name_or_path)?.0)
 }
 
-/// As [`find`], with the text of the file; none of a built-in preset.
+/// As [`find`], with the text of the file (`None` for a built-in preset).
 pub fn read(name_or_path: &str) -> Result<(Scene, Option<String>), SceneError> {
     if let Some(built_in) = BuiltIn::find(name_or_path) {
         return Ok((built_in.scene()?, None));

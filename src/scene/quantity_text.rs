@@ -29,10 +29,10 @@ const KINDS: &[Kind] = &[
     &[("ms", 1e-3), ("s", 1.0)],
     &[("%", 1.0)],
     &[("mm/s", 1e-3), ("m/s", 1.0)],
-    // Of answers in lessons.
+    // For answers in lessons.
     &[("mNm", 1e-3), ("Nm", 1.0), ("kNm", 1e3)],
     &[("mNs/m", 1e-3), ("Ns/m", 1.0)],
-    // Of limits on results.
+    // For limits on results.
     &[("mW", 1e-3), ("W", 1.0)],
     &[("N/m", 1.0), ("kN/m", 1e3), ("N/mm", 1e3), ("N/um", 1e6)],
     &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
@@ -52,8 +52,8 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
     number(parameter.unit, text).ok_or_else(|| no_number(parameter, text))
 }
 
-/// Reads `text` as an end of a range of values of `key`, as [`read`] does. Of a key that does not exist it is any number: what is wrong with
-/// the key is told where the scene is known.
+/// Reads `text` as an end of a range of values of `key`, as [`read`] does. For a key that does not exist any number is accepted: the fault
+/// of the key is reported where the scene is known.
 pub fn end_of_range(key: &str, text: &str) -> Result<f64, String> {
     match Parameter::find(key) {
         Some(parameter) => read(parameter, text),
@@ -124,7 +124,7 @@ pub fn number(unit: &str, text: &str) -> Option<f64> {
     if let Ok(plain) = text.parse::<f64>() {
         return plain.is_finite().then_some(plain);
     }
-    // The two that are not a factor times the unit of their key.
+    // The two units that are not a factor times the unit of the key.
     match (unit, text.strip_suffix('%'), text.strip_suffix('K')) {
         ("", Some(per_cent), _) => return number("", per_cent).map(|found| found / 100.0),
         ("°C", _, Some(kelvin)) => return number("", &format!("{kelvin}-273.15")),
@@ -137,7 +137,7 @@ pub fn number(unit: &str, text: &str) -> Option<f64> {
     let power = i32::from(reader.with_unit);
     let number = if power == 1 { found.number / size } else { found.number };
     let good = reader.rest.is_empty() && found.power == power && number.is_finite();
-    // The text in between rounds the number.
+    // Writing the number with limited digits and reading it back rounds it.
     if good { format!("{number:.DECIMALS$e}").parse().ok() } else { None }
 }
 
@@ -172,7 +172,7 @@ impl Reader<'_> {
         while let Some(sign) = ["+", "-"].into_iter().find(|sign| self.takes(sign)) {
             let mut next = self.product()?;
             if next.power != sum.power {
-                // "100 + 50 nm" is 150 nm, where nanometres are what is meant anyway.
+                // "100 + 50 nm" is 150 nm if the key is in nanometres anyway.
                 let bare = [&mut sum, &mut next].into_iter().find(|term| term.power == 0).filter(|_| !self.another)?;
                 *bare = Term { number: bare.number * self.own, power: 1 };
             }

@@ -10,11 +10,12 @@ use crate::problem::GRAVITY;
 
 /// Digits of a value in another form, as the fields of the window show them.
 const DIGITS: usize = 6;
-/// Where so few would change it by more than this, relative, it has one more: the way back then leads to the six digits that it came from.
+/// If rounding to these digits would change a value by more than this share, it gets one more digit, so that converting it back gives the
+/// six digits that it came from.
 const SAME: f64 = 5e-7;
-/// An altitude is to the millimetre: so many steps to a metre.
+/// Altitudes are rounded to millimetres: so many steps in a metre.
 const STEPS: f64 = 1e3;
-/// Halvings that find an altitude.
+/// Number of bisections that find an altitude.
 const HALVINGS: usize = 60;
 
 /// What a solve found about a plate.
@@ -27,9 +28,9 @@ pub struct SolvedPlate {
 }
 
 impl Scene {
-    /// The value \[in its own unit\] with which `parameter` would say the same as the form of its quantity that the scene gives. A pressure that
-    /// no altitude has becomes the nearest one; without a `solved` plate a mean gap is one that its amplitude allows, and the load on a plate
-    /// whose gap is given is `None`.
+    /// The value \[in its own unit\] with which `parameter` would say the same as the form of its quantity that the scene gives. A pressure
+    /// that no altitude has gives the nearest altitude. Without a `solved` plate, a mean gap is one that the amplitude allows, and for a
+    /// plate whose gap is given the load is `None`.
     pub fn restated(&self, parameter: &'static Parameter, solved: Option<SolvedPlate>) -> Option<f64> {
         let range = parameter.range()?;
         let value = match parameter.key {
@@ -40,7 +41,7 @@ impl Scene {
             key => self.following(key).or_else(|| self.alternative(parameter))?,
         };
         let [short, exact] = [shortened(value), value].map(|value| value.clamp(range.min, range.max));
-        // A tooth that is as wide as the pitch is not rounded to one that is wider.
+        // Rounding must not make a tooth that is as wide as the pitch wider than it.
         let mut tried = self.clone();
         tried.put(parameter, Some(Value::Number(short)));
         Some(if tried.check().is_ok() { short } else { exact })
@@ -73,11 +74,11 @@ fn altitude(pressure: f64, range: Range) -> f64 {
             high = middle;
         }
     }
-    // Sea level is no negative zero.
+    // Adding 0 turns a negative zero at sea level into zero.
     (0.5 * (low + high) * STEPS).round() / STEPS + 0.0
 }
 
-/// To the digits that fields show, or one more.
+/// A value rounded to the digits that fields show, or to one more.
 fn shortened(value: f64) -> f64 {
     let short = rounded(value, DIGITS);
     if (short - value).abs() <= SAME * value.abs() { short } else { rounded(value, DIGITS + 1) }

@@ -52,7 +52,8 @@ impl Scene {
         broken.chain(self.following_out_of_range())
     }
 
-    /// A value out of its key's own range breaks a rule between keys too, if that allows less: then it is that fault, with the narrower range.
+    /// A value outside its key's own range also breaks a rule between keys, if the rule allows less. The fault is then that of the rule,
+    /// with the narrower range.
     pub(super) fn narrowed(&self, fault: FaultKind) -> FaultKind {
         let FaultKind::OutOfRange { parameter, value, .. } = &fault else { return fault };
         let parameter = *parameter;

@@ -160,7 +160,7 @@ impl Scene {
         Ok(())
     }
 
-    /// If the scene or its model does not have a key: the key that chooses, and those of its values that have it.
+    /// If the scene or its model does not have a key: the key that chooses the scene or model, and those of its values that have the key.
     fn elsewhere(&self, parameter: &Parameter) -> Option<Model> {
         match (parameter.belongs, self.kind) {
             (Belongs::Motor, Kind::Plate) => return Some(("scene", &["motor"])),
@@ -246,8 +246,8 @@ impl Scene {
         Ok(())
     }
 
-    /// As [`Self::assign`], of a change of this scene: a ring that it chooses begins with a section that suits the contact, or with the one that it
-    /// is.
+    /// As [`Self::assign`], for a change of this scene. If the change chooses a ring, the ring begins with a section that suits the
+    /// contact, or with the section that `value` is.
     pub(super) fn change(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), FaultKind> {
         let section = self.parameter("rotor.part")?;
         let before = self.has(section);

@@ -83,7 +83,7 @@ impl Reader<'_> {
                 self.key_fault(table, "set", format!(": {error}"));
             }
             if !changes.is_empty() {
-                // What the preset says of itself is not true of it any more.
+                // The preset's name and description do not describe the changed scene.
                 (scene.name, scene.about) = (format!("Lesson: {title}"), String::new());
             }
             self.scene = Some(scene);

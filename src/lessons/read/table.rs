@@ -111,7 +111,7 @@ impl Reader<'_> {
         text::blocks(text, self.scene.as_ref().map(|scene| Outside { scene, pictures }))
     }
 
-    /// The text of a key as it was read; `None`, with a fault added, if it could not be.
+    /// The result of reading a key; `None`, with a fault added, if it could not be read.
     fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, String>) -> Option<T> {
         read.map_err(|error| self.line_fault(table, key, line, format!(": {error}"))).ok()
     }
