@@ -256,6 +256,19 @@ pub struct Stats {
     pub warm_start: bool,
 }
 
+impl Stats {
+    /// Adds what another solve cost; sizes of grids stay.
+    pub fn add_cost(&mut self, other: &Self) {
+        self.film_steps += other.film_steps;
+        self.film_solves += other.film_solves;
+        self.limited_steps += other.limited_steps;
+        self.cycles += other.cycles;
+        self.coupling_iterations += other.coupling_iterations;
+        self.contact_solves += other.contact_solves;
+        self.contact_iterations += other.contact_iterations;
+    }
+}
+
 impl AddAssign<Cost> for Stats {
     fn add_assign(&mut self, film: Cost) {
         self.film_steps += film.steps;

@@ -4,6 +4,7 @@
 pub mod near;
 
 use crate::control::{Cancel, Observer};
+use crate::digits::percent;
 use crate::drive::{self, Scaled};
 use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
@@ -179,6 +180,49 @@ pub fn solve(
 /// # Errors
 /// As [`solve`].
 pub fn solve_from(
+    warm: &mut Warm,
+    problem: &Problem,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, SolveError> {
+    let found = solve_as_asked(warm, problem, settings, observer, cancel)?;
+    let Some(coarser) = coarser(&found, settings, cancel) else { return Ok(found) };
+    let rough = Settings { fidelity: coarser, ..*settings };
+    // The progress of this solve is not reported, and its failure changes nothing.
+    match solve(problem, &rough, &mut (), cancel) {
+        Ok(other) if other.status == Status::Converged && other.accuracy.stated < found.accuracy.stated => {
+            Ok(in_place_of(found, other, coarser))
+        }
+        _ => Ok(found),
+    }
+}
+
+/// The next coarser level, if the result `found` is so much less accurate than that level promises that it may do better: on finer grids
+/// contact may open, or a coarse one have no periodic state.
+fn coarser(found: &Solution, settings: &Settings, cancel: &Cancel) -> Option<Fidelity> {
+    let Accuracy { asked, stated, stopped_by } = found.accuracy;
+    let ended = matches!(found.status, Status::Converged | Status::NotResolved { .. });
+    let short = ended && asked > 0.0 && stopped_by == StoppedBy::Limit && !cancel.has_budget();
+    let levels = settings.fidelity.and_coarser();
+    let (_, coarser) = levels.split_last().filter(|_| short && settings.method == Method::Auto)?;
+    coarser.last().copied().filter(|level| stated > 2.0 * level.accuracy())
+}
+
+/// The result `other` of a `coarser` level, which states a smaller error than the one `found` at the level asked for.
+fn in_place_of(found: Solution, mut other: Solution, coarser: Fidelity) -> Solution {
+    other.accuracy = Accuracy { asked: found.accuracy.asked, stopped_by: StoppedBy::Limit, ..other.accuracy };
+    other.stats.add_cost(&found.stats);
+    other.model.remarks.push(format!(
+        "grids: those of {coarser}, because finer ones, as asked for, left a larger error ({})",
+        percent(found.accuracy.stated)
+    ));
+    other.model.fidelity = found.model.fidelity;
+    other
+}
+
+/// As [`solve_from`], on the grids of the fidelity that is asked for alone.
+fn solve_as_asked(
     warm: &mut Warm,
     problem: &Problem,
     settings: &Settings,
