@@ -14,11 +14,12 @@ use squeezefilm::gui::state::tradeoff::TradeoffState;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
 use squeezefilm::job::task::BackgroundTask;
 use squeezefilm::scene::{Scene, Value, presets};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use window::{Memory, User, Window, begin_export, drop_file, has_torque, open, reopen, reopen_on, solved, until};
+use window::{Memory, User, Window, begin_export, drop_file, has_torque, left, open, reopen, reopen_on, solved, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
@@ -308,51 +309,74 @@ fn changes_that_the_last_window_left_unsaved_are_asked_for_before_another_scene_
 #[test]
 fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("app.ron");
-    let open = |memory: Memory, file: PathBuf| {
-        let platform = Platform { storage: Some(file), ask: |_, _| Answer::Cancelled, ..Platform::default() };
-        reopen(memory, 900.0, platform)
+    let file = folder.path().join("app.json");
+    let open = || {
+        let storage = Some(file.clone());
+        let platform = Platform { storage, ask: |_, _| Answer::Cancelled, ..Platform::default() };
+        let mut window = reopen(Memory::default(), 900.0, platform);
+        window.run_steps(2);
+        window
+    };
+    let leave = |entries: &[(&str, &str)]| {
+        let entries: BTreeMap<_, _> = entries.iter().copied().collect();
+        std::fs::write(&file, serde_json::to_string(&entries).unwrap()).unwrap();
     };
     let kept = || std::fs::read_dir(folder.path()).unwrap().count();
     // A scene of a later version.
-    std::fs::write(&file, "the whole file").unwrap();
-    let later = "schema = 1\nname = \"later\"\n[film]\nnot_yet_known = 3\n".to_owned();
-    let mut window = open(Memory([("scene".to_owned(), later)].into()), file.clone());
-    window.run_steps(2);
+    leave(&[("scene", "schema = 1\nname = \"later\"\n[film]\nnot_yet_known = 3\n")]);
+    let window = open();
     window.get_by_label_contains("not_yet_known");
-    window.get_by_label_contains("app.unreadable-1.ron");
+    window.get_by_label_contains("app.unreadable-1.json");
     assert_eq!(kept(), 2);
     drop(window);
-    // A file that eframe cannot read is as if there were nothing in it.
-    let mut window = open(Memory::default(), file.clone());
-    window.run_steps(2);
+    std::fs::write(&file, "{\"scene\": \"cut sho").unwrap();
+    let window = open();
     window.get_by_label_contains("this is not what a window of this version writes");
-    assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.ron")).unwrap(), "the whole file");
+    assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.json")).unwrap(), "{\"scene\": \"cut sho");
     drop(window);
     // So are progress in lessons and settings that cannot be read.
-    let kept_as = [
+    leave(&[
         ("lessons", "{\"a\": {\"step\": \"3\"}}"),
         ("budget", "soon"),
         ("lecture", "maybe"),
         ("scene", &saved_scene()),
-    ];
-    let mut window = open(Memory(kept_as.map(|(key, text)| (key.to_owned(), text.to_owned())).into()), file.clone());
-    window.run_steps(2);
+    ]);
+    let window = open();
     for fault in [
         "The progress in lessons cannot be read",
         "soon",
         "lecture = maybe: false or true is allowed",
-        "app.unreadable-3.ron",
+        "app.unreadable-3.json",
     ] {
         window.get_by_label_contains(fault);
     }
     drop(window);
     // The first window of all has nothing to complain about.
     std::fs::remove_file(&file).unwrap();
-    let mut window = open(Memory::default(), file);
-    window.run_steps(2);
+    let window = open();
     assert!(window.query_by_label("This did not work").is_none());
     assert_eq!(kept(), 3);
+}
+
+#[test]
+fn what_a_window_cannot_keep_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let storage = Some(folder.path().join("absent/app.json"));
+    let mut window = reopen(Memory::default(), 900.0, Platform { storage, ..Platform::default() });
+    window.run_steps(2);
+    let told = |window: &Window| window.query_by_label_contains("is not kept for the next start").is_some();
+    assert!(!told(&window));
+    assert!(left(&mut window).0.is_empty());
+    window.run_steps(2);
+    assert!(told(&window));
+    window.click_on("Close");
+    left(&mut window);
+    window.run_steps(2);
+    assert!(!told(&window));
+    // What it can keep, the next one begins with.
+    std::fs::create_dir(folder.path().join("absent")).unwrap();
+    left(&mut window);
+    assert!(std::fs::read_to_string(folder.path().join("absent/app.json")).unwrap().contains("\"scene\""));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::ui::parts::FOLLOWED;
 use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
-use super::update::storage::{UNSAVED, keep};
+use super::update::storage::{Entries, NOT_KEPT, UNSAVED, keep, read, write};
 use super::update::updater::Updater;
 use crate::digits::parse_duration;
 use crate::platform::Instant;
@@ -19,7 +19,7 @@ use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
 use crate::scene::Scene;
 use eframe::egui;
 use eframe::egui::accesskit::{Action, ActionRequest, TreeId};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Time from the beginning of one frame of a motion to the next: a little less than a sixtieth of a second, since waking up takes time as well.
@@ -45,6 +45,8 @@ pub struct App {
     title: String,
     /// What the keyboard was at when the last frame began.
     focused: Option<egui::Id>,
+    /// Why the last save failed; it is told once.
+    fault: Option<String>,
 }
 
 impl App {
@@ -52,17 +54,17 @@ impl App {
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,
-        platform: Platform,
+        mut platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
         context.egui_ctx.add_plugin(Taps::default());
         mirror(&context.egui_ctx);
-        let (state, next) = restored(context.storage, opened, platform.storage.as_deref())?;
+        let (state, next) = restored(context.storage, opened, &mut platform.storage)?;
         let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
         next.into_iter().for_each(|document| updater.carry_out(Command::Proceed(Next::Given(Box::new(document)))));
         let (after_text, address, title) = (Vec::new(), String::new(), String::new());
-        let (last_frame, focused) = (None, None);
-        Ok(Self { updater, typing: false, after_text, last_frame, unwritten: false, address, title, focused })
+        let (last_frame, focused, fault) = (None, None, None);
+        Ok(Self { updater, typing: false, after_text, last_frame, unwritten: false, address, title, focused, fault })
     }
 
     /// All that the window knows.
@@ -106,6 +108,30 @@ impl App {
             let request = ActionRequest { action, target_tree: TreeId::ROOT, target_node, data: None };
             ctx.input_mut(|input| input.events.push(egui::Event::AccessKitActionRequest(request)));
         }
+    }
+
+    /// What the next window begins with.
+    fn kept(&self) -> Entries {
+        let state = self.state();
+        // The next window begins with the student's own scene, not with that of a lesson.
+        let document = state.lessons.student_document(&state.document);
+        let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
+        let entries = [
+            ("scene", document.scene().to_toml()),
+            ("saved", document.saved().to_toml()),
+            ("new", document.is_new().to_string()),
+            (UNSAVED, document.is_dirty().to_string()),
+            ("path", document.path().map(|p| p.display().to_string()).unwrap_or_default()),
+            ("lessons", state.lessons.progress_text()),
+            ("pins", state.pins.stored()),
+            ("tour", "seen".to_owned()),
+            ("recent", recent.join("\n")),
+            ("fidelity", state.document.target().to_string()),
+            ("budget", state.budget.map_or_else(String::new, |budget| format!("{budget:?}"))),
+            ("theme", if state.dark { "dark" } else { "light" }.to_owned()),
+            ("lecture", state.lecture.to_string()),
+        ];
+        entries.map(|(name, text)| (name.to_owned(), text)).into()
     }
 
     fn obstacles(&self) -> Obstacles {
@@ -218,23 +244,15 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.unwritten = false;
-        let state = self.state();
-        // The next window begins with the student's own scene, not with that of a lesson.
-        let document = state.lessons.student_document(&state.document);
-        storage.set_string("scene", document.scene().to_toml());
-        storage.set_string("saved", document.saved().to_toml());
-        storage.set_string("new", document.is_new().to_string());
-        storage.set_string(UNSAVED, document.is_dirty().to_string());
-        storage.set_string("path", document.path().map(|p| p.display().to_string()).unwrap_or_default());
-        storage.set_string("lessons", state.lessons.progress_text());
-        storage.set_string("pins", state.pins.stored());
-        storage.set_string("tour", "seen".to_owned());
-        let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
-        storage.set_string("recent", recent.join("\n"));
-        storage.set_string("fidelity", state.document.target().to_string());
-        storage.set_string("budget", state.budget.map_or_else(String::new, |budget| format!("{budget:?}")));
-        storage.set_string("theme", if state.dark { "dark" } else { "light" }.to_owned());
-        storage.set_string("lecture", state.lecture.to_string());
+        let entries = self.kept();
+        let Some(path) = &self.updater.platform.storage else {
+            return entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text));
+        };
+        let fault = write(path, &entries).err().map(|error| format!("{NOT_KEPT}: {error}"));
+        if fault != self.fault {
+            fault.iter().for_each(|fault| self.updater.state.fail(fault.clone()));
+            self.fault = fault;
+        }
     }
 
     fn auto_save_interval(&self) -> Duration {
@@ -243,19 +261,24 @@ impl eframe::App for App {
 }
 
 /// The state that the last window was left in, with the scene that was `opened`, if one was; or that scene to be asked for, if the last
-/// window left changes unsaved.
+/// window left changes unsaved. A `file` that can neither be read nor kept is not written to: it is taken away.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
-    file: Option<&Path>,
+    file: &mut Option<PathBuf>,
 ) -> Result<(State, Option<Document>), Box<dyn std::error::Error + Send + Sync>> {
-    let stored = |key: &str| storage.and_then(|storage| storage.get_string(key));
+    let mut faults = Vec::new();
+    let read = file
+        .as_deref()
+        .map_or(Ok(None), |file| read(file).map_err(|fault| faults.push(format!("{}: {fault}.", file.display()))));
+    // A page keeps it in the browser, and so did earlier versions in a file of eframe.
+    let stored = |key: &str| match &read {
+        Ok(Some(entries)) => entries.get(key).cloned(),
+        Ok(None) => storage?.get_string(key),
+        Err(()) => None,
+    };
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
     let empty = stored("tour").is_none() && stored("scene").is_none();
-    let mut faults = Vec::new();
-    if let (true, Some(file)) = (empty, file.filter(|file| file.exists())) {
-        faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
-    }
     let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
     // What the last window left unsaved is there first, and asked for.
     let (document, next) = match (opened, last_document(&stored, &mut faults)) {
@@ -285,10 +308,15 @@ fn restored(
     }
     if !faults.is_empty() {
         // The next save replaces it.
-        match file.map_or(Ok(None), keep) {
+        match file.as_deref().map_or(Ok(None), keep) {
             Ok(Some(copy)) => faults.push(format!("What the last window left is kept in {}.", copy.display())),
             Ok(None) => {}
-            Err(error) => faults.push(format!("What the last window left cannot be kept: {error}")),
+            Err(error) => {
+                *file = None;
+                faults.push(format!(
+                    "What the last window left stays as it is, because there can be no copy of it: {error}. {NOT_KEPT}."
+                ));
+            }
         }
         state.fail(faults.join("\n\n"));
     }

@@ -19,7 +19,7 @@ use state::link::Link;
 use std::path::PathBuf;
 use std::time::Duration;
 use update::platform::Platform;
-use update::storage::StorageFile;
+use update::storage::{NOT_KEPT, StorageFile, beside};
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
 /// beside the built-in ones. `link`: what to show of that. `fidelity` and `budget`: how exactly, and for how long, edits are solved.
@@ -33,12 +33,19 @@ pub fn open(
     (fidelity, budget): (Option<Fidelity>, Option<Duration>),
 ) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
-    let file = window::storage_folder().and_then(|folder| StorageFile::claim(&folder).ok());
+    let (file, fault) = match window::storage_folder().map(|folder| StorageFile::claim(&folder)) {
+        Some(Ok(file)) => (Some(file), None),
+        Some(Err(error)) => (None, Some(error)),
+        None => (None, None),
+    };
     let storage = file.as_ref().map(|file| file.path.clone());
-    let kept = storage.clone();
+    let of_eframe = storage.as_deref().map(beside);
     let start = move |context: &eframe::CreationContext<'_>| {
         let platform = Platform { storage, ..Platform::default() };
         let mut app = app::App::on_platform(context, opened, platform)?;
+        if let Some(fault) = fault {
+            app.updater.state.fail(format!("{NOT_KEPT}: {fault}"));
+        }
         if let Some(folder) = lessons {
             app.updater.load_lessons(&folder);
         }
@@ -53,5 +60,5 @@ pub fn open(
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
-    window::run(kept, Box::new(start))
+    window::run(of_eframe, Box::new(start))
 }

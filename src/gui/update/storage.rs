@@ -1,7 +1,9 @@
 //! The file in which a window keeps what the next one begins with. Each window that is open at the same time has its own, so
-//! that none replaces what another one wrote; and what cannot be read is kept before it is replaced.
+//! that none replaces what another one wrote; it is replaced as a whole; and what cannot be read is kept before it is replaced.
 
+use crate::atomic::{WriteError, write_file};
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,6 +12,12 @@ use std::path::{Path, PathBuf};
 const MOST: usize = 64;
 /// What a window says of itself under this key: whether it holds unsaved work, `true` or `false`.
 pub const UNSAVED: &str = "unsaved";
+
+/// Begins the message that nothing is kept, before the reason.
+pub const NOT_KEPT: &str = "What you change is not kept for the next start of the window";
+
+/// What a window keeps, by name.
+pub type Entries = BTreeMap<String, String>;
 
 /// The file of this window: no other has it until this is dropped.
 #[derive(Debug)]
@@ -29,7 +37,7 @@ impl StorageFile {
     /// If the folder cannot be made, or no file can be locked.
     pub fn claim(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
-        let name = |number| if number == 1 { "app.ron".to_owned() } else { format!("app-{number}.ron") };
+        let name = |number| if number == 1 { "app.json".to_owned() } else { format!("app-{number}.json") };
         let mut paths: Vec<PathBuf> = (1..=MOST).map(|number| folder.join(name(number))).collect();
         paths.sort_by_key(|path| Reverse(path.metadata().and_then(|of| of.modified()).ok()));
         let last = paths.iter().find(|path| path.is_file()).cloned();
@@ -55,11 +63,34 @@ impl StorageFile {
     }
 }
 
-/// Whether the file at `path` says that it holds unsaved work. Quotes within its texts are escaped: none of them looks like an entry.
+/// Where eframe keeps the size and place of the window whose file is at `path`.
+pub fn beside(path: &Path) -> PathBuf {
+    path.with_extension("ron")
+}
+
+/// Whether the file at `path` says that it holds unsaved work.
 fn holds_unsaved(path: &Path) -> bool {
-    let text = if path.is_file() { fs::read_to_string(path).unwrap_or_default() } else { String::new() };
-    let said = text.split_once(&format!("\"{UNSAVED}\":"));
-    said.is_some_and(|(_, said)| said.trim_start().starts_with("\"true\""))
+    read(path).ok().flatten().is_some_and(|entries| entries.get(UNSAVED).is_some_and(|unsaved| unsaved == "true"))
+}
+
+/// Replaces the file at `path`, as a whole or not at all.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write(path: &Path, entries: &Entries) -> Result<(), WriteError> {
+    write_file(path, |file| Ok(serde_json::to_writer_pretty(file, entries)?))
+}
+
+/// What [`write`] wrote; `None` if there is no file.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn read(path: &Path) -> Result<Option<Entries>, String> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let text = fs::read(path).map_err(|error| error.to_string())?;
+    serde_json::from_slice(&text).map(Some).map_err(|_| "this is not what a window of this version writes".to_owned())
 }
 
 /// Copies the file at `path` beside it, under a name that is free, and returns that; nothing if there is no such file.
@@ -70,9 +101,10 @@ pub fn keep(path: &Path) -> io::Result<Option<PathBuf>> {
     if !path.is_file() {
         return Ok(None);
     }
-    let free = (1..).map(|number| path.with_extension(format!("unreadable-{number}.ron"))).find(|copy| !copy.exists());
+    let free = (1..).map(|number| path.with_extension(format!("unreadable-{number}.json"))).find(|copy| !copy.exists());
     if let Some(copy) = &free {
-        fs::copy(path, copy)?;
+        let kept = fs::read(path)?;
+        write_file(copy, |file| file.write_all(&kept)).map_err(io::Error::other)?;
     }
     Ok(free)
 }
@@ -84,14 +116,14 @@ mod tests {
     #[test]
     fn each_window_has_its_own_file_and_a_new_one_begins_with_that_of_the_first() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("app.ron"), "first").unwrap();
+        fs::write(folder.path().join("app.json"), "first").unwrap();
         let one = StorageFile::claim(folder.path()).unwrap();
         let other = StorageFile::claim(folder.path()).unwrap();
-        assert_eq!(one.path, folder.path().join("app.ron"));
+        assert_eq!(one.path, folder.path().join("app.json"));
         assert_ne!(one.path, other.path);
         assert_eq!(fs::read_to_string(&other.path).unwrap(), "first");
         drop(one);
-        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.ron"));
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.json"));
         // What the second one left last is there first, though its window is gone.
         let left = File::options().append(true).open(&other.path).unwrap();
         left.set_modified(std::time::SystemTime::now() + std::time::Duration::from_secs(10)).unwrap();
@@ -104,35 +136,50 @@ mod tests {
     fn unsaved_work_comes_before_what_was_written_later() {
         let folder = tempfile::tempdir().unwrap();
         let place = |name: &str| folder.path().join(name);
-        let entry = |unsaved: bool| format!("{{\n    \"theme\": \"dark\",\n    \"{UNSAVED}\": \"{unsaved}\",\n}}");
+        let entry = |unsaved: bool| format!("{{\n    \"theme\": \"dark\",\n    \"{UNSAVED}\": \"{unsaved}\"\n}}");
         let write = |name: &str, text: &str, age: u64| {
             fs::write(place(name), text).unwrap();
             let at = std::time::SystemTime::now() - std::time::Duration::from_secs(age);
             File::options().append(true).open(place(name)).unwrap().set_modified(at).unwrap();
         };
-        write("app.ron", &entry(true), 30);
-        write("app-2.ron", &entry(true), 20);
-        write("app-3.ron", &entry(false), 10);
-        write("app-4.ron", "{\"scene\": \"# \\\"unsaved\\\": \\\"true\\\"\"}", 0);
+        write("app.json", &entry(true), 30);
+        write("app-2.json", &entry(true), 20);
+        write("app-3.json", &entry(false), 10);
+        write("app-4.json", "{\"scene\": \"# \\\"unsaved\\\": \\\"true\\\"\"}", 0);
         let claimed: Vec<StorageFile> = (0..5).map(|_| StorageFile::claim(folder.path()).unwrap()).collect();
-        let names = ["app-2.ron", "app.ron", "app-4.ron", "app-3.ron", "app-5.ron"];
+        let names = ["app-2.json", "app.json", "app-4.json", "app-3.json", "app-5.json"];
         assert_eq!(claimed.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), names.map(place));
         // A new one begins with what was written last.
-        assert_eq!(fs::read(place("app-5.ron")).unwrap(), fs::read(place("app-4.ron")).unwrap());
+        assert_eq!(fs::read(place("app-5.json")).unwrap(), fs::read(place("app-4.json")).unwrap());
     }
 
     #[test]
     fn what_is_no_file_is_passed_over() {
         let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join("app.ron")).unwrap();
+        fs::create_dir(folder.path().join("app.json")).unwrap();
         fs::create_dir(folder.path().join("app-2.lock")).unwrap();
-        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app-3.ron"));
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app-3.json"));
+    }
+
+    #[test]
+    fn what_cannot_be_written_leaves_what_was_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("app.json");
+        assert_eq!(read(&path), Ok(None));
+        let entries: Entries = [("scene".to_owned(), "\"a\"\n".to_owned())].into();
+        write(&path, &entries).unwrap();
+        assert_eq!(read(&path), Ok(Some(entries)));
+        fs::write(&path, "{\"scene\": \"cut sho").unwrap();
+        assert!(read(&path).is_err());
+        fs::remove_file(&path).unwrap();
+        fs::create_dir_all(path.join("in the way")).unwrap();
+        assert!(write(&path, &Entries::new()).is_err());
     }
 
     #[test]
     fn what_is_kept_replaces_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("app.ron");
+        let path = folder.path().join("app.json");
         assert_eq!(keep(&path).unwrap(), None);
         fs::write(&path, "one").unwrap();
         let first = keep(&path).unwrap().unwrap();
