@@ -81,6 +81,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 fn no_window(reason: String) -> CliError {
     let advice = if cfg!(windows) {
         "\n(the window needs OpenGL 2.0 or Direct3D 12)"
+    } else if !cfg!(feature = "wgpu") && !no_display() {
+        "\n(the window needs OpenGL 2.0; built with --features wgpu it can be drawn by Vulkan or Metal as well)"
     } else if Path::new("/etc/debian_version").exists() {
         "\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
     } else {

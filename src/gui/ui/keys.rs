@@ -146,7 +146,7 @@ pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
     let acts = |scope: Scope| match scope {
         Always => true,
         Window => !obstacles.modal,
-        History => !obstacles.modal && !text,
+        History => !obstacles.modal && !text && !Popup::is_any_open(ctx),
         Idle => !obstacles.modal && idle,
     };
     let mut found = Vec::new();
