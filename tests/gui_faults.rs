@@ -143,7 +143,7 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", has_torque);
     window.get_by_label_contains("✔ Converged");
-    assert!(window.query_by_label_contains("Of the scene before this edit").is_none());
+    assert!(window.query_by_label_contains("Result of the scene before this edit").is_none());
     // A scene that no memory holds is refused at once: what is shown is of the one before.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("large.toml");
@@ -158,7 +158,7 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     // In the panel of results, and in the tab.
     for tab in [Key::Num4, Key::Num1] {
         window.ctrl(tab);
-        let told = window.query_all_by_label_contains("Of the scene before this edit; the present one has no");
+        let told = window.query_all_by_label_contains("Result of the scene before this edit; the present scene has no");
         assert_eq!(told.count(), 2);
     }
 }
@@ -331,7 +331,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     drop(window);
     std::fs::write(&file, "{\"scene\": \"cut sho").unwrap();
     let window = open();
-    window.get_by_label_contains("this is not what a window of this version writes");
+    window.get_by_label_contains("this file was not written by a window of this version");
     assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.json")).unwrap(), "{\"scene\": \"cut sho");
     drop(window);
     // So are progress in lessons and settings that cannot be read.

@@ -352,7 +352,7 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
     window.run_steps(2);
     assert!(window.known().dropped.as_ref().unwrap().work.running());
-    window.get_by_label_contains("does not shake, has 4.96");
+    window.get_by_label_contains("does not shake, gives 4.96");
     window.get_by_role_and_label(Role::Image, "Height of the plate over time");
     window.click_on("Cancel");
     until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.work.running()));

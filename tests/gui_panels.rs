@@ -672,7 +672,7 @@ fn the_words_of_the_regime_say_what_the_film_carries_here() {
     result.alpha.value = -0.05;
     let harness = shown(run, 300.0, 1.0);
     harness.get_by_label_contains("is a spring");
-    harness.get_by_label("here it sucks: its mean pressure is below ambient, and it pulls with 5 % of the load");
+    harness.get_by_label("here its mean pressure is below ambient: it pulls the faces together with 5 % of the load");
     harness.get_by_label("the air sucks: contact carries more than the load");
 }
 

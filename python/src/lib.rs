@@ -25,7 +25,7 @@ create_exception!(
     PyValueError,
     "A scene that cannot be solved, or another bad input: the key, its value and what is allowed."
 );
-create_exception!(_squeezefilm, SolveError, PyRuntimeError, "A solve that came to no end.");
+create_exception!(_squeezefilm, SolveError, PyRuntimeError, "A solve that ended without a result.");
 
 fn scene_error(error: impl std::fmt::Display) -> PyErr {
     SceneError::new_err(error.to_string())

@@ -1,4 +1,4 @@
-//! Runs one solve of many; an error or a panic in it does not stop the others.
+//! Runs one solve of many, so that an error or a panic in it does not stop the others.
 
 use crate::control::{Cancel, Observer};
 use crate::problem::Problem;
@@ -12,13 +12,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub enum RunStatus {
     /// Not solved yet.
     Waiting,
-    /// The cycle repeats to the tolerance.
+    /// The cycle repeats within the tolerance.
     Converged,
-    /// A limit was reached first; the numbers are what was reached.
+    /// A limit was reached first; the numbers are those at that point.
     NotConverged,
-    /// The cycle repeats, but the stated error of the headline is as large as itself.
+    /// The cycle repeats, but the stated error of the headline number is as large as the number.
     NotResolved,
-    /// It was cancelled, because it took longer than it was given.
+    /// Cancelled, because it took longer than the time limit.
     GivenUp,
     /// There is no solution, and why.
     Failed(String),
@@ -35,7 +35,7 @@ impl From<Status> for RunStatus {
     }
 }
 
-/// `converged`, `not converged`, `failed: …`: as files have it.
+/// `converged`, `not converged`, `failed: …`, as in files.
 impl std::fmt::Display for RunStatus {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -49,7 +49,7 @@ impl std::fmt::Display for RunStatus {
     }
 }
 
-/// Solves; an error, and a panic of the solver, is told in words.
+/// Solves. An error or a panic of the solver is returned as a message.
 pub fn attempt(
     problem: &Problem,
     settings: &Settings,
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn a_panic_is_told_in_words() {
         let mut broken = Problem::try_from(&Scene::motor()).unwrap();
-        // No scene can make this problem: the solver divides by the number of teeth.
+        // No scene gives this problem; in it, the solver divides by zero teeth.
         if let Scenario::Motor(motor) = &mut broken.scenario {
             motor.teeth = 0;
         }

@@ -1,8 +1,8 @@
-//! Several scenes side by side: what differs between them, and what comes of it.
+//! Several scenes side by side: the differences between them, and between their results.
 //!
-//! Every run is a single solve of its scene and nothing else: its numbers are those of [`solve`](crate::solve::solve) to
-//! the last bit, whatever it is compared with and however many threads there are. A run that fails says so, and the others
-//! go on. Differences are against the first run.
+//! Each run is a single solve of its scene: its numbers are those of [`solve`](crate::solve::solve) to the last bit, whatever it is
+//! compared with and however many threads there are. If a run fails, it has the reason, and the others go on. Differences are relative to
+//! the first run.
 
 use super::attempt::{RunStatus, attempt};
 use super::error::AnalysisError;
@@ -36,7 +36,7 @@ pub struct ComparedRun {
     pub solved: Result<Arc<Solution>, String>,
 }
 
-/// In bytes: all but the problem, which follows from the scene and the solution.
+/// Serialised without the problem, which follows from the scene and the solution.
 impl Serialize for ComparedRun {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         (&self.label, &self.scene, &self.solved).serialize(to)
@@ -63,7 +63,7 @@ impl ComparedRun {
         self.solved.as_ref().map_or_else(|_| Numbers::default(), |solution| Numbers::of(&self.problem, solution))
     }
 
-    /// Names of the limits of the model that it exceeds; none if it failed.
+    /// Names of the limits of the model that the run exceeds; none if it failed.
     pub fn outside(&self) -> Vec<&'static str> {
         let limits = |solution: &Arc<Solution>| names(&outside(&self.problem, solution));
         self.solved.as_ref().map_or_else(|_| Vec::new(), limits)
@@ -80,8 +80,8 @@ impl ComparedRun {
     }
 }
 
-/// Solves the scenes, several at a time on rayon's pool, and returns the runs in the order of the scenes. `finished` is told
-/// of each run as it ends, from whichever thread.
+/// Solves the scenes, several at a time on rayon's pool, and returns the runs in the order of the scenes. `finished` is called after each
+/// run, on any thread.
 ///
 /// # Errors
 /// [`AnalysisError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
@@ -96,7 +96,7 @@ pub fn runs(
     Ok(each(scenes, problems, settings, cancel, finished))
 }
 
-/// Solves scenes whose problems are given; one that cannot be solved by the method asked for is a run that says so, too.
+/// Solves scenes whose problems are given. A problem that the requested method cannot solve gives a failed run.
 pub(super) fn each(
     scenes: &[Scene],
     problems: Vec<Problem>,
@@ -114,7 +114,7 @@ pub(super) fn each(
     solved.collect()
 }
 
-/// The scenes' names; of several that are the same, all but the first are numbered.
+/// The scenes' names; if several are equal, all except the first are numbered.
 fn labels(scenes: &[Scene]) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     for scene in scenes {
@@ -123,7 +123,7 @@ fn labels(scenes: &[Scene]) -> Vec<String> {
     labels
 }
 
-/// `name` as it is shown, a long one cut, numbered from 2 if it is taken.
+/// `name` as it is shown: cut if it is long, and numbered from 2 if it is taken.
 pub fn unique(name: &str, taken: impl Fn(&str) -> bool) -> String {
     let name = if name.trim().is_empty() { "unnamed scene".to_owned() } else { show_up_to(LONGEST_LABEL, name.trim()) };
     let mut label = name.clone();
@@ -147,8 +147,7 @@ pub struct ParameterRow {
 }
 
 impl ParameterRow {
-    /// What a table for people has in place of the value of this scene, if there is none: `none` where the key is absent, and `–` where it does not
-    /// apply.
+    /// What a table for people shows if the scene has no value: `none` where the key is absent, and `–` where it does not apply.
     pub fn missing(&self, place: usize) -> &'static str {
         if self.has.get(place) == Some(&true) { "none" } else { "–" }
     }
@@ -159,7 +158,7 @@ impl ParameterRow {
     }
 }
 
-/// Every key that one of the scenes has, but for name and description, in the order of the file.
+/// Every key that at least one of the scenes has, except name and description, in the order of the file.
 pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
     let row = |parameter: &'static Parameter| {
         let values: Vec<_> = scenes.iter().map(|scene| scene.get(parameter.key)).collect();
@@ -175,14 +174,14 @@ pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
 pub struct ResultRow {
     /// The quantity.
     pub quantity: Quantity,
-    /// Its unit, if all runs that have it have it in the same one.
+    /// Its unit, if it is the same in all runs that have the quantity.
     pub unit: Option<&'static str>,
     /// One for each run.
     pub cells: Vec<ResultCell>,
 }
 
 impl ResultRow {
-    /// Its description with its unit after a comma; where runs have it in different units, every value has its own.
+    /// Its description, with the unit after a comma; if the runs have different units, each value has its own.
     pub fn label(&self) -> String {
         labelled(self.quantity.words(), self.unit.unwrap_or(""))
     }
@@ -191,17 +190,17 @@ impl ResultRow {
 /// A quantity of one run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ResultCell {
-    /// Its value with its estimated numerical error, in the quantity's unit of this run's problem; `None` if the run does not have it.
+    /// Its value with its estimated numerical error, in the run's unit of the quantity; `None` if the run does not have it.
     pub found: Option<Estimate>,
     /// That unit; empty for a pure number.
     pub unit: &'static str,
-    /// By how much it exceeds that of the first run \[% of its size\], with both errors added up \[percentage points\]; of the first run itself, of one in another
-    /// unit, and where the first is nothing but its error, `None`.
+    /// The difference from the first run \[% of the size of the first run's value\], with the sum of both errors \[percentage points\];
+    /// `None` for the first run itself, for a run in another unit, and if the first run's value is smaller than its error.
     pub difference_percent: Option<Estimate>,
 }
 
-/// The unit of a quantity of a run. A squeeze number is by a length, and a Knudsen number by a gap: those by different ones have no more in common
-/// than two units.
+/// The unit of a quantity of a run. A squeeze number is based on a length, and a Knudsen number on a gap; numbers with different bases
+/// cannot be compared, just as numbers with different units cannot.
 fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
     match (quantity, &run.problem.scenario) {
         (Quantity::SqueezeNumber, Scenario::Motor(_)) => "by tooth width",
@@ -216,10 +215,10 @@ fn unit(quantity: Quantity, run: &ComparedRun) -> &'static str {
     }
 }
 
-/// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
+/// Every quantity that at least one of the runs has, in the order of the columns of a sweep; errors are beside their values.
 pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     let mut numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
-    // What a solve cost that started from another one's fields says nothing of its scene.
+    // The cost of a solve that started from the fields of another one says nothing about its scene.
     for (numbers, run) in numbers.iter_mut().zip(runs) {
         if run.solved.as_ref().is_ok_and(|solution| solution.stats.warm_start) {
             Quantity::all().filter(|quantity| quantity.is_count()).for_each(|count| numbers.set(count, f64::NAN));
@@ -230,14 +229,14 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
         let units: Vec<&'static str> = runs.iter().map(|run| unit(quantity, run)).collect();
         let cell = |(i, numbers): (usize, &Numbers)| {
             let found = numbers.estimate(quantity);
-            // N/m less N is nothing.
+            // The difference between N/m and N has no meaning.
             let alike = first.zip(found).filter(|_| i > 0 && units[i] == units[0]);
             ResultCell { found, unit: units[i], difference_percent: alike.and_then(|(a, b)| difference(a, b)) }
         };
         let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
         let mut there = cells.iter().filter(|cell| cell.found.is_some()).map(|cell| cell.unit);
         let unit = there.next()?;
-        // What all have in common need not be said of a pure number.
+        // For a pure number, a basis that all runs have in common need not be named.
         let pure = matches!(quantity, Quantity::SqueezeNumber | Quantity::KnudsenNumber);
         let unit = there.all(|other| other == unit).then_some(if pure { "" } else { unit });
         Some(ResultRow { quantity, unit, cells })
@@ -245,9 +244,9 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()
 }
 
-/// 100 (b − a)/|a|, and the most that the two errors make of it.
+/// 100 (b − a)/|a|, with the greatest error that both errors can cause.
 fn difference(a: Estimate, b: Estimate) -> Option<Estimate> {
-    // Of what may be nothing at all there is no share; an error that is not known hides nothing.
+    // A value that may be zero has no relative difference. An unknown error does not count here.
     if a.value.abs() <= a.error.max(0.0) {
         return None;
     }
@@ -297,10 +296,10 @@ mod tests {
         assert!(found.value == 50.0 && found.error.is_nan());
         let alike = difference(with(2.0, 0.1), with(2.0, 0.1)).unwrap();
         assert!(alike.value == 0.0 && (alike.error - 100.0 * (2.1 / 1.9 - 1.0)).abs() < 1e-9, "{alike:?}");
-        // Of what is hardly resolved it may be much more.
+        // The value is hardly resolved, so the difference may be much larger.
         let hardly = difference(with(1.7e-4, 1.1e-4), with(0.6, 0.005)).unwrap();
         assert!(hardly.value + hardly.error > 100.0 * (0.6 / 6e-5), "{hardly:?}");
-        // Deeper suction is less.
+        // Deeper suction is a smaller value.
         assert_eq!(difference(with(-2.0, 0.0), with(-3.0, 0.0)), Some(with(-50.0, 0.0)));
         assert_eq!(difference(with(-2.0, 0.0), with(1.0, 0.0)), Some(with(150.0, 0.0)));
     }

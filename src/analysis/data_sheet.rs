@@ -9,13 +9,13 @@ use crate::scene::new_motor::{Answers, Factors, NewMotor, asked};
 use crate::solution::Status;
 use crate::solve::{Record, Settings, solve};
 
-/// Solves in which friction and amplitude are found. The torque is proportional to friction, the speed nearly to the amplitude.
+/// Greatest number of solves to find friction and amplitude. The torque is proportional to the friction, the speed nearly to the amplitude.
 const SOLVES: usize = 40;
-/// How close torque and speed have to come, relative.
+/// Relative accuracy with which torque and speed have to agree.
 const CLOSE: f64 = 2e-3;
 
-/// The motor of `answers`, with the friction and the amplitude at which it has, once solved, the stall torque and the speed without load of the
-/// data sheet. Where no solution has them, both are the least that they can be, as in [`NewMotor::of`], and the description says so.
+/// The motor of `answers`, with the friction and the amplitude that give the solution the stall torque and the no-load speed of the data
+/// sheet. If no solution has them, both are the least possible values, as in [`NewMotor::of`], and the description says so.
 pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> {
     let mut least = NewMotor::of(answers)?;
     let wanted = [(Quantity::StallTorque, "stall-torque-nm"), (Quantity::NoLoadSpeed, "no-load-speed-rpm")]
@@ -26,7 +26,7 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     let (mut motor, mut factors) = (least.clone(), Factors::LEAST);
     for _ in 0..SOLVES {
         let Some(solved) = solved(&motor.scene, cancel) else { break };
-        // A rotor that floats has no torque, and more friction gives it none.
+        // A rotor that floats has no torque, and more friction does not change that.
         let missed = wanted.map(|wanted| {
             let Some((quantity, asked)) = wanted else { return Some(1.0) };
             let found = solved.estimate(quantity).filter(|found| found.value > 0.0 && found.error < found.value)?;
@@ -41,7 +41,7 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
         let Ok(next) = NewMotor::with(answers, factors) else { break };
         motor = next;
     }
-    // If the time is up, it is not known.
+    // If the time limit was reached, this is not known.
     let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
         let known = |quantity| numbers.estimate(quantity).filter(|found| found.error < found.value);
         match [Quantity::StallTorque, Quantity::NoLoadSpeed].map(known) {
@@ -87,7 +87,7 @@ mod tests {
         let motor = agreeing(&answers, &Cancel::new()).unwrap();
         let [torque, speed] = of(&motor);
         assert!((torque - 1.0).abs() < CLOSE && (speed / 150.0 - 1.0).abs() < CLOSE, "{torque} {speed}");
-        // Pressed on so lightly that it floats, a motor has no torque.
+        // A motor that is loaded so lightly that its rotor floats has no torque.
         let same_but_told = |answers: &Answers, told: &str| {
             let (found, least) = (agreeing(answers, &Cancel::new()).unwrap(), NewMotor::of(answers).unwrap());
             assert!(found.scene.same_model(&least.scene));
@@ -95,13 +95,13 @@ mod tests {
             assert!(found.scene.about.ends_with(unmet) && unmet.ends_with(told), "{unmet}");
         };
         same_but_told(&with(&[asked[0], asked[1], ("load-n", "20")]), "this one is not driven.");
-        // One that would need more friction than there is keeps the least.
+        // A motor that would need more friction than allowed keeps the least friction.
         same_but_told(&with(&[("stall-torque-nm", "8.5")]), "rpm.");
-        // A speed that the film leaves unknown is not that of the data sheet.
+        // If the film leaves the speed unknown, it cannot agree with the data sheet.
         let unknown = with(&[("load-n", "20"), ("frequency-khz", "10000"), ("no-load-speed-rpm", "10000")]);
         let unmet = agreeing(&unknown, &Cancel::new()).unwrap().unmet.pop().unwrap();
         assert!(unmet.ends_with("not known."), "{unmet}");
-        // Pressed on so heavily that all teeth touch, torque and speed depend on both.
+        // Under a load so heavy that all teeth touch, torque and speed depend on both.
         let heavy = with(&[
             ("diameter-mm", "68.57"),
             ("frequency-khz", "75.08"),

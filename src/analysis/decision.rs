@@ -1,4 +1,4 @@
-//! The decisions of a plan in words: how each part of the model is solved, and why; and how exactly.
+//! The decisions of a plan in words: how each part of the model is solved, and why; and how accurate the solve is.
 
 use crate::digits::{percent, short, significant};
 use crate::plan::{Choice, Decision, Weighed};
@@ -7,7 +7,7 @@ use crate::solution::Model;
 use crate::solve::{Method, Settings};
 use std::time::Duration;
 
-/// How exactly something is solved, from the name of its fidelity in results: `fidelity fine`, `accuracy 0.1 %`.
+/// The accuracy of a solve in words, from the name of its fidelity in results: `fidelity fine`, `accuracy 0.1 %`.
 pub fn exactness(fidelity: &str) -> String {
     match fidelity.strip_suffix('%') {
         Some(accuracy) => format!("accuracy {accuracy} %"),
@@ -15,7 +15,7 @@ pub fn exactness(fidelity: &str) -> String {
     }
 }
 
-/// How exactly all solves of a command are done, for titles: `fidelity reference, in at most 2ms a solve`.
+/// The accuracy of all solves of a command in words, for titles: `fidelity reference, in at most 2ms a solve`.
 pub fn effort(settings: &Settings, budget: Option<Duration>) -> String {
     match (settings.method, budget) {
         (Method::Paper, _) => "the paper's algorithm".to_owned(),
@@ -30,7 +30,7 @@ pub fn sentences(model: &Model) -> Vec<String> {
     decided.chain(model.remarks.iter().cloned()).collect()
 }
 
-/// The part of the model that was decided about: "wedge term".
+/// The part of the model that the decision is about: "wedge term".
 pub fn term(decision: &Decision) -> &'static str {
     match decision.chosen {
         Choice::Time(_) => "leakage",

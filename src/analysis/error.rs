@@ -1,15 +1,16 @@
-//! Why an analysis of a scene is not made.
+//! Why an analysis of a scene cannot be made.
 
 use crate::scene::{SceneError, nearest, show_text};
 use crate::solve::SolveError;
 
-/// Why there is no sweep, comparison, fit, optimum or sensitivity. Found before anything is solved, but for errors of the solver and the last.
+/// Why there is no sweep, comparison, fit, optimum or sensitivity. All errors except those of the solver and of a search are found before
+/// anything is solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AnalysisError {
     /// Invalid request, or a table that cannot be used: the option, key or line, its value, and what is allowed.
     #[error("{0}")]
     Input(String),
-    /// Invalid fields of what is swept.
+    /// Invalid fields of the form of a sweep.
     #[error("{told}")]
     Field {
         /// Message for the command line, as [`Self::Input`].
@@ -23,13 +24,13 @@ pub enum AnalysisError {
     /// The solver: a method that does not apply, more memory than is allowed, or a scene that cannot be solved.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// A search that found nothing, and why.
+    /// A search found nothing; the reason.
     #[error("{0}")]
     Search(String),
 }
 
 impl AnalysisError {
-    /// The fault of a name that results of the scene do not have, given for `option`; `allowed`: those that they have, separated by commas.
+    /// The error for a name that no result of the scene has, given for `option`; `allowed` is the names that exist, separated by commas.
     pub fn no_such_number(option: &str, name: &str, allowed: &str) -> Self {
         let allowed = match nearest(name, allowed.split(", ")) {
             Some(near) => format!("did you mean {near}? Allowed: {allowed}"),
@@ -38,7 +39,7 @@ impl AnalysisError {
         Self::Input(format!("{option} {}: no such number; {allowed}", show_text(name)))
     }
 
-    /// Whether the input asked for what is not allowed.
+    /// Whether the input is at fault.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Solve(error) => error.is_bad_input(),
@@ -47,7 +48,7 @@ impl AnalysisError {
         }
     }
 
-    /// Message for display beside the fields of the key, which it need not name.
+    /// The message for display beside the fields of the key, without the key if possible.
     pub fn in_place(&self) -> String {
         match self {
             Self::Field { in_place, .. } => in_place.clone(),

@@ -1,4 +1,4 @@
-//! A solved plate beside what is known exactly: both limits of the squeeze number, small amplitudes, and the invariant.
+//! A solved plate beside exact results: both limits of the squeeze number, small amplitudes, and the invariant.
 //!
 //! The load is compared by its first harmonic. With the gap h = h₀(1 + ε cos τ) and the plate's area A,
 //!
@@ -21,12 +21,12 @@ use crate::solution::PlateResult;
 use std::f64::consts::TAU;
 use std::ops::Mul;
 
-/// Samples of a cycle for exact means: spectrally accurate.
+/// Samples of a cycle for exact means, which converge spectrally.
 const SAMPLES: usize = 1024;
-/// Least shares of the load's mean error over the cycle that spring and damping have (calibrated: docs/validation.md).
+/// Least errors of spring and damping, as shares of the mean error of the load over the cycle (calibrated: docs/validation.md).
 const SPRING_SHARE: f64 = 1.4;
 const DAMPING_SHARE: f64 = 0.4;
-/// Damping over spring below which the gas was taken for trapped: rounding.
+/// Ratio of damping to spring below which the solve took the gas as trapped; the rest is rounding.
 const IN_PHASE: f64 = 1e-9;
 
 /// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist. Or the same over the
@@ -54,17 +54,17 @@ impl Harmonic<f64> {
     }
 }
 
-/// Unit names of stiffness and damping of a plate; those of a strip are per metre of width.
+/// Unit names of stiffness and damping of a plate; for a strip they are per metre of width.
 pub fn units(plate: &Plate) -> [&'static str; 2] {
     if plate.is_strip() { ["N/m²", "N·s/m²"] } else { ["N/m", "N·s/m"] }
 }
 
-/// A solved plate beside what is known exactly.
+/// A solved plate beside exact results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExactComparison {
-    /// σ/Q, Q = 1 + 6m for first-order slip: what the linear film depends on.
+    /// σ/Q, with Q = 1 + 6m for first-order slip: the number on which the linear film depends.
     pub effective_squeeze_number: f64,
-    /// Of the solved load, extrapolated; `None` if nothing vibrates.
+    /// For the solved load, extrapolated; `None` if nothing vibrates.
     pub solved: Option<Harmonic<Estimate>>,
     /// Exact for ε → 0.
     pub linear: Harmonic<f64>,
@@ -78,9 +78,9 @@ pub struct ExactComparison {
     pub invariant_deviation: Option<f64>,
     /// Load over the cycle \[N, of a strip N/m\], at the frames of the recording, for σ → ∞: gas that cannot leave within a cycle, Boyle's law.
     pub boyle: Vec<f64>,
-    /// Likewise for σ → 0: gas that is not compressed.
+    /// As `boyle`, for σ → 0: gas that is not compressed.
     pub viscous: Vec<f64>,
-    /// The greatest of that, also between frames.
+    /// The greatest viscous load, also between frames.
     pub greatest_viscous: f64,
 }
 
@@ -90,7 +90,7 @@ impl ExactComparison {
         self.solved.map(|solved| solved.times(self.unit))
     }
 
-    /// Of a solve of `plate`, its numbers and its fields.
+    /// The comparison for a solve of `plate`, from its numbers and its fields.
     pub fn of(plate: &Plate, result: &PlateResult, recording: &Recording) -> Self {
         let film_load = result.film_load;
         let force = plate.gas.ambient_pressure * plate.area();
@@ -125,7 +125,7 @@ fn viscous_load(plate: &Plate, phase: f64) -> f64 {
     viscous_force(plate, plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin())
 }
 
-/// The greatest of these loads: while the plate approaches there is one peak.
+/// The greatest of these loads; there is one peak, while the plate approaches.
 fn greatest_viscous(plate: &Plate) -> f64 {
     let (mut low, mut high) = (0.0, 0.5);
     while high - low > 1e-9 {
@@ -151,12 +151,12 @@ pub fn solved(plate: &Plate, result: &PlateResult, recording: &Recording) -> Opt
     };
     (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
         let (mut spring, mut damping) = (of(0, SPRING_SHARE), of(1, DAMPING_SHARE));
-        // As far as the load is one peak, its first harmonic is twice its mean.
+        // If the load is one peak, its first harmonic is twice its mean.
         let peak = result.film_load * (2.0 / scale);
         let share = (peak.value.abs() / spring.value.abs().max(f64::MIN_POSITIVE)).min(1.0);
         spring.error = spring.error.max(share * peak.error);
         if damping.value.abs() < IN_PHASE * spring.value.abs() {
-            // What leaks, which is left out, damps, and softens the spring by as much: at no amplitude more than at a small one.
+            // The neglected leakage causes damping, and softens the spring by as much; the effect is greatest at a small amplitude.
             let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;
             spring.error += leaks * spring.value.abs();
             damping.error += leaks;
@@ -165,7 +165,7 @@ pub fn solved(plate: &Plate, result: &PlateResult, recording: &Recording) -> Opt
     })
 }
 
-/// σ/Q about which spring and damping of a small amplitude are alike.
+/// σ/Q at which spring and damping of a small amplitude are about equal.
 pub fn crossover(outline: Outline) -> f64 {
     match outline {
         Outline::Strip | Outline::Ring { .. } => 10.0,

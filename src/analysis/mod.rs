@@ -1,7 +1,7 @@
-//! Analyses built on solves: parameter sweeps, error against time, where a method fails, published results beside
-//! computed ones, and the meaning of the numbers in words.
+//! Analyses built on solves: parameter sweeps, error against time, maps of where a method fails, published results beside computed ones,
+//! and explanations of the numbers in words.
 //!
-//! Plain data out. No file, no terminal; where time is what is measured, the caller hands in the clock.
+//! They return plain data and use no files and no terminal; where time is measured, the caller passes the clock.
 
 pub mod attempt;
 pub mod compare;

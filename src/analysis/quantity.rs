@@ -7,8 +7,8 @@ use crate::problem::{Plate, Problem, Scenario, rpm};
 use crate::scene::Belongs;
 use crate::solution::{Outcome, PlateResult, Solution, Status, settled};
 
-/// An enum of numbers, and those of them that are known. Of each its variant, name, what it is, its unit, the scenes that have it, and
-/// whatever else is to be known of it.
+/// Defines an enum of numbers, and a struct of those that are known. Each number has its variant, name, description, unit, the scenes that
+/// have it, and possibly more.
 macro_rules! numbers {
     ($(#[$about:meta])* $Enum:ident, $(#[$all:meta])* $Known:ident: $More:ty;
      $($variant:ident $name:literal $words:literal $unit:literal $belongs:ident $($more:expr)?;)*) => {
@@ -42,7 +42,7 @@ macro_rules! numbers {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $Known([Option<f64>; TABLE.len()]);
 
-        /// In bytes: all of them in order.
+        /// Serialised as all numbers in order.
         impl serde::Serialize for $Known {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
                 self.0[..].serialize(to)
@@ -69,7 +69,7 @@ macro_rules! numbers {
                 self.0[number as usize]
             }
 
-            /// Sets one of them; a value that is not finite removes it.
+            /// Sets one of them; a non-finite value removes it.
             pub fn set(&mut self, number: $Enum, value: f64) {
                 self.0[number as usize] = value.is_finite().then_some(value);
             }
@@ -82,7 +82,7 @@ numbers! {
     /// One number of a solve. Units are in the names; those of a strip's forces are per metre of width. Errors are estimated numerical
     /// errors, absolute.
     Quantity,
-    /// All numbers of one solve. What a scene does not have, and what is not finite, is not there.
+    /// All numbers of one solve. Numbers that the scene does not have, or that are not finite, are absent.
     Numbers: ();
     Alpha "alpha" "film share of the load α" "" Motor;
     AlphaError "alpha_error" "error of α" "" Motor;
@@ -142,10 +142,10 @@ numbers! {
 use Quantity::*;
 
 impl Quantity {
-    /// The headline result: the first of these that the result has.
+    /// The headline numbers; the headline of a result is the first of these that it has.
     pub const HEADLINES: [Self; 3] = [Alpha, MeanGap, LoadRatio];
 
-    /// Those that a scene of this problem has.
+    /// The quantities that a scene of this problem has.
     pub fn of(problem: &Problem) -> impl Iterator<Item = Self> {
         let belongs = match problem.scenario {
             Scenario::Motor(_) => Belongs::Motor,
@@ -171,12 +171,12 @@ impl Quantity {
         TABLE[self as usize].3
     }
 
-    /// For the head of a table: what it is, with its unit after a comma.
+    /// The description with the unit after a comma, for the head of a table.
     pub fn label(self, problem: &Problem) -> String {
         labelled(self.words(), self.unit(problem))
     }
 
-    /// The name in the columns of a CSV file: as [`Self::name`], but for the forces of a strip, `film_load_n_per_m`.
+    /// The name of the column in a CSV file: [`Self::name`], except for the forces of a strip, `film_load_n_per_m`.
     pub fn column(self, problem: &Problem) -> String {
         match (self.name().strip_suffix("_n"), self.unit(problem)) {
             (Some(_), "N/m") => format!("{}_per_m", self.name()),
@@ -184,7 +184,7 @@ impl Quantity {
         }
     }
 
-    /// Text for people: the value with its error, if it has one; a count as a whole number; empty if unknown.
+    /// Text for people: the value with its error, if there is one; a count as a whole number; empty if unknown.
     pub fn text(self, found: Option<Estimate>) -> String {
         match found {
             None => String::new(),
@@ -194,7 +194,7 @@ impl Quantity {
         }
     }
 
-    /// Whether it is a part of something whole.
+    /// Whether it is a share of a whole.
     pub fn is_share(self) -> bool {
         matches!(self, Alpha | MaxEfficiency)
     }
@@ -204,7 +204,7 @@ impl Quantity {
         matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)
     }
 
-    /// Whether it is the estimated numerical error of another one, which the table has before it.
+    /// Whether it is the estimated numerical error of another quantity, which comes before it in the table.
     pub fn is_error(self) -> bool {
         self.name().contains("_error")
     }
@@ -212,7 +212,7 @@ impl Quantity {
     /// The quantity that is this one's estimated numerical error, if it has one.
     pub fn error(self) -> Option<Self> {
         match self {
-            // The load is shared: what one has too much the other has too little.
+            // Film and contact share the load: if one is too large, the other is too small by as much.
             ContactLoad => Some(FilmLoadError),
             _ if self.is_error() => None,
             _ => TABLE.get(self as usize + 1).map(|next| next.0).filter(|next| next.is_error()),
@@ -234,7 +234,7 @@ pub fn labelled(words: &str, unit: &str) -> String {
 }
 
 impl Numbers {
-    /// One of them with its estimated numerical error, which is not a number if none is known.
+    /// One of them with its estimated numerical error, which is NaN if it is not known.
     pub fn estimate(&self, number: Quantity) -> Option<Estimate> {
         let error = number.error().and_then(|error| self.get(error)).unwrap_or(f64::NAN);
         self.get(number).map(|value| Estimate { value, error })
@@ -245,7 +245,7 @@ impl Numbers {
         number.text(self.estimate(number))
     }
 
-    /// Of a solution of `problem`.
+    /// The numbers of a solution of `problem`.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let problem = &*settled(problem, &solution.outcome);
         let mut numbers = Self::of_outcome(problem, &solution.outcome);
@@ -274,7 +274,7 @@ impl Numbers {
         numbers
     }
 
-    /// Those of a result of `problem` that are means and extremes over a cycle.
+    /// The means and extremes over a cycle in a result of `problem`.
     pub fn of_outcome(problem: &Problem, outcome: &Outcome) -> Self {
         let mut numbers = Self::default();
         match (&problem.scenario, outcome) {
@@ -290,18 +290,18 @@ impl Numbers {
                 (MaxPressure, result.max_pressure * 1e-3),
             ]),
             (Scenario::Plate(plate), Outcome::Plate(result)) => numbers.plate(result, plate),
-            // A solver answers in kind.
+            // A solver returns the kind of result that belongs to the scene.
             (Scenario::Motor(_), Outcome::Plate(_)) => {}
         }
         numbers
     }
 
-    /// The number that says most of a result: α of a motor, the mean load ratio of a plate; not a number if neither is known.
+    /// The main number of a result: α of a motor, the mean load ratio of a plate; NaN if neither is known.
     pub fn main(&self) -> Estimate {
         self.known(if self.get(Alpha).is_some() { Alpha } else { LoadRatio })
     }
 
-    /// One of them with its error; not a number if it is not known.
+    /// One of them with its error; NaN if it is not known.
     pub fn known(&self, number: Quantity) -> Estimate {
         self.estimate(number).unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
     }
@@ -352,7 +352,7 @@ mod tests {
     fn the_table_is_in_the_order_of_the_enum() {
         for (i, quantity) in Quantity::all().enumerate() {
             assert_eq!(quantity as usize, i);
-            // Every error is that of the number before it, and of no other but the contact load.
+            // Every error belongs to the number before it; only the contact load shares an error.
             let of: Vec<Quantity> = Quantity::all().filter(|of| of.error() == Some(quantity)).collect();
             match quantity {
                 FilmLoadError => assert_eq!(of, [FilmLoad, ContactLoad]),

@@ -11,13 +11,13 @@ use std::f64::consts::SQRT_2;
 
 /// A share of the load, or of ambient pressure times area, below which a film hardly matters.
 const HARDLY: f64 = 1e-3;
-/// No film has an effect as small as this.
+/// The effect of any film is larger than this.
 const NOTHING: f64 = 1e-6;
-/// Least gap over the mean one of a plate below which its film is told where it is closest, too.
+/// If the least gap of a plate is below this share of the mean gap, the film at the least gap is described, too.
 const CLOSE: f64 = 0.5;
 
-/// The regime of the film in words, spring or damper: how far from its edges gas leaks in a cycle, compared with its shorter side. For a
-/// rotor that floats, where the film is thinnest, since it never has the minimum spacing.
+/// The regime of the film in words, spring or damper: the distance from the edges within which gas leaks in a cycle, compared with the
+/// shorter side. For a rotor that floats, this is where the film is thinnest, because it never has the minimum spacing.
 pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
     if let (Scenario::Motor(motor), Outcome::Motor(result @ MotorResult { levitated: true, .. })) =
         (&problem.scenario, outcome)
@@ -33,7 +33,7 @@ pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
 fn leaks(problem: &Problem) -> String {
     let (says, is) = film(problem);
     let Scenario::Plate(plate) = &problem.scenario else { return format!("in a cycle gas {says}: {is}") };
-    // A plate that vibrates widely spends part of the cycle at another squeeze number.
+    // A plate with a large amplitude has a different squeeze number during part of the cycle.
     let least = plate.mean_gap - plate.amplitude;
     let scenario = Scenario::Plate(Plate { mean_gap: least, amplitude: 0.0, ..plate.clone() });
     match film(&Problem { scenario, ..problem.clone() }) {
@@ -59,7 +59,7 @@ fn film(problem: &Problem) -> (String, &'static str) {
     }
 }
 
-/// Whether the film matters here: what it carries.
+/// Whether the film matters here, by the load that it carries.
 pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
     let (Estimate { value: share, error }, of, rest) = match (&problem.scenario, outcome) {
         (Scenario::Motor(_), Outcome::Motor(result)) if result.levitated => {
@@ -70,10 +70,10 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
             let of = if plate.is_strip() { "p_a × length" } else { "p_a × area" };
             (result.film_load * PlateResult::ratio(1.0, plate), of, " in the mean")
         }
-        // A solver answers in kind.
+        // A solver returns the kind of result that belongs to the scene.
         _ => return String::new(),
     };
-    // Nearly all is not all.
+    // A share of nearly 100 % is not rounded to 100 %.
     let percent = match 100.0 * share.abs() {
         percent if percent > 99.0 && percent < 100.0 => format!("{} %", as_given(100.0 - rounded(100.0 - percent, 2))),
         percent => format!("{} %", rounded(percent, 2)),
@@ -108,7 +108,7 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
     }
 }
 
-/// Meaning of the Knudsen number in words, and where in the film it holds.
+/// Meaning of the Knudsen number in words, and the place in the film for which it holds.
 pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
     let at = match (&problem.scenario, outcome) {
         (_, Outcome::Motor(MotorResult { levitated: true, .. })) => {
@@ -155,14 +155,14 @@ mod tests {
             (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load, and contact the rest"),
             (4e-7, 1e-6, "here its load cannot be distinguished from zero"),
             (-0.002, 0.0021, "here its load cannot be distinguished from zero"),
-            (-0.02, 0.002, "here it sucks: its mean pressure is below ambient, and it pulls with 2 % of the load"),
+            (-0.02, 0.002, "here its mean pressure is below ambient: it pulls the faces together with 2 % of the load"),
             (f64::NAN, 0.0, "what it carries here is not known"),
         ] {
             assert_eq!(words(alpha, error, &[]), said);
         }
         let fast = [("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", "10000")];
         assert!(words(-0.02, 0.002, &fast).contains("beyond the speed of sound"));
-        assert!(!words(0.02, 0.002, &fast).contains("sucks"));
+        assert!(!words(0.02, 0.002, &fast).contains("pulls"));
     }
 
     #[test]
@@ -193,13 +193,13 @@ mod tests {
             MotorResult { levitated: true, min_film_thickness: Estimate::exact(749e-9), ..MotorResult::default() };
         let words = squeeze(&floating, &Outcome::Motor(result));
         assert!(words.starts_with("where the film is thinnest, 749 nm,") && words.contains("within 65 µm"), "{words}");
-        // A plate that nearly touches is a damper only while it is away.
+        // A plate that nearly touches is a damper only during the part of the cycle when it is far away.
         let words = said(&strip, "plate.amplitude_um", "0.4999");
         assert!(words.ends_with("the film is a spring") && !words.contains("closest"), "{words}");
         let slow = Scene::plate().with([("plate.frequency_khz", "0.003"), ("plate.amplitude_um", "0.99")]).unwrap();
         let words = said(&slow, "plate.length_mm", "1");
         assert!(words.contains("a damper; where it is closest, gas leaks within"), "{words}");
-        // A narrow rectangle leaks along its length.
+        // In a narrow rectangle, gas leaks along the whole length.
         assert!(said(&strip, "plate.width_mm", "0.1").contains("both spring and damper"));
     }
 

@@ -27,21 +27,21 @@ pub const FIELDS: [(u32, &str, &str); 7] = [
     (12, "tooth-radius-3m", "teeth radius = 3 m"),
 ];
 
-/// Frequencies of Fig. 10 \[kHz\]: from and to, and how many of equal ratio.
+/// Frequencies of Fig. 10 \[kHz\]: first, last, and their number; they have equal ratios.
 const FREQUENCIES: (f64, f64, usize) = (2.0, 120.0, 28);
-/// How much softer the softer rotor is.
+/// Factor by which the softer rotor is more compliant.
 pub const SOFTER: f64 = 1.2;
 
-/// One scene by both methods.
+/// One scene, solved by both methods.
 #[derive(Clone, Debug)]
 pub struct Both {
     /// The scene, as converged: without meshes of its own.
     pub scene: Scene,
     /// The scene, checked and in SI units.
     pub problem: Problem,
-    /// By the paper's algorithm on its own meshes, or why not.
+    /// The result of the paper's algorithm on its own meshes, or why there is none.
     pub paper: Result<Solution, String>,
-    /// Converged, or why not.
+    /// The converged result, or why there is none.
     pub ours: Result<Solution, String>,
 }
 
@@ -91,7 +91,7 @@ impl Reproduction {
         self.rows.iter().find(|row| row.published.preset == preset)
     }
 
-    /// How many solves ended without a cycle that repeats.
+    /// Number of solves that ended without a cycle that repeats.
     pub fn unsolved(&self) -> usize {
         let both = self.rows.iter().map(|row| &row.both).chain([&self.no_sliding, &self.softer]);
         let sound = |solved: &Result<Solution, String>| solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
@@ -105,11 +105,11 @@ pub fn number_of_solves() -> usize {
     2 * (published().len() + 2) + FREQUENCIES.2
 }
 
-/// Solves everything, several at a time on rayon's pool; the results do not depend on how many. `finished` is told after
-/// each solve, from whichever thread.
+/// Solves everything, several at a time on rayon's pool; the results do not depend on the number of threads. `finished` is called after
+/// each solve, on any thread.
 ///
 /// # Errors
-/// None of the built-in presets has any; a test reads them all.
+/// None, because the built-in presets have none; a test reads them all.
 pub fn reproduce(
     settings: &Settings,
     cancel: &Cancel,
@@ -127,7 +127,7 @@ pub fn reproduce(
     let softer =
         fundamental.with(["rotor.point_compliance_um_per_n", "rotor.local_compliance_m2_per_n"].map(softer))?;
     scenes.extend([no_sliding.clone(), softer.clone()]);
-    // What is solved: by the paper's method or ours, and what of it is kept.
+    // What is solved, by which method, and what of the result is kept.
     let mut work: Vec<(Problem, Settings)> = Vec::new();
     for scene in &mut scenes {
         let shown = FIELDS.iter().any(|(_, preset, _)| presets::find(preset).as_ref() == Ok(&*scene));
@@ -145,7 +145,7 @@ pub fn reproduce(
         work.push((Problem::try_from(&scene)?, Settings { record: Record::Numbers, ..ours }));
     }
 
-    // The longest first, one by one to whoever is free: the pool is busy to the end.
+    // The longest solves come first, and each free thread takes the next one, so that the pool is busy to the end.
     let mut order: Vec<_> = work.iter().enumerate().collect();
     let nodes = |problem: &Problem| problem.numerics.film_nodes_along.unwrap_or(0);
     order.sort_by_key(|(_, (problem, settings))| (settings.method == Method::Auto, Reverse(nodes(problem))));
@@ -158,7 +158,7 @@ pub fn reproduce(
     let mut solved = solved.into_values();
     let mut next = || solved.next().unwrap_or_else(|| Err("not solved".to_owned()));
 
-    // In the order in which they were put there.
+    // The results come in the order in which the solves were listed.
     let mut pair = |scene: Scene| -> Result<Both, SceneError> {
         let (paper, ours) = (next(), next());
         Ok(Both { problem: Problem::try_from(&scene)?, scene, paper, ours })

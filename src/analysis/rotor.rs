@@ -1,4 +1,4 @@
-//! A rotor by itself: its compliance beside those of other models, its Green's function, and of a ring how the load bends it.
+//! A rotor by itself: its compliance beside that of other models, its Green's function, and for a ring its deformation under the load.
 
 use crate::budget;
 use crate::control::Cancel;
@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Harmonics that are shown, and that the Green's function is the sum of: those of the paper's 180 nodes in a wavelength.
+/// Number of harmonics that are shown and summed in the Green's function: those of the paper's 180 nodes in a wavelength.
 const HARMONICS: usize = 90;
-/// Harmonics of the load that bend the section as it is drawn.
+/// Number of harmonics of the load in the drawing of the deformed section.
 const BENDING: u32 = 4;
 
 /// Name of the present model.
 const PRESENT: &str = "present rotor";
-/// The models beside it: name of each, and value of `rotor.model`.
+/// The models for comparison: name of each, and value of `rotor.model`.
 const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of preset ring-rotor", "ring")];
 
 /// One model of the rotor.
@@ -28,26 +28,26 @@ pub struct Curve {
     pub name: Cow<'static, str>,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub compliance: Vec<f64>,
-    /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out) at the nodes of the paper's mesh, λ/180 apart,
-    /// from 0 to half the wavelength. The force is spread over one node's share, and so is what it presses in locally.
+    /// Points (x \[m\], deflection \[m/N\] under a unit force in every wavelength, without the mean) at the nodes of the paper's mesh,
+    /// λ/180 apart, from 0 to half the wavelength. The force is spread over the length of one node, and so is the local deformation.
     pub green: Vec<[f64; 2]>,
 }
 
-/// The cross-section of a ring, its mesh, and how each harmonic of a line load bends it.
+/// The cross-section of a ring, its mesh, and its deformation by each harmonic of a line load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bent {
     /// The section.
     pub section: Section,
     /// Its mesh.
     pub mesh: Mesh,
-    /// How a unit line load of the harmonics n = 1, 2, … bends it.
+    /// The deformation by a unit line load of the harmonics n = 1, 2, ….
     pub harmonics: Vec<Deflection>,
 }
 
 /// Compliance, deflection and resonances of a rotor, its compliance beside that of other models.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RotorCurves {
-    /// The present model, and then the others that have the same wave: the beam fitted to Table I and the ring of the preset.
+    /// The present model, followed by the other models with the same wave: the beam fitted to Table I and the ring of the preset.
     pub curves: Vec<Curve>,
     /// Estimated error of the present model's deflection under a point load, relative.
     pub relative_error: f64,
@@ -58,7 +58,7 @@ pub struct RotorCurves {
 }
 
 impl RotorCurves {
-    /// Of the rotor of `motor`; `None` if cancelled.
+    /// The curves for the rotor of `motor`; `None` if cancelled.
     pub fn of(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
         match Self::computed(motor, cancel) {
             Err(error) if error.is_cancelled() => Ok(None),
@@ -73,7 +73,7 @@ impl RotorCurves {
             if cancel.is_cancelled() {
                 return Ok(None);
             }
-            // One that the stator does not touch, since the wave is elsewhere, is left out.
+            // A ring that the stator does not touch, because the wave is elsewhere, is left out.
             let other = reference(model).filter(|other| *other != motor.rotor);
             let other = other.and_then(|rotor| rotor.resolve(&motor.wave(), HARMONICS, cancel).ok());
             curves.extend(other.map(|found| curve(name, &found)));
@@ -94,7 +94,7 @@ impl RotorCurves {
     }
 }
 
-/// The rotor of a motor with every key at its default but for the model.
+/// The rotor of a motor with default values of all keys except the model.
 fn reference(model: &str) -> Option<RotorCompliance> {
     let scene = Scene::motor().with([("rotor.model", model)]).ok()?;
     Some(Problem::try_from(&scene).ok()?.scenario.motor()?.rotor.clone())
@@ -114,7 +114,7 @@ fn curve(name: &'static str, rotor: &Compliances) -> Curve {
 }
 
 impl Bent {
-    /// Displacement (u_r, u_z) \[m\] of each node, above the place that the first harmonic of the load on the rotor presses most at `frame`.
+    /// Displacement (u_r, u_z) \[m\] of each node, at the place where the first harmonic of the load on the rotor is greatest at `frame`.
     pub fn under(&self, loads: &LineLoads, frame: usize) -> Vec<[f64; 2]> {
         let amplitudes: Vec<[f64; 2]> = (1..=self.harmonics.len()).map(|n| harmonic(loads, frame, n)).collect();
         let crest = amplitudes.first().map_or(0.0, |[cosine, sine]| sine.atan2(*cosine));
@@ -131,7 +131,7 @@ impl Bent {
     }
 }
 
-/// Cosine and sine amplitudes \[N/m\] of harmonic `n` of what film and contact press with at `frame`.
+/// Cosine and sine amplitudes \[N/m\] of harmonic `n` of the load by film and contact at `frame`.
 fn harmonic(loads: &LineLoads, frame: usize, n: usize) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for tooth in 0..loads.teeth {
@@ -155,7 +155,7 @@ mod tests {
     fn a_greens_function_is_the_beams() {
         let Scenario::Motor(motor) = Problem::try_from(&Scene::motor()).unwrap().scenario else { panic!("a motor") };
         let found = RotorCurves::of(&motor, &Cancel::new()).unwrap().unwrap();
-        // Beside itself the beam is not shown again.
+        // For a beam, the beam is not shown a second time.
         assert!(found.curves.iter().all(|curve| !curve.name.starts_with("beam")) && found.bent.is_none());
         let green = &found.curves[0].green;
         // Images a wavelength apart, the local compliance aside, from half the wavelength on: G(x) − G(x').

@@ -32,7 +32,7 @@ use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Results of a scene, and their derivatives by its keys.
+/// Results of a scene, and their derivatives with respect to its keys.
 #[derive(Debug)]
 pub struct Sensitivity {
     variation: Variation,
@@ -40,7 +40,7 @@ pub struct Sensitivity {
     pub settings: Settings,
     /// The problem.
     pub problem: Problem,
-    /// How the solve in the middle ended.
+    /// The status of the solve of the scene itself.
     pub status: Status,
     /// Warnings about that solve for the user.
     pub warnings: Vec<String>,
@@ -48,15 +48,15 @@ pub struct Sensitivity {
     pub outputs: &'static [Output],
     /// Their values, with their numerical errors; not finite where the scene has none.
     pub values: Vec<Estimate>,
-    /// Derivatives of all of them by each key.
+    /// Derivatives of all of them with respect to each key.
     pub columns: Vec<Column>,
-    /// The values without the finest grid.
+    /// The values extrapolated without the finest grid.
     coarse: Vec<Estimate>,
 }
 
 impl Sensitivity {
-    /// Of `scene` by `keys`, or by all that act if there are none. The solves run on rayon's pool; `solved` is told after each how many there
-    /// will be. `None` if cancelled.
+    /// The sensitivity of `scene` to `keys`, or to all keys that have an effect if there are none. The solves run on rayon's pool. `solved`
+    /// is called after each of them with the total number of solves. `None` if cancelled.
     ///
     /// # Errors
     /// [`AnalysisError`]: a key that has no derivative, or a scene that cannot be solved.
@@ -84,7 +84,7 @@ impl Sensitivity {
         &self.variation.scene
     }
 
-    /// Keys that act in the scene and are whole numbers, which have no derivative.
+    /// Keys of the scene that have an effect and are whole numbers, which have no derivative.
     pub fn whole(&self) -> Vec<&'static str> {
         let whole = |parameter: &&'static Parameter| {
             matches!(parameter.kind, ParameterKind::Whole { .. }) && parameter.table() != "numerics"
@@ -92,7 +92,8 @@ impl Sensitivity {
         self.scene().parameters().filter(whole).map(|parameter| parameter.key).collect()
     }
 
-    /// The derivative of an output by a key, in their units, with its estimated error; both by their place. `None` if it is not known.
+    /// The derivative of an output with respect to a key, in their units, with its estimated error; both are given by index. `None` if it
+    /// is not known.
     pub fn slope(&self, output: usize, column: usize) -> Option<Estimate> {
         self.column_slope(output, column).map(|slope| Estimate { value: slope.value, error: slope.error() })
     }
@@ -104,7 +105,7 @@ impl Sensitivity {
     pub fn elasticity(&self, output: usize, column: usize) -> Option<Estimate> {
         let (slope, scale) = (self.column_slope(output, column)?, self.columns[column].scale().unwrap_or(1.0));
         let Estimate { value, error } = self.values[output];
-        // An error that is not known hides nothing.
+        // An unknown error does not count here.
         let hidden = value == 0.0 || error >= value.abs();
         let of = |slope: f64, value: f64| slope * scale / value.abs();
         let found = of(slope.value, value);
@@ -121,7 +122,7 @@ impl Sensitivity {
         self.columns[column].slopes.as_ref().ok()?.get(output).filter(|slope| slope.value.is_finite())
     }
 
-    /// The standard deviation of an output that these of the keys make, to first order.
+    /// The standard deviation of an output that follows from those of the keys, to first order.
     pub fn propagated(&self, output: usize, uncertainties: &Uncertainties) -> Propagated {
         let (mut parts, mut unknown) = (Vec::new(), Vec::new());
         for (parameter, at, given) in uncertainties.iter() {
@@ -174,7 +175,7 @@ impl Sensitivity {
         cancel: &Cancel,
         solved: &(dyn Fn() + Sync),
     ) -> Option<MonteCarlo> {
-        // The gap at which a plate floats may be far from that in the middle: it is sought anew, and needs no centre.
+        // The gap at which a plate floats may be far from that of the scene itself: it is searched for again, without a starting point.
         let floats = self.problem.scenario.plate().is_some_and(|plate| plate.load.is_some());
         let centre = if floats { None } else { Some(Centre::new(&self.problem, &self.settings, cancel).ok()?) };
         let one = |number: usize| {
@@ -185,7 +186,7 @@ impl Sensitivity {
                 Ok((Draw { values, results: self.solve_draw(centre.as_ref(), &problem, cancel)? }, redrawn))
             });
             solved();
-            // What was being solved when it was cancelled is not.
+            // A solve that was cancelled does not count.
             (!cancel.is_cancelled()).then_some(found)
         };
         let found: Vec<_> = (0..draws).into_par_iter().filter_map(one).collect();
@@ -207,7 +208,7 @@ impl Sensitivity {
 
     fn solve_draw(&self, centre: Option<&Centre>, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
         let Some(centre) = centre else {
-            // Stiffness and damping follow from the lines.
+            // Stiffness and damping follow from the line fields.
             let settings = Settings { record: Record::Everything, ..self.settings };
             let found = told(|| solve(problem, &settings, &mut (), cancel))?;
             return if is_settled(found.status) {
@@ -221,7 +222,7 @@ impl Sensitivity {
     }
 }
 
-/// In bytes: all but what follows from the scene.
+/// Serialised without what follows from the scene.
 impl Serialize for Sensitivity {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { variation, settings, status, warnings, values, columns, coarse, .. } = self;
@@ -239,7 +240,7 @@ impl<'de> Deserialize<'de> for Sensitivity {
     }
 }
 
-/// Elasticities that differ by less are the same.
+/// Difference below which elasticities count as equal.
 const SAME: f64 = 1e-6;
 
 /// Bars of a tornado that are shorter than this share of the longest are left out.

@@ -1,7 +1,7 @@
-//! Where a method solves, and where it does not: maps of a motor's parameters to the edges of their ranges.
+//! Where a method solves and where it does not: maps over a motor's parameters, up to the ends of their ranges.
 //!
-//! Each cell of a map is one scene, solved by itself and judged: what a solver says of itself (converged or not), and
-//! what physics says of its numbers. Cells are solved on rayon's pool and do not depend on its threads.
+//! Each cell of a map is one scene, solved by itself and judged by the status that the solver reports and by whether its numbers are
+//! physically possible. Cells are solved on rayon's pool, and the results do not depend on the number of threads.
 
 use super::attempt::attempt;
 use super::quantity::Numbers;
@@ -20,14 +20,14 @@ use rayon::prelude::*;
 pub struct Map {
     /// Its name on the command line and in files.
     pub name: &'static str,
-    /// Key along x, and key along y: each from one edge of its range to the other, by equal ratios.
+    /// The keys along x and y. Each runs over its whole range, by equal ratios.
     pub axes: [&'static str; 2],
 }
 
 const SPACING: &str = "film.min_spacing_nm";
 const NODES: &str = "numerics.film_nodes_along";
 const STEPS: &str = "numerics.steps_per_cycle";
-/// Up to where a key is mapped, if not to the end of its range: a finer grid is no other problem but takes longer.
+/// The upper end of the map for a key, if it is not the end of the range: a finer grid is not a different problem, but takes longer.
 fn up_to(key: &str) -> Option<f64> {
     match key {
         STEPS => Some(720.0),
@@ -36,7 +36,7 @@ fn up_to(key: &str) -> Option<f64> {
     }
 }
 
-/// From zero by equal ratios: zero itself, and then this many decades below the other end.
+/// For a range from zero, by equal ratios: the first value is zero, the next is this many decades below the upper end.
 const DECADES_FROM_ZERO: i32 = 3;
 
 /// The maps.
@@ -49,12 +49,12 @@ pub const MAPS: [Map; 5] = [
 ];
 
 impl Map {
-    /// The map of a name.
+    /// The map with this name.
     pub fn find(name: &str) -> Option<&'static Self> {
         MAPS.iter().find(|map| map.name == name)
     }
 
-    /// The scene with the keys of the axes in place of other forms of them, such as the load on the whole ring.
+    /// The scene with the keys of the axes in place of alternative keys, such as the load on the whole ring.
     fn scene(&self, scene: &Scene) -> Result<Scene, SceneError> {
         let mut scene = scene.clone();
         for key in self.axes {
@@ -65,13 +65,13 @@ impl Map {
         Ok(scene)
     }
 
-    /// Why there is no such map of `scene`: the fault of a key of its axes that the scene does not have.
+    /// Why there is no such map for `scene`: the error for a key of its axes that the scene does not have.
     pub fn fault(&self, scene: &Scene) -> Option<SceneError> {
         self.scene(scene).err()
     }
 
-    /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` leaves the key. Fewer of a key
-    /// of whole numbers that has no more; none if the scene has no such map.
+    /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` allows for the key. There are fewer for a key of
+    /// whole numbers with a short range, and none if the scene has no such map.
     pub fn values(&self, axis: usize, scene: &Scene, count: usize) -> Vec<f64> {
         let key = self.axes[axis];
         let range = self.scene(scene).ok().and_then(|scene| scene.range(key));
@@ -90,7 +90,7 @@ impl Map {
         values
     }
 
-    /// Keys and values that make the scene of a cell. The other meshes scale with the nodes along a tooth.
+    /// Keys and values of the scene of a cell. The other meshes are scaled with the nodes along a tooth.
     fn changes(&self, values: [f64; 2]) -> Vec<(&'static str, f64)> {
         let mut changes = vec![(self.axes[0], values[0]), (self.axes[1], values[1])];
         if self.axes[0] == NODES {
@@ -105,11 +105,11 @@ impl Map {
 /// Outcome of a cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Converged, with numbers that can be.
+    /// Converged, with physically possible numbers.
     Solved,
-    /// A limit was reached first; the solver says so.
+    /// A limit was reached first, as the solver reports.
     NotConverged,
-    /// Converged, with numbers that cannot be.
+    /// Converged, with physically impossible numbers.
     NonPhysical,
     /// There is no solution, and why.
     Failed(String),
@@ -138,14 +138,14 @@ impl Verdict {
 /// The names of all verdicts.
 pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "failed", "refused"];
 
-/// Lengths and forces need not agree any better than this.
+/// Relative difference between lengths or forces that counts as round-off.
 const ROUND_OFF: f64 = 1e-9;
-/// Tolerance of a share of the load beside its stated error: no film has an effect as small as this.
+/// Tolerance of a share of the load, in addition to its stated error: the effect of any film is larger.
 const SHARE: f64 = 1e-6;
-/// Share of the load that film and contact may miss at an instant, beside the stated error.
+/// Share of the load by which film and contact may miss it at an instant, in addition to the stated error.
 const BALANCE: f64 = 2e-3;
 
-/// What cannot be of the numbers in a motor's solution, in words.
+/// What is physically impossible in a motor's solution, in words.
 fn violations(motor: &Motor, result: &MotorResult, recording: &Recording) -> Vec<String> {
     let numbers = [
         ("α", result.alpha.value),
@@ -162,7 +162,7 @@ fn violations(motor: &Motor, result: &MotorResult, recording: &Recording) -> Vec
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
         violations.push(format!("α = {alpha:.4} ± {error:.1e} is outside 0 … 1"));
     }
-    // One NaN makes the least value NaN, which is at fault everywhere.
+    // One NaN makes the least value NaN, which fails every comparison.
     let least =
         |values: &[f64]| values.iter().copied().fold(f64::INFINITY, |a, b| if a.is_nan() || b >= a { a } else { b });
     let pressure = least(&recording.pressure);
@@ -190,13 +190,13 @@ fn violations(motor: &Motor, result: &MotorResult, recording: &Recording) -> Vec
     violations
 }
 
-/// Verdict on a solve, and what cannot be of its numbers.
+/// The verdict on a solve, and what is physically impossible in its numbers.
 fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<String>) {
     let solution = match solved {
         Err(reason) => return (Verdict::Failed(reason.clone()), Vec::new()),
         Ok(solution) => solution,
     };
-    // A solver answers in kind.
+    // A solver returns the kind of result that belongs to the scene.
     let found = solution.outcome.motor().map(|result| violations(motor, result, &solution.recording));
     let violations = found.unwrap_or_default();
     let verdict = match solution.status {
@@ -215,20 +215,20 @@ pub struct Cell {
     pub map: &'static Map,
     /// How it was solved.
     pub method: Method,
-    /// Where it is: which value along x, and along y.
+    /// Its place: the index along x, and along y.
     pub place: [usize; 2],
     /// Keys and values that make its scene, those of the axes first.
     pub changes: Vec<(&'static str, f64)>,
     /// Verdict on its solve.
     pub verdict: Verdict,
-    /// What cannot be of its numbers, in words.
+    /// What is physically impossible in its numbers, in words.
     pub violations: Vec<String>,
     /// Its numbers; none if it failed or was refused.
     pub numbers: Numbers,
 }
 
 impl Cell {
-    /// The options of the command line that solve it by itself.
+    /// The options of the command line that solve this cell alone.
     pub fn options(&self) -> String {
         let mut options: Vec<String> = self.changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
         if self.method == Method::Paper {
@@ -238,16 +238,16 @@ impl Cell {
     }
 }
 
-/// Cycles after which the paper's method is stopped on its own mesh, and on finer ones in proportion: it has a limit of
-/// its own of 200 cycles, which where its rounds do not settle takes minutes.
+/// Number of cycles after which the paper's method is stopped on its own mesh; more on finer meshes, in proportion. The method's own limit
+/// of 200 cycles takes minutes if its rounds do not converge.
 const PAPER_CYCLES: usize = 60;
 const PAPER_WORK: usize = 51 * 11 * 180 * PAPER_CYCLES;
 const FEWEST_CYCLES: usize = 30;
-/// Where a cycle still changes by more than this after so many, the rounds do not settle, and none will.
+/// If a cycle still changes by more than this after so many cycles, the rounds will not converge.
 const ASTRAY: (usize, f64) = (12, 0.1);
 
-/// Solves cells, several at a time on rayon's pool, and returns them in their order; if it is cancelled, without those that were not reached.
-/// `finished` is told of each as it ends, from whichever thread. A cell that fails is a [`Cell`] that says so.
+/// Solves cells, several at a time on rayon's pool, and returns them in their order; if it is cancelled, without the cells that were not
+/// reached. `finished` is called after each cell, on any thread. A cell that fails has the reason in its verdict.
 pub fn survey(
     scene: &Scene,
     cells: Vec<Cell>,
@@ -255,7 +255,7 @@ pub fn survey(
     cancel: &Cancel,
     finished: &(dyn Fn(&Cell) + Sync),
 ) -> Vec<Cell> {
-    // One at a time: some cells take a thousand times as long as others.
+    // Each thread takes one cell at a time, because some cells take a thousand times as long as others.
     let solved = cells.into_par_iter().with_max_len(1).map(|cell| {
         let cell = solve_cell(scene, cell, settings, cancel)?;
         finished(&cell);
@@ -264,7 +264,7 @@ pub fn survey(
     solved.collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-/// The cells of maps of `scene`, `count` along each axis, by each method; yet to be solved. In the order of maps, methods, y and x.
+/// The cells of maps of `scene`, `count` along each axis, for each method, not solved yet. They are in the order of maps, methods, y and x.
 pub fn cells(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> Vec<Cell> {
     let mut cells = Vec::new();
     for map in maps {
@@ -300,7 +300,7 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
             return Some(cell);
         }
     };
-    // Its keys are those of a motor.
+    // The keys of a map are those of a motor.
     let motor = problem.scenario.motor()?;
     let cycles = most_cycles(&problem);
     let stop = Cancel::new();
@@ -348,7 +348,7 @@ mod tests {
         motor
     }
 
-    /// A solution in which all is well, and one change to it.
+    /// A valid solution with one change to it.
     fn solution(change: impl FnOnce(&mut Solution, &mut MotorResult)) -> Result<Solution, String> {
         let mut result = MotorResult {
             alpha: Estimate { value: 0.25, error: 1e-3 },
@@ -390,7 +390,7 @@ mod tests {
         assert_eq!(verdict(solution(|s, _| s.status = limit)).0, Verdict::NotConverged);
         assert_eq!(verdict(solution(|s, _| s.status = Status::Cancelled)).0, Verdict::NotConverged);
         assert_eq!(verdict(Err("no".to_owned())), (Verdict::Failed("no".to_owned()), vec![]));
-        // Within its error, a share may be a little out of range.
+        // A share may be out of range by less than its error.
         assert_eq!(verdict(solution(|_, r| r.alpha.value = 1.0005)).0, Verdict::Solved);
         type Change = fn(&mut Solution, &mut MotorResult);
         let [thin, thinner] = ["1.000e-7", "0.000e0"]

@@ -1,4 +1,4 @@
-//! The faces of a motor by themselves: what their asperities carry over the mean gap, and how easily gas flows through it.
+//! The faces of a motor by themselves: the contact pressure of their asperities and their flow factors, over the mean gap.
 
 use crate::problem::Motor;
 use crate::surface::Surface;
@@ -15,12 +15,12 @@ pub struct SurfaceCurves {
     pub contact: Vec<[f64; 2]>,
     /// `[film thickness [m], flow along x, flow across]`, as multiples of that between smooth faces.
     pub flow: Vec<[f64; 3]>,
-    /// Mean gap \[m\] and pressure \[Pa\] under the load spread evenly over the tooth tops.
+    /// Mean gap \[m\] and pressure \[Pa\] if the load is spread evenly over the tooth tops.
     pub even: Option<[f64; 2]>,
 }
 
 impl SurfaceCurves {
-    /// Of the faces of a motor.
+    /// The curves for the faces of a motor.
     pub fn of(motor: &Motor) -> Self {
         let Surface { asperities, flow } = motor.surface;
         let share = |i: usize| i as f64 / (POINTS - 1) as f64;

@@ -1,12 +1,12 @@
-//! One scene over values of one key, of two or of three: numbers only, no fields are kept.
+//! One scene for several values of one, two or three keys. Only numbers are kept, no fields.
 //!
-//! The points of a sweep are solved on rayon's pool, a chunk of neighbours at a time. Chunks follow from the points
-//! alone, so that the results do not depend on the number of threads, to the last bit, and each equals a single solve of
-//! its scene. A point that fails or does not converge says so in its row, and the others go on.
+//! The points of a sweep are solved on rayon's pool, in chunks of neighbours. The chunks depend only on the points, so the results do not
+//! depend on the number of threads, to the last bit, and each agrees with a single solve of its scene. A point that fails or does not
+//! converge has this in its row, and the others go on.
 //!
-//! A cancelled sweep keeps the rows it has; handed to [`Sweep::run`] again, it goes on with what is missing, and ends
-//! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep. A [`Part`] of it
-//! can be solved elsewhere: the rows of all parts are those of the whole.
+//! A cancelled sweep keeps its rows. When they are passed to [`Sweep::run`] again, it solves the missing points, and the result is the same
+//! as without the interruption. [`Sweep::fingerprint`] shows whether rows on disk belong to the same sweep. A [`Part`] of a sweep can be
+//! solved elsewhere; the rows of all parts are those of the whole.
 
 mod axis;
 mod part;
@@ -37,7 +37,7 @@ use std::time::Duration;
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepRow {
-    /// Which point, from 0; the last axis varies fastest.
+    /// The index of the point, from 0; the last axis varies fastest.
     pub point: usize,
     /// The value of each axis there.
     pub values: Vec<f64>,
@@ -70,11 +70,11 @@ pub struct Sweep {
     axes: Vec<Axis>,
     /// The first point that can be solved.
     first: Problem,
-    /// Time that each point may take, if it is limited: by the caller, whose flag ends each solve.
+    /// Time limit of each point, if there is one. The caller applies it, by the flag that ends each solve.
     pub budget: Option<Duration>,
 }
 
-/// In bytes a sweep is what it was made of.
+/// A sweep is serialised as the arguments that it was made of.
 impl Serialize for Sweep {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         (&self.scene, &self.vary, &self.settings).serialize(to)
@@ -89,29 +89,29 @@ impl<'de> Deserialize<'de> for Sweep {
 }
 
 impl Sweep {
-    /// A sweep of `scene` over one key, two or three. A key of whole numbers takes the nearest ones, each once. Points that break
-    /// a rule between keys become rows that say so.
+    /// A sweep of `scene` over one, two or three keys. For a key of whole numbers, the values are rounded, and each is used once. Points
+    /// that break a rule between keys become rows that say so.
     ///
     /// # Errors
-    /// [`AnalysisError`], which names the key, the value and what is allowed; if no point can be solved, that of the first.
+    /// [`AnalysisError`], with the key, the value and what is allowed; if no point can be solved, the error of the first.
     pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, AnalysisError> {
         Self::of_part(scene, vary, settings, Part::WHOLE)
     }
 
-    /// A sweep of which only one part is to be solved: only that part has to be small enough.
+    /// A sweep of which only one part is to be solved: the limit on the number of points applies to that part.
     pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, AnalysisError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
             let found = vary.len();
             return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_KEYS}")));
         }
-        // What a key may be depends on a choice that is varied beside it: temperatures are those of a gas.
+        // The range of a key may depend on a choice that is varied too: that of a temperature depends on the gas.
         let mut chosen = scene.clone();
         for Vary { key, values } in vary {
             if let Values::List(words) = values
                 && Parameter::find(key).is_some_and(|parameter| parameter.range().is_none())
                 && let Some(first) = words.first()
             {
-                // What is wrong with it is told of its axis.
+                // An error in its values is reported for its axis.
                 chosen.set(key, first).ok();
             }
         }
@@ -133,7 +133,7 @@ impl Sweep {
             return Err(AnalysisError::Field { told, in_place });
         }
         let at = |point: usize| solvable(scene, &axes, &values_at(&axes, point), settings);
-        // Of a larger sweep some points, which are those of every part.
+        // If the sweep is larger, a sample of points is checked, which is the same for every part.
         let mut others = (0..count(&axes)).step_by(count(&axes).div_ceil(MOST_POINTS)).skip(1);
         let first = at(0).or_else(|fault| others.find_map(|point| at(point).ok()).ok_or(fault))?;
         Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes, budget: None })
@@ -149,7 +149,7 @@ impl Sweep {
         &self.scene
     }
 
-    /// The name of that scene above a figure, with what was changed of it other than the keys that are varied.
+    /// The name of that scene above a figure, with the changes to it other than the varied keys.
     pub fn headline(&self) -> String {
         self.scene.headline_over(&self.axes.iter().map(|axis| axis.parameter).collect::<Vec<_>>())
     }
@@ -164,7 +164,7 @@ impl Sweep {
         &self.settings
     }
 
-    /// The problem of the first point that can be solved: all are of one kind.
+    /// The problem of the first point that can be solved; all points have the same kind of scene.
     pub fn problem(&self) -> &Problem {
         &self.first
     }
@@ -174,7 +174,7 @@ impl Sweep {
         count(&self.axes)
     }
 
-    /// Never: a sweep has points.
+    /// Always false: a sweep has points.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -206,7 +206,7 @@ impl Sweep {
         Quantity::of(self.problem()).collect()
     }
 
-    /// Hash as sixteen hexadecimal digits. It differs if anything differs that the results depend on: scene, axes, settings, budget or
+    /// A hash as sixteen hexadecimal digits. It changes with everything that the results depend on: scene, axes, settings, budget and
     /// version.
     pub fn fingerprint(&self) -> String {
         let method = self.settings.method;
@@ -239,20 +239,19 @@ impl Sweep {
         published_at(&self.scene, &keys).into_iter().filter(inside).collect()
     }
 
-    /// Solves every point that is not in `done`, several at a time on rayon's pool, and returns all rows there are, those
-    /// in `done` included, in the order of the points: if it was cancelled, fewer than [`Sweep::len`]. `finished` is
-    /// told of each new row, from whichever thread.
+    /// Solves every point that is not in `done`, several at a time on rayon's pool. Returns all rows, including those in `done`, in the
+    /// order of the points; there are fewer than [`Sweep::len`] if it was cancelled. `finished` is called for each new row, on any thread.
     pub fn run(&self, done: &[SweepRow], cancel: &Cancel, finished: &(dyn Fn(&SweepRow) + Sync)) -> Vec<SweepRow> {
         self.run_part(Part::WHOLE, done, cancel, finished)
     }
 
-    /// The points of a part. They begin and end where chunks do that are solved from one cold start, and so the parts together are
-    /// the whole, to the last bit. A part of a small sweep can be empty.
+    /// The points of a part. A part consists of whole chunks, each of which is solved from one cold start, so the parts together give the
+    /// same rows as the whole, to the last bit. A part of a small sweep can be empty.
     pub fn points_of(&self, part: Part) -> Range<usize> {
         part.points(&self.axes)
     }
 
-    /// As [`Sweep::run`], of the points of a part alone.
+    /// As [`Sweep::run`], but only for the points of a part.
     pub fn run_part(
         &self,
         part: Part,
@@ -291,9 +290,9 @@ impl Sweep {
 
     /// Solves the points of a chunk one after the other; ends early if cancelled.
     ///
-    /// The first point of a chunk starts cold, the others from their neighbour: fewer rounds, the same result to a fraction
-    /// of its stated error. A chunk that was cut short is solved again from its first point, so that neither threads nor
-    /// a cancelled run change a result.
+    /// The first point of a chunk starts cold, the others start from their neighbour: this takes fewer rounds, and the result is the same
+    /// to a fraction of its stated error. A chunk that was interrupted is solved again from its first point, so that neither threads nor a
+    /// cancelled run change a result.
     fn solve_chunk(&self, chunk: Range<usize>, cancel: &Cancel, finished: &dyn Fn(&SweepRow)) -> Vec<SweepRow> {
         let mut rows = Vec::new();
         let mut warm = Warm::default();
@@ -323,7 +322,7 @@ impl Sweep {
                     row.numbers = Numbers::of(&problem, &solution);
                     row.outside = validity::names(&validity::outside(&problem, &solution));
                 }
-                // A point that was cut short is no failure.
+                // A point that was interrupted is not a failure.
                 Err(_) if cancel.is_cancelled() => break,
                 Err(reason) => row.status = RunStatus::Failed(reason),
             }
@@ -361,7 +360,7 @@ pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
     let mut hash = FnvHasher::default();
     for text in texts {
         hash.write(text.as_bytes());
-        // Ends the text, as no byte of UTF-8 is this.
+        // This byte marks the end of a text, because UTF-8 never contains it.
         hash.write(&[0xff]);
     }
     format!("{:016x}", hash.finish())
@@ -439,7 +438,7 @@ mod tests {
         let slip = sweep("fundamental", &["film.slip=first-order,fukui-kaneko"]).unwrap();
         assert_eq!((slip.len(), slip.axes()[0].text(1.0).as_str()), (2, "fukui-kaneko"));
         assert_eq!(slip.scene_at(1).unwrap().get("film.slip").unwrap().to_string(), "fukui-kaneko");
-        // A temperature belongs to a gas, which the preset has not, and every point of this has.
+        // A temperature belongs to a gas; the preset names no gas, but every point of this sweep does.
         let gases = sweep("fundamental", &["film.temperature_c=0,50", "film.gas=air,helium"]).unwrap();
         assert_eq!(gases.scene_at(3).unwrap().get("film.temperature_c").unwrap().to_string(), "50");
         let spacing = sweep("fundamental", &["film.min_spacing_nm=300,100,200"]).unwrap();
@@ -461,7 +460,7 @@ mod tests {
         let RunStatus::Failed(reason) = &rows[2].status else { panic!("{rows:?}") };
         assert!(reason.contains("stator.tooth_width_mm = 1.7353 is out of range"), "{reason}");
         assert_eq!((rows.len(), &rows[0].status), (3, &RunStatus::Converged));
-        // A strip's forces are per metre: they do not stand in one column with those of a plate.
+        // A strip's forces are per metre, so they cannot be in one column with those of a plate.
         let strip = super::tests::sweep("plate-crossover", &["plate.width_mm=none,1"]).unwrap();
         let rows = strip.run(&[], &Cancel::new(), &|_| ());
         assert_eq!(

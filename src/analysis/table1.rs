@@ -1,4 +1,4 @@
-//! Table I of Maeno and Bogy (1992), row by row: published beside computed.
+//! Table I of Maeno and Bogy (1992), row by row, with published and computed values.
 //!
 //! With [`Method::Paper`] the rows are computed at the paper's own meshes. With [`Method::Auto`] they are
 //! mesh-converged: a row's `[numerics]` table is dropped, so that `doubled-mesh` is then the fundamental case again.
@@ -11,7 +11,7 @@ use crate::scene::{Scene, SceneError, presets};
 use crate::solution::MotorResult;
 use crate::solve::{Method, Settings};
 
-/// One row: what was published, and what came of it here.
+/// One row: the published values, and the computed ones.
 #[derive(Clone, Debug)]
 pub struct Table1Row {
     /// As published.
@@ -32,11 +32,11 @@ impl Table1Row {
     }
 }
 
-/// Solves the 14 rows, several at a time (on rayon's pool), in the paper's order. `changes` are made to every row's
-/// scene as by `--set`; `finished` is told of each run as it ends, from whichever thread.
+/// Solves the 14 rows, several at a time (on rayon's pool), in the paper's order. `changes` are applied to every row's scene as by `--set`;
+/// `finished` is called after each run, on any thread.
 ///
 /// # Errors
-/// Faults of `changes`, before anything is solved. A row that fails is a [`Table1Row`] that says so.
+/// Errors in `changes`, before anything is solved. A row that fails is a [`Table1Row`] that says so.
 pub fn rows(
     changes: &[(String, String)],
     settings: &Settings,
@@ -62,8 +62,8 @@ pub(super) fn scene_of(row: &PublishedRow, method: Method) -> Result<Scene, Scen
     Ok(scene)
 }
 
-/// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their
-/// meshes does not count: a published value stands for the model.
+/// Rows whose scene is `scene` except for `keys`, with their values of these keys. The descriptions and meshes of the rows are ignored,
+/// because a published value stands for the model.
 pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
     let mut points = Vec::new();
     for row in published() {
@@ -83,7 +83,7 @@ pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
     points
 }
 
-/// A published value, and where it lies on some keys.
+/// A published value, and its position on some keys.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Published {
     /// Name of the row.

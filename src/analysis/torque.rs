@@ -1,6 +1,6 @@
 //! Performance of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and without it.
 //!
-//! The pressures are those of the scene's rotor speed; what another speed changes is bounded, or solved where the bound is large
+//! The pressures are those at the scene's rotor speed. The effect of another speed is bounded, or solved for where the bound is large
 //! ([`TorqueCurves::speed_effect`]).
 
 use crate::control::Cancel;
@@ -16,9 +16,9 @@ use crate::solve::{Record, Settings, solve};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// An effect of the speed on the torque that is not worth a solve.
+/// An effect of the speed on the torque below which the bound is sufficient.
 const SMALL_EFFECT: f64 = 0.01;
-/// Speeds of a curve, equally spaced from rest to the stator's greatest speed; the distinguished ones come in addition.
+/// Number of speeds of a curve, equally spaced from rest to the stator's greatest speed; marked speeds are added.
 const SPEEDS: usize = 121;
 
 /// Performance of a motor over the rotor's speed, for the whole ring.
@@ -26,7 +26,7 @@ const SPEEDS: usize = 121;
 pub struct TorqueCurves {
     /// With the film.
     pub with_film: Performance,
-    /// The same motor in a vacuum: contact solved without gas.
+    /// The same motor without gas: the contact is solved in a vacuum.
     pub without_film: Performance,
     /// Contact radius \[m\], to convert surface speeds to rpm.
     pub radius: f64,
@@ -34,18 +34,18 @@ pub struct TorqueCurves {
     pub stator_speed: f64,
     /// The friction coefficient that a model without film needs for the same maximum operating torque, μ_d(1 − α).
     pub dry_equivalent: Estimate,
-    /// Mean power that the stator spends on squeezing the film \[W\].
+    /// Mean power that the stator needs to squeeze the film \[W\].
     pub film_power: Estimate,
-    /// Greatest torque of the film's own drag from rest to the stator's greatest speed \[N m\], signed. Without slip:
-    /// a bound of its size.
+    /// Greatest torque of the film's own drag from rest to the stator's greatest speed \[N m\], signed. It is an upper bound of its size,
+    /// because slip is neglected.
     pub viscous_drag: f64,
-    /// Bound of what the film's answer to another rotor speed changes, relative to the torque.
+    /// Bound of the relative change of the torque because the film changes with the rotor speed.
     pub speed_effect: f64,
 }
 
 impl TorqueCurves {
-    /// From a solve of a motor, and the contact without film, which is solved here on the grids that `fidelity` and the scene ask for, or if the
-    /// time for the solve was up, on those of the fidelity that it reached. `None` of a plate, and if cancelled.
+    /// From the solve of a motor, and from the contact without film, which is solved here. The grids are those of `fidelity` and the scene
+    /// or, if the solve ended at its time limit, of the fidelity that it reached. `None` for a plate, and if cancelled.
     ///
     /// # Errors
     /// [`MotorError`] if a contact problem without film has no solution to working precision.
@@ -83,14 +83,14 @@ impl TorqueCurves {
     }
 }
 
-/// With the film alone, from a solve of `motor`; the whole ring.
+/// The performance with the film alone, from a solve of `motor`; for the whole ring.
 pub fn with_film(motor: &Motor, result: &MotorResult, recording: &Recording) -> Performance {
     let scaled = Scaled::with_film(motor, result, recording);
     scaled.performance(&speeds(motor, &[scaled.no_load_speed()]))
 }
 
-/// Speeds of a curve \[m/s\], ascending: equally spaced from rest to the stator's greatest, those `marked` and that of the rotor. None if the
-/// stator does not move.
+/// Speeds of a curve \[m/s\], ascending: equally spaced from rest to the stator's greatest speed, with the `marked` speeds and that of the
+/// rotor. Empty if the stator does not move.
 fn speeds(motor: &Motor, marked: &[Option<f64>]) -> Vec<f64> {
     let v0 = motor.stator_speed();
     if v0 <= 0.0 {
@@ -100,13 +100,13 @@ fn speeds(motor: &Motor, marked: &[Option<f64>]) -> Vec<f64> {
     let marked = marked.iter().copied().flatten().chain([motor.rotor_speed]);
     let mut speeds: Vec<f64> = even.chain(marked.filter(|speed| (0.0..=v0).contains(speed))).collect();
     speeds.sort_by(f64::total_cmp);
-    // But for rounding, the speed of the rotor may be one of the others.
+    // The speed of the rotor may be equal to one of the others except for rounding.
     speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * v0);
     speeds
 }
 
-/// [`TorqueCurves::speed_effect`]: a bound from the problem alone where that is small, and otherwise what a solve at the speed farthest from
-/// the scene's finds, with its error.
+/// [`TorqueCurves::speed_effect`]: a bound from the problem alone if that is small; otherwise the effect in a solve at the speed farthest
+/// from the scene's, with its error.
 fn speed_effect(motor: &Motor, numerics: &Numerics, (alpha, fidelity): (f64, Fidelity), cancel: &Cancel) -> f64 {
     let share = 1.0 - alpha;
     if share <= 0.0 {
@@ -136,8 +136,8 @@ fn speed_effect(motor: &Motor, numerics: &Numerics, (alpha, fidelity): (f64, Fid
     change.min(bound * alpha.abs()) / share
 }
 
-/// Torque of the shear in the film, μU/h on the teeth, of the whole ring \[N m\]: the greatest from rest to the stator's
-/// greatest speed. Slip lowers it; it is left out here.
+/// Torque of the shear stress μU/h in the film on the teeth, for the whole ring \[N m\]: the greatest from rest to the stator's greatest
+/// speed. Slip would lower it; it is neglected here.
 fn viscous_drag(motor: &Motor, recording: &Recording) -> f64 {
     let loads = &recording.lines;
     let v0 = motor.stator_speed();

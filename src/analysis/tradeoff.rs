@@ -1,13 +1,13 @@
-//! Error against solve time of one scene, measured: what each accuracy, a family of grids and the paper's method cost
-//! here and now, and which is the cheapest that serves.
+//! Measures error against solve time for one scene: the cost of each accuracy, of a family of grids and of the paper's method on this
+//! machine, and the cheapest setting that meets a target.
 //!
-//! The clock is the caller's. Runs are interleaved, every setting once and then again, so that a machine that is busy for a
-//! while favours none. One number is judged: α of a motor, the mean film load of a plate, or the mean gap of one that floats;
-//! errors are shares of it. The measured error of a setting is its distance from the most accurate setting plus that one's
-//! own stated error: a bound, for this scene. A coarse grid may be right by luck, though, and wrong in the scene beside it.
-//! Settings are therefore judged by the greater of the measured error and the one that the run states of itself.
+//! The caller passes the clock. Runs are interleaved, so that no setting is favoured if the machine is busy for a while. One number is
+//! judged: α of a motor, the mean film load of a plate, or the mean gap of a plate that floats; errors are shares of it. The measured error
+//! of a setting is its distance from the most accurate setting plus the stated error of that one: a bound, for this scene. A coarse grid
+//! may be accurate by chance, however, and inaccurate for a similar scene. Settings are therefore judged by the greater of the measured
+//! error and the stated error.
 //!
-//! Settings differ in grids alone. The model stays the scene's: what its switches (`numerics.flow`, …) say holds for each of them.
+//! Settings differ only in their grids. The switches of the scene's model (`numerics.flow`, …) apply to all of them.
 
 mod candidates;
 mod curve;
@@ -94,7 +94,7 @@ mod tests {
         let problem = Problem::try_from(&presets::find("plate-crossover").unwrap()).unwrap();
         let named = |candidate: &Candidate| ["draft", "standard"].contains(&candidate.name.as_str());
         let two: Vec<Candidate> = candidates(&problem).into_iter().filter(named).collect();
-        // A clock that goes on by a second whenever it is looked at, and each run looks at it in every round.
+        // A clock that advances by a second at each call; each run reads it in every round.
         let now = Cell::new(0.0);
         let clock = || {
             now.set(now.get() + 1.0);
@@ -114,7 +114,7 @@ mod tests {
         let tradeoff = Tradeoff::of(&runs);
         assert_eq!((tradeoff.judged, tradeoff.reference), (Quantity::FilmLoad, Some(1)));
 
-        // Given up by the clock; and cancelled, with what there was.
+        // This run was given up because of the clock; the other one was cancelled, and returned what there was.
         let short = Effort { longest: 2.0, ..effort };
         let runs = measure(&problem, two.clone(), &short, &clock, &Cancel::new(), &mut |_, _| ());
         assert!(runs.iter().all(|run| run.status == RunStatus::GivenUp && run.times.len() == 1));

@@ -1,7 +1,7 @@
-//! Where the model is out of its depth: what it leaves out, as a number beside the limit up to which that is right.
+//! The limits of the model: for each neglected effect, a number beside the limit up to which it may be neglected.
 //!
-//! Numbers, limits, derivations and sources are listed in `docs/theory.md`, section 9. `rotor-resonance` is judged of a ring that has been
-//! solved: a beam or a table has no mass.
+//! Numbers, limits, derivations and sources are listed in `docs/theory.md`, section 9. `rotor-resonance` applies only to a ring that has
+//! been solved, because a beam or a table has no mass.
 //!
 //! Density, heat and sound are those of the gas that the scene names. **One that is given by viscosity and mean free path is taken to
 //! be air at 20 °C**: kinetic theory gives ρ = πμ²/(2 p_a λ_a²), which is air's within 3 % for the preset values; but λ_a may be 0, and
@@ -19,13 +19,13 @@ use limits::{Film, curvature, dense, nearness, resonance, roughness, sliding, st
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// The limits that a scene exceeds, from its solution; none if the model is within its depth.
+/// The limits that a scene exceeds, from its solution; empty if it exceeds none.
 pub fn outside(problem: &Problem, solution: &Solution) -> Vec<Excess> {
     of_outcome(problem, Some(&solution.outcome), &solution.model.decisions)
 }
 
-/// The limits that a scene exceeds, from an outcome and the decisions made for it. Without an outcome: what the scene alone tells, with a closed
-/// film of a motor at its minimum spacing, and no contact.
+/// The limits that a scene exceeds, from an outcome and the decisions made for it. Without an outcome, they follow from the scene alone;
+/// the closed film of a motor then has the minimum spacing, and there is no contact.
 pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
     let problem = &*outcome.map_or(Cow::Borrowed(problem), |outcome| settled(problem, outcome));
     match &problem.scenario {
@@ -34,10 +34,10 @@ pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Dec
     }
 }
 
-/// Their names, each once.
+/// Their names, without repetitions.
 pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
     let mut names: Vec<&'static str> = exceeded.iter().map(|excess| excess.name).collect();
-    // Those of one name are next to each other.
+    // Entries with the same name are adjacent.
     names.dedup();
     names
 }

@@ -1,4 +1,4 @@
-//! Derivatives of any numbers of a solution by the keys of its scene, from solves near it.
+//! Derivatives of any numbers of a solution with respect to the keys of its scene, from solves of neighbouring scenes.
 //!
 //! ```text
 //! D(h) = (f(p + h) − f(p − h))/2h = f′ + O(h²),      h = 1 % of p
@@ -31,11 +31,12 @@ use serde::{Deserialize, Serialize};
 const STEP: f64 = 0.01;
 /// The scale of a key that is zero, as a share of its slider.
 const SCALE_AT_ZERO: f64 = 0.1;
-/// Share of the stated error of a number that its derivative has at least, times the scale of the key (calibrated by random plates and motors).
+/// Least error of a derivative, as a share of the stated error of the number over the scale of the key (calibrated with random plates and
+/// motors).
 const EXPECTED: f64 = 0.3;
 /// Relative rounding error of a result that is computed from the fields, such as the no-load speed.
 const ROUNDING: f64 = 1e-9;
-/// Steps away from the middle at which is solved: on both sides, or on one.
+/// The points where the scene is solved, in steps from the middle: on both sides, or on one.
 const BOTH: [i32; 4] = [-2, -1, 1, 2];
 const ABOVE: [i32; 2] = [1, 2];
 const BELOW: [i32; 2] = [-1, -2];
@@ -49,13 +50,13 @@ pub struct Variation {
     pub parameters: Vec<&'static Parameter>,
 }
 
-/// Side of the scene's value to which the steps of a derivative were taken.
+/// The side of the scene's value on which the points of a derivative lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sides {
     /// Steps to both sides.
     Both,
-    /// Steps to greater values: there is no room below.
+    /// At greater values, because there is no room below.
     Above,
     /// Steps to smaller values.
     Below,
@@ -68,9 +69,9 @@ pub struct Slope {
     pub value: f64,
     /// The derivative without the finest grid.
     pub coarse: f64,
-    /// The least error that the grids leave, absolute: both ladders of them may agree by chance.
+    /// The least error due to the grids, absolute, because both ladders of grids may agree by chance.
     pub least: f64,
-    /// Its estimated error by the length of the step, absolute.
+    /// Its estimated error due to the length of the step, absolute.
     pub step_error: f64,
     /// Its estimated error by rounding, and by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
     /// the key does, and the derivative with it by ε of the number over the scale of the key. Where a ring has other elements at each point, what
@@ -79,7 +80,7 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Its estimated error by the grids, absolute.
+    /// Its estimated error due to the grids, absolute.
     pub fn grid_error(&self) -> f64 {
         (self.value - self.coarse).abs().max(self.least)
     }
@@ -90,7 +91,7 @@ impl Slope {
     }
 }
 
-/// The derivatives of all numbers by one key.
+/// The derivatives of all numbers with respect to one key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// The key.
@@ -99,7 +100,7 @@ pub struct Column {
     pub at: f64,
     /// The step h, in its unit.
     pub step: f64,
-    /// On which sides of the middle was solved.
+    /// The sides of the middle on which the scene was solved.
     pub sides: Sides,
     /// One for each number; or why there are none.
     pub slopes: Result<Vec<Slope>, String>,
@@ -110,7 +111,7 @@ pub struct Column {
 pub struct Jacobian {
     /// The numbers in the middle, with their stated errors.
     pub numbers: Nested<Vec<Estimate>>,
-    /// By each key, in the order of the variation.
+    /// The derivatives with respect to each key, in the order of the variation.
     pub columns: Vec<Column>,
 }
 
@@ -118,13 +119,13 @@ pub struct Jacobian {
 type Read<'a> = &'a (dyn Fn(&Problem, &Solution) -> Vec<Estimate> + Sync);
 
 impl Variation {
-    /// Of keys of `scene` by name: each has to have a value and a derivative, and is named once.
+    /// A variation of keys of `scene`, by name: each must have a value and a derivative, and may be named only once.
     pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, AnalysisError> {
         let all = Self::all(scene).parameters;
         let allowed = || all.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ");
         let mut parameters: Vec<&'static Parameter> = Vec::new();
         for key in keys.iter().map(AsRef::as_ref) {
-            // Setting it tells what is wrong with it.
+            // Setting the key reports what is wrong with it.
             let value = Parameter::find(key).and_then(Parameter::range).map_or(0.0, |range| range.min);
             let set = scene.clone().set_value(key, Value::Number(value));
             let Some(parameter) = Parameter::find(key) else {
@@ -138,7 +139,7 @@ impl Variation {
                     allowed()
                 )));
             }
-            // A value in an array of tables is not among all, but may be named.
+            // A value in an array of tables is not in the list of all keys, but may be named.
             let in_array = !PARAMETERS.contains(parameter) && scene.get(key).is_some();
             if !all.contains(&parameter) && !in_array {
                 set?;
@@ -155,8 +156,8 @@ impl Variation {
         Ok(Self { scene: scene.clone(), parameters })
     }
 
-    /// Of all keys of `scene` whose values are numbers, not whole ones, and that its results can depend on. What follows from other keys is
-    /// not among them, and neither are numerics.
+    /// A variation of all keys of `scene` whose values are numbers, except whole ones, and on which its results can depend. Keys that
+    /// follow from others, and numerics, are left out.
     pub fn all(scene: &Scene) -> Self {
         let acts = |parameter: &&'static Parameter| {
             matches!(parameter.kind, ParameterKind::Number { .. })
@@ -179,8 +180,9 @@ impl Variation {
         Problem::try_from(&self.scene.with_numbers(keys.zip(values.iter().copied()))?)
     }
 
-    /// The derivatives, at the values of the scene, of the numbers that `numbers` reads. `centre` is the scene, solved. The solves run on
-    /// rayon's pool, and the result does not depend on the number of threads; `solved` is told after each of how many. `None` if cancelled.
+    /// The derivatives, at the values of the scene, of the numbers that `numbers` reads. `centre` is the solution of the scene. The solves
+    /// run on rayon's pool, and the result does not depend on the number of threads; `solved` is called after each of them with their total
+    /// number. `None` if cancelled.
     pub fn jacobian(
         &self,
         centre: &Centre,
@@ -223,14 +225,14 @@ impl Variation {
         Some(Jacobian { numbers: middle, columns })
     }
 
-    /// Where to solve for the derivative by one key.
+    /// Where to solve for the derivative with respect to one key.
     fn steps(&self, values: &[f64], column: usize) -> Steps {
         let step = STEP * scale(self.parameters[column], values[column]);
         let at = |steps: i32| -> Result<Problem, String> {
             let mut moved = values.to_vec();
             moved[column] += f64::from(steps) * step;
             let problem = self.problem(&moved).map_err(|error| error.to_string())?;
-            // A ring may not reach under the contact there.
+            // A ring may not reach under the contact at that value.
             check(&problem, &Settings::default()).map_err(|error| error.to_string())?;
             Ok(problem)
         };
@@ -269,8 +271,8 @@ fn read(problem: &Problem, solved: &Nested<Solution>, numbers: Read<'_>) -> Nest
     }
 }
 
-/// Whether what is left out changes smoothly from one to the other: a ring has the elements of the other only if its section hangs together
-/// alike, and else leaves another number of its compliance.
+/// Whether the neglected part of the compliance changes smoothly between the two problems: two rings have the same elements only if their
+/// sections are connected in the same way, and otherwise neglect a different part.
 fn same_elements(a: &Problem, b: &Problem) -> bool {
     let (Scenario::Motor(a), Scenario::Motor(b)) = (&a.scenario, &b.scenario) else { return true };
     let (RotorCompliance::Ring(one), RotorCompliance::Ring(other)) = (&a.rotor, &b.rotor) else { return true };
@@ -286,7 +288,7 @@ fn slopes(
     middle: &Nested<Vec<Estimate>>,
     points: &[Nested<Vec<Estimate>>],
 ) -> Vec<Slope> {
-    // D(h), and what the length of the step is judged by.
+    // D(h), and the value that the error due to the step is estimated from.
     let derivative = |middle: f64, at: &[f64]| match (sides, at) {
         (Sides::Both, [b2, b1, a1, a2]) => ((a1 - b1) / (2.0 * step), (a2 - b2) / (4.0 * step)),
         (sides, [one, two]) => {
@@ -303,7 +305,7 @@ fn slopes(
             let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i].value)).collect();
             Some(derivative(middle[i].value, &at?).0)
         });
-        // What a key has nothing to do with is not even rounded.
+        // A number that does not depend on a key has no rounding error either.
         let rounding = if value == 0.0 { 0.0 } else { ROUNDING / step };
         let left_out = (relative + rounding) * number.abs();
         // A share of the stated error, as if this changed as the key does, and of the derivative as large a share as that of its number. An error
@@ -313,7 +315,7 @@ fn slopes(
         } else {
             0.0
         };
-        // A single grid tells nothing of its error.
+        // A single grid gives no information about its error.
         let coarse = coarse.unwrap_or(f64::INFINITY);
         Slope { value, coarse, least, step_error: (value - longer).abs(), left_out }
     };
@@ -321,8 +323,8 @@ fn slopes(
 }
 
 impl Column {
-    /// The scale of the key that an elasticity is relative to, in its unit: the size of its value, of a temperature the value above
-    /// absolute zero. `None` if the value is 0 and the key is no temperature.
+    /// The scale of the key to which an elasticity refers, in its unit: the size of its value; for a temperature, the value above absolute
+    /// zero. `None` if the value is 0 and the key is not a temperature.
     pub fn scale(&self) -> Option<f64> {
         let relative = self.parameter.unit == "°C" || self.at != 0.0;
         relative.then(|| scale(self.parameter, self.at))

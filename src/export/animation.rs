@@ -1,10 +1,10 @@
-//! One cycle as moving pictures: GIF, APNG, MP4, or a folder of PNG.
+//! Animations of one cycle: GIF, APNG, MP4, or a folder of PNG files.
 //!
-//! Every frame is a [`Figure`], drawn as for print; its axes have to stay where they are from frame to frame. A GIF has one
-//! palette for all frames, so that nothing flickers: the commonest colours as they are, the rest by neural quantisation
-//! (Dekker 1994). From frame to frame only what has changed is stored, in both formats. An MP4 holds AV1, encoded in Rust
-//! alone; where the solve has too few time steps to look like motion, it has frames between them, and since players do not
-//! repeat by themselves, it has the cycle several times. Each of the three says where its numbers come from, as a comment.
+//! Every frame is a [`Figure`], drawn as for print; the axes must not move from frame to frame. A GIF has one palette for all frames, so
+//! that nothing flickers: the most common colours are kept, and the others are found by neural quantisation (Dekker 1994). GIF and APNG
+//! store only what has changed from frame to frame. An MP4 contains AV1, encoded in Rust alone. If the solve has too few time steps for
+//! smooth motion, an MP4 has additional frames between them, and because players do not repeat by themselves, it contains the cycle several
+//! times. Each of the three formats has a comment that says where the numbers come from.
 
 use super::error::ExportError;
 use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
@@ -32,7 +32,7 @@ pub struct Options {
     pub width: u32,
     /// How long the cycle takes on screen \[s\].
     pub seconds: f64,
-    /// At most this many frames: as many as divide the solve's time steps evenly, so that motion is even too.
+    /// Greatest number of frames. The number used divides the time steps of the solve evenly, so that the motion is even.
     pub frames: usize,
 }
 
@@ -63,7 +63,7 @@ pub enum Format {
     Apng,
     /// A video, AV1: all colours, shown by browsers and players.
     Mp4,
-    /// A PNG for each frame in a folder, for makers of films.
+    /// A PNG for each frame, in a folder, for use in other programs.
     Folder,
 }
 
@@ -122,7 +122,7 @@ pub fn write(
     Ok(vec![path.to_owned()])
 }
 
-/// Writes an MP4. Each frame is drawn when it is encoded.
+/// Writes an MP4. Each frame is drawn just before it is encoded.
 #[cfg(feature = "video")]
 fn write_video(
     path: &Path,
@@ -163,12 +163,13 @@ fn write_video(
     Err(WriteError { path: path.to_owned(), source }.into())
 }
 
-/// The file of a frame in a folder, from 1 on.
+/// The file name of a frame in a folder; the first is number 1.
 pub fn frame_name(number: usize) -> String {
     format!("frame-{number:04}.png")
 }
 
-/// How many frames [`write()`] makes. If the options ask for fewer than the usual number, an MP4 has no more than the other formats.
+/// Number of frames that [`write()`] makes. If the options ask for fewer than the default, an MP4 has no more frames than the other
+/// formats.
 pub fn count(recording: &Recording, options: &Options, format: Format) -> usize {
     let count = frames(recording, options.frames);
     if format != Format::Mp4 || count == 0 || options.frames < Options::default().frames {
@@ -177,7 +178,7 @@ pub fn count(recording: &Recording, options: &Options, format: Format) -> usize 
     count.max((SMOOTH * options.seconds).ceil() as usize)
 }
 
-/// Frames a second that look like motion.
+/// Frames per second that look like smooth motion.
 const SMOOTH: f64 = 24.0;
 
 /// The frames of a cycle as figures.
@@ -211,14 +212,14 @@ fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
     if cancel.is_cancelled() { ExportError::Cancelled } else { error.into() }
 }
 
-/// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
+/// Number of frames of an animation with at most `most`: every second, third, … time step is used, if that gives nearly as many.
 fn frames(recording: &Recording, most: usize) -> usize {
     figures::compare::common_frames(std::iter::once(recording), most)
 }
 
 /// `slowed down 91 000 times`
 fn slow_motion(recording: &Recording, seconds: f64) -> String {
-    // Two digits are enough to know what one sees.
+    // Two digits are enough here.
     match rounded(seconds / recording.period, 2) {
         times @ ..1e4 => format!("slowed down {times:.0} times"),
         times @ ..1e6 => format!("slowed down {:.0} 000 times", times / 1e3),
@@ -308,7 +309,7 @@ impl Movie {
         Ok(())
     }
 
-    /// How long a frame stays, in hundredths of a second: together they last as long as they should.
+    /// Duration of a frame, in hundredths of a second; the durations add up to that of the cycle.
     fn delay(&self, frame: usize) -> u16 {
         let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.frames.len() as f64).round();
         (until(frame + 1) - until(frame)).clamp(2.0, 60_000.0) as u16
@@ -343,7 +344,7 @@ impl Movie {
         Ok(())
     }
 
-    /// Left, top, right and bottom of what differs from the frame before: at least one pixel.
+    /// Left, top, right and bottom of the area that differs from the previous frame: at least one pixel.
     fn changed(&self, before: Option<&[u8]>, rgb: &[u8]) -> [usize; 4] {
         let (width, height) = (self.width as usize, self.height as usize);
         let Some(before) = before else { return [0, 0, width, height] };
@@ -368,18 +369,18 @@ fn side(length: u32) -> io::Result<u16> {
     u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
 }
 
-/// The palette's colour for what has not changed.
+/// The palette index for pixels that have not changed.
 const TRANSPARENT: u8 = 255;
-/// Colours that are kept as they are.
+/// Number of colours that are kept exactly.
 const EXACT: usize = 96;
-/// Pixels looked at to find a palette.
+/// Number of pixels from which the palette is computed.
 const SAMPLES: usize = 400_000;
 
 /// 255 colours for all frames.
 struct Palette {
     colours: Vec<[u8; 3]>,
     known: HashMap<[u8; 3], u8>,
-    /// The one asked for before: often the next one, too.
+    /// The last colour that was looked up: often the next one is the same.
     last: ([u8; 3], u8),
 }
 
@@ -393,12 +394,12 @@ impl Palette {
             *counts.entry([pixel[0], pixel[1], pixel[2]]).or_default() += 1;
         }
         let mut common: Vec<([u8; 3], usize)> = counts.into_iter().collect();
-        // Ties by colour: the file is the same every time.
+        // Ties are decided by the colour, so that the file is the same every time.
         common.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
         let exact = if common.len() <= usize::from(TRANSPARENT) { common.len() } else { EXACT };
         let mut colours: Vec<[u8; 3]> = common[..exact].iter().map(|(colour, _)| *colour).collect();
         if exact < common.len() {
-            // Rare colours count too, or gradients would have steps: by the root of how often they are.
+            // Rare colours count too, by the square root of their frequency; otherwise gradients would have steps.
             let weighted = common[exact..].iter().flat_map(|(colour, count)| {
                 let times = (*count as f64).sqrt().ceil() as usize;
                 std::iter::repeat_n([colour[0], colour[1], colour[2], 255], times)
@@ -412,7 +413,7 @@ impl Palette {
         Self { colours, known, last }
     }
 
-    /// For the file: 256 colours.
+    /// The 256 colours as they are written in the file.
     fn bytes(&self) -> Vec<u8> {
         let mut bytes: Vec<u8> = self.colours.iter().flatten().copied().collect();
         bytes.resize(768, 0);
@@ -448,7 +449,7 @@ mod tests {
 
     #[test]
     fn a_gif_shows_every_frame_as_it_was_drawn() {
-        // A block that moves over stripes: most of each frame is left as the one before has it.
+        // A block that moves over stripes; most of each frame is the same as in the previous one.
         let (width, height) = (7_usize, 5);
         let frame = |at: usize| -> Vec<u8> {
             let pixels = (0..width * height).map(|i| (i % width, i / width));
@@ -472,7 +473,7 @@ mod tests {
                 let at = 3 * ((usize::from(read.top) + y) * width + usize::from(read.left) + x);
                 shown[at..at + 3].copy_from_slice(&rgba[..3]);
             }
-            // As near as the palette comes.
+            // As close as the palette allows.
             assert!(shown.iter().zip(drawn).all(|(a, b)| a.abs_diff(*b) <= 8), "{shown:?} {drawn:?}");
         }
         assert!(decoder.read_next_frame().unwrap().is_none());

@@ -1,4 +1,4 @@
-//! A comparison as JSON, as CSV, as figures, as moving pictures and as a report.
+//! A comparison as JSON, CSV, figures, animations and a report.
 //!
 //! Numbers are written with the fewest digits that read back to the same bits.
 
@@ -36,12 +36,13 @@ pub fn status(run: &ComparedRun) -> String {
     }
 }
 
-/// How a solve ended, if that is to be known at once: it did not converge, or had not the time to become as accurate as was asked for.
+/// How a solve ended, if the reader should see it at once: it did not converge, or its time limit was reached before the requested
+/// accuracy.
 pub fn mark(run: &ComparedRun) -> String {
     run.solved.as_ref().map_or_else(|_| json::mark(&status(run)), mark_of)
 }
 
-/// The object of `--json`: runs of which the first is what the others differ from, and the keys in which their scenes differ.
+/// The object of `--json`: the runs, of which the first is the reference for differences, and the keys in which their scenes differ.
 pub fn object(runs: &[ComparedRun], settings: &Settings) -> Value {
     let rows = results(runs);
     let differing = parameter_rows(runs).into_iter().filter(ParameterRow::differs).map(|row| {
@@ -57,7 +58,7 @@ pub fn object(runs: &[ComparedRun], settings: &Settings) -> Value {
     })
 }
 
-/// A run by its place: the names of `solve --json`, as far as a scene has them.
+/// The run with this index, with the names of `solve --json` as far as the scene has them.
 fn run_object(run: &ComparedRun, place: usize, rows: &[ResultRow]) -> Value {
     let mut object = json!({
         "label": run.label,
@@ -93,7 +94,7 @@ pub fn parameter_rows(runs: &[ComparedRun]) -> Vec<ParameterRow> {
     parameters(&runs.iter().map(|run| &run.scene).collect::<Vec<_>>())
 }
 
-/// Writes the results as CSV, a row for each run and quantity; what is not there is empty.
+/// Writes the results as CSV, a row for each run and quantity; missing values are empty.
 pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     let rows = results(runs).into_iter().flat_map(|row| {
         let of_run = |(i, (run, cell)): (usize, (&ComparedRun, &ResultCell))| {
@@ -157,7 +158,7 @@ fn performances(runs: &[ComparedRun]) -> Vec<Performance> {
     runs.iter().filter_map(performance).collect()
 }
 
-/// The name of a run above figures: its label or, if that is the name of its scene, the scene's headline, which names what was changed.
+/// The name of a run above figures: its label or, if that is the name of its scene, the scene's headline, which names the changes.
 fn headline(run: &ComparedRun) -> String {
     if run.label == run.scene.name { run.scene.headline() } else { run.label.clone() }
 }
@@ -187,8 +188,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     }
 }
 
-/// The figures, each with the name of its file without extension; those of plates begin with `plate-` where there are
-/// motors too.
+/// The figures, each with its file name without extension; the names of plates' figures begin with `plate-` if there are motors too.
 pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
     let (motors, plates) = motors_and_plates(runs);
     let prefix = if motors.is_empty() { "" } else { "plate-" };
@@ -203,7 +203,7 @@ pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
     all
 }
 
-/// Moving pictures of the runs in phase, with the name of their file without extension: of the motors, and of the plates.
+/// Animations of the runs in phase, one of the motors and one of the plates, each with its file name without extension.
 /// `done` is called after each frame, from several threads.
 pub fn movies(
     runs: &[ComparedRun],
@@ -233,7 +233,7 @@ pub fn movies(
     Ok(movies)
 }
 
-/// How many frames [`movies`] draws.
+/// Number of frames that [`movies`] draws.
 pub fn frames(runs: &[ComparedRun]) -> usize {
     let (motors, plates) = motors_and_plates(runs);
     let most = Options::default().frames;
@@ -241,17 +241,18 @@ pub fn frames(runs: &[ComparedRun]) -> usize {
         + figures::common_frames(plates.iter().map(|run| run.recording), most)
 }
 
-/// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
+/// A value with its error, with as many digits as the error justifies; counts as whole numbers. It has its unit if the runs have different
+/// units.
 pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
     let text = match (row.quantity, cell.found) {
-        // As on the tab Torque.
+        // This is the form in the tab Torque.
         (Quantity::MaxEfficiency, Some(found)) => format!("{} %", found * 100.0),
         _ => row.quantity.text(cell.found),
     };
     if row.unit.is_none() && cell.found.is_some() { format!("{text} {}", cell.unit) } else { text }
 }
 
-/// `+3.2 ± 0.1 %`; of what is in another unit than the first run's: that there is none.
+/// `+3.2 ± 0.1 %`; for a value in another unit than that of the first run, a text that there is no difference.
 pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     let first = row.cells.first().filter(|first| first.found.is_some() && cell.found.is_some());
     if let Some(first) = first.filter(|first| first.unit != cell.unit) {
@@ -268,8 +269,8 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     }
 }
 
-/// The rows of a table of results: a quantity, what it is, and of every run its value and the difference from the first. The last one, if there
-/// are any, are the limits of the model that the runs exceed.
+/// The rows of a table of results: the quantity, its description, and for each run its value and its difference from the first. If runs
+/// exceed limits of the model, the last row lists these limits.
 pub fn result_texts(runs: &[ComparedRun]) -> Vec<(Option<Quantity>, String, Vec<[String; 2]>)> {
     let texts = |row: ResultRow| {
         let cells = row.cells.iter().map(|cell| [value_text(&row, cell), difference_text(&row, cell)]);
@@ -281,8 +282,8 @@ pub fn result_texts(runs: &[ComparedRun]) -> Vec<(Option<Quantity>, String, Vec<
     results(runs).into_iter().map(texts).chain(limits).collect()
 }
 
-/// The comparison as one HTML file that needs nothing else. `all`: parameters are listed that do not differ, too; `movies`: animations as
-/// GIF, each with its name; `command`: what makes it again, empty if the window makes it.
+/// The comparison as one self-contained HTML file. `all`: lists also parameters that do not differ. `movies`: animations as GIF, each with
+/// its name. `command`: the command that makes it again, empty if the window makes it.
 pub fn report(
     runs: &[ComparedRun],
     settings: &Settings,
@@ -395,7 +396,7 @@ pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
 /// Title of the section that says how a report is made again.
 const AGAIN: &str = "To make this report again";
 
-/// The section that says how the report is made again, by the command that made it.
+/// The section that says how to make the report again, with the command that made it.
 pub(super) fn again(page: &mut Page, command: &[String]) {
     page.section(AGAIN);
     page.code(&shell(command));
@@ -431,10 +432,10 @@ fn again_from_scenes(page: &mut Page, runs: &[ComparedRun], settings: &Settings,
     page.note("The window starts each solve from the one before: another run agrees with it within the stated errors.");
 }
 
-/// The row of a table of results that names where the model is out of its depth, in each run.
+/// The row of a table of results with the limits of the model that each run exceeds.
 pub const LIMITS: &str = "limits exceeded";
 
-/// With more runs than this, differences stand below the values instead of beside them.
+/// With more runs than this, the differences are below the values instead of beside them.
 const BESIDE: usize = 2;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
@@ -442,7 +443,7 @@ fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a Para
     let names = ["parameter", "key"].map(|head| (Kind::Words, head.to_owned()));
     let mut table = Table::default().heads(names.into_iter().chain(labels));
     for row in rows {
-        // What differs from the first run is marked.
+        // Values that differ from the first run are marked.
         let values = row.values.iter().enumerate().map(|(place, value)| match value {
             Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
             Some(shown) => (Kind::Strong, shown.to_string()),
@@ -472,7 +473,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
         };
         let mut cells = vec![(Kind::Words, name)];
         for (i, [value, difference]) in texts.into_iter().enumerate() {
-            // Limits are named in words.
+            // The limits are given in words.
             let value = if quantity.is_none() { value.replace('-', " ") } else { raised(&value) };
             let difference = raised(&difference);
             match (beside, i) {

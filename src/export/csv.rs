@@ -6,8 +6,8 @@
 //! | pressure | time step, node of the map | absolute pressure under one tooth |
 //! | series | time step | loads, teeth in contact, extremes |
 //!
-//! The sum of line load × `length_m` over the rows of one time is the load in the series. Fields of a plate have no
-//! teeth and no contact; a strip's forces are per metre of width, and its columns are named so.
+//! The sum of line load × `length_m` over the rows of one time is the load in the series. Fields of a plate have no teeth and no contact; a
+//! strip's forces are per metre of width, and its columns have names to match.
 
 use super::fields;
 use crate::problem::{Problem, Scenario};
@@ -18,8 +18,8 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Writes the fields of every tooth, time by time. x runs along the wavelength from the middle of the first tooth; of a
-/// plate, from its middle, and only over the half that was solved.
+/// Writes the fields of every tooth, time by time. x is measured along the wavelength from the middle of the first tooth. For a plate, x is
+/// measured from its middle, over the half that was solved.
 pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let (motor, per_metre) = match &problem.scenario {
@@ -66,8 +66,8 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
     table.finish()
 }
 
-/// Writes the pressure under the first tooth (or the plate), time by time, over the part that was solved: with a
-/// mirrored half width y ≥ 0 only.
+/// Writes the pressure under the first tooth (or the plate), time by time, over the part that was solved; if the width is mirrored, only y
+/// ≥ 0.
 pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     table.header(&["time_s", "x_m", "y_m", "pressure_kpa"])?;
@@ -83,7 +83,7 @@ pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     table.finish()
 }
 
-/// Writes what the whole wavelength (or the plate) does, time by time: every field that has a value each frame.
+/// Writes the series of the whole wavelength (or the plate), time by time: every field that has one value for each frame.
 pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let series = fields::fields(problem, recording).into_iter().filter(|field| field.axes == fields::FRAMES);
@@ -95,12 +95,13 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
     table.finish()
 }
 
-/// Writes one row for each object, with the keys of the first as the header; what is null is empty. Numbers are those of JSON, texts [`words`].
+/// Writes one row for each object, with the keys of the first as the header; null is an empty cell. Numbers are written as in JSON, texts
+/// by [`words`].
 pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
     rows_with(rows, words, out)
 }
 
-/// As [`rows`], for texts of the program itself, such as options: they are written as they are.
+/// As [`rows`], for texts of the program itself, such as options, which are written unchanged.
 pub fn rows_of_ours<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
     rows_with(rows, |text| text.into(), out)
 }
@@ -133,8 +134,8 @@ pub fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an
-/// apostrophe, by which it knows it for text.
+/// A text from outside, such as a scene's name, as a cell. If a spreadsheet would take it for a formula, it gets an apostrophe in front,
+/// which marks it as text.
 pub fn words(text: &str) -> Cow<'_, str> {
     if text.starts_with(['=', '+', '-', '−', '@', '＝', '＋', '－', '＠', '\t', '\r']) {
         format!("'{text}").into()
@@ -158,11 +159,11 @@ impl<'a> Table<'a> {
         Ok(self.writer.write_record(names.iter().map(AsRef::as_ref))?)
     }
 
-    /// Nine digits of each number, whole ones as they are; what is not finite is empty.
+    /// Each number with nine digits, whole numbers unchanged; a value that is not finite is an empty cell.
     pub(super) fn row(&mut self, cells: impl IntoIterator<Item = f64>) -> io::Result<()> {
         for value in cells {
             self.text.clear();
-            // Writing to a String cannot fail; a sum with zero has no minus.
+            // Writing to a String cannot fail; a sum with zero removes a negative zero's sign.
             let _ = match value + 0.0 {
                 whole if whole.fract() == 0.0 && whole.abs() < 1e9 => write!(self.text, "{whole}"),
                 value if value.is_finite() => write!(self.text, "{value:.8e}"),

@@ -1,16 +1,16 @@
-//! Why results are not written.
+//! Reasons why results are not written.
 
 use super::figure::FigureError;
 use crate::atomic::WriteError;
 use std::path::PathBuf;
 
-/// Results that were not written.
+/// The reason why results were not written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The caller cancelled; no file was written.
     #[error("cancelled; no file was written")]
     Cancelled,
-    /// The extension is none of those of animations.
+    /// The extension belongs to no format of animations.
     #[error("{}: animations are written as .gif, as .mp4, as .png (animated), or into a folder, whose name has no extension", path.display())]
     Extension {
         /// The path asked for.

@@ -4,14 +4,14 @@ use crate::analysis::quantity::{Numbers, Quantity};
 use crate::estimate::Estimate;
 use serde_json::Value;
 
-/// Adds an estimate to an object under two names, as `power_w` and `power_error_w`: its value, and its estimated numerical error,
-/// absolute. What is not known is null.
+/// Adds an estimate to an object under two names, such as `power_w` and `power_error_w`: its value, and its estimated absolute numerical
+/// error. Unknown values are null.
 pub(super) fn add(object: &mut Value, name: &str, unit: &str, found: Option<Estimate>) {
     object[format!("{name}{unit}")] = found.map(|found| found.value).into();
     object[format!("{name}_error{unit}")] = found.map(|found| found.error).into();
 }
 
-/// Numbers of a solve with their names, counts as whole numbers. What is not known is null.
+/// Numbers of a solve with their names, counts as whole numbers. Unknown values are null.
 pub(super) fn named(
     quantities: impl IntoIterator<Item = Quantity>,
     numbers: &Numbers,
@@ -23,7 +23,7 @@ pub(super) fn named(
     })
 }
 
-/// A number that is one; what is not is null in JSON and empty in CSV.
+/// A finite number; otherwise null in JSON and empty in CSV.
 pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

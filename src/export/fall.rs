@@ -23,8 +23,8 @@ pub fn row(cycle: &Cycle) -> Value {
     })
 }
 
-/// The object of `--json`: a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
-/// known is null.
+/// The object of `--json`: a fall that ended, and its cycles. `wall_s` is the wall time by the caller's clock, including the periodic
+/// solve. Unknown values are null.
 pub fn object(problem: &Problem, fidelity: Fidelity, ended: &Fall, cycles: &[Cycle], wall_s: f64) -> Value {
     let floats = floats(ended);
     json!({
@@ -41,8 +41,8 @@ pub fn object(problem: &Problem, fidelity: Fidelity, ended: &Fall, cycles: &[Cyc
     })
 }
 
-/// The limits of the model that are exceeded where the plate floats or, if it does not, where it would rest; of one that is thrown up higher than it
-/// was dropped from, at its greatest height.
+/// The limits of the model that are exceeded where the plate floats or, if it does not float, where it would rest. If it is thrown up
+/// higher than it was dropped from, they are those at its greatest height.
 pub fn validity(problem: &Problem, ended: &Fall, cycles: &[Cycle]) -> Vec<Excess> {
     let mut problem = problem.clone();
     let heights = || cycles.iter().map(|cycle| cycle.height.value);
@@ -63,7 +63,7 @@ pub fn floats(ended: &Fall) -> Option<Estimate> {
     ended.floats.as_ref().ok().map(|gap| *gap * 1e6)
 }
 
-/// Height over time, and where the periodic solve says that it ends, in µm.
+/// Height over time, and the final height by the periodic solve, in µm.
 pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
     let at = |cycle: &Cycle| (cycle.time * 1e3, cycle.height * 1e6);
     let around = |(t, Estimate { value, error }): (f64, Estimate)| [t, value - error, value + error];

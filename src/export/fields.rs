@@ -1,4 +1,4 @@
-//! The fields of one cycle by name, with their unit in it, for other programs.
+//! The fields of one cycle by name, with the unit in the name, for other programs.
 //!
 //! | array | shape | what |
 //! | --- | --- | --- |
@@ -55,7 +55,7 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
         field(size, &["node"], of(&recording.node_length, 1.0)),
     ];
     let (mut contact, mut touching_error) = (Vec::new(), None);
-    // A recording on one mesh has none.
+    // A recording on one mesh has no errors.
     let of_errors = |name, errors: Vec<f64>| {
         let none = std::iter::repeat(f64::NAN);
         field(name, FRAMES, Box::new(errors.into_iter().chain(none).take(recording.frames)))

@@ -1,5 +1,5 @@
-//! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
-//! under its name only when all of them are complete; whoever cancels leaves nothing behind.
+//! The files of results: those of `--out` on the command line, and those that the window exports. The files get their names only when all
+//! of them are complete; a cancelled export leaves nothing behind.
 
 use super::animation::{self, Movie, Options};
 use super::compare::{self, all_figures, movies, report};
@@ -28,7 +28,7 @@ use serde::Serialize;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How far an export is, and whether it is to go on.
+/// Progress and cancellation of an export.
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
     /// Checked between pictures.
@@ -42,14 +42,14 @@ impl Control<'_> {
         if self.cancel.is_cancelled() { Err(ExportError::Cancelled) } else { Ok(()) }
     }
 
-    /// Runs `draw`, which counts what it has drawn of `all`.
+    /// Runs `draw`, and reports how many of `all` pictures it has drawn.
     fn counted<R>(&self, all: usize, draw: impl FnOnce(&(dyn Fn() + Sync)) -> R) -> R {
         let count = std::sync::atomic::AtomicUsize::new(0);
         draw(&|| (self.drawn)(count.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, all))
     }
 }
 
-/// One solve, with all that its files say of it.
+/// One solve, with everything that its files contain.
 #[derive(Clone, Copy, Debug)]
 pub struct Solved<'a> {
     /// The scene.
@@ -62,37 +62,37 @@ pub struct Solved<'a> {
     pub history: &'a [Progress],
 }
 
-/// Where results are written, and how.
+/// The folder for results, and how they are written.
 #[derive(Clone, Debug)]
 pub struct Folder<'a> {
-    /// The folder; it is made if need be.
+    /// The folder; it is created if necessary.
     pub path: &'a Path,
-    /// The command line that the results come from, word by word; empty if there was none.
+    /// The command line that gave the results, word by word; empty if there was none.
     pub command: &'a [String],
     /// Formats of the figures.
     pub formats: Vec<Format>,
-    /// Whether the fields of a solve are written as VTK too: a file for each instant, and the series of them that ParaView opens.
+    /// Whether the fields of a solve are also written as VTK: a file for each instant, and the series of them for ParaView.
     pub vtk: bool,
 }
 
-/// Results on their way into a folder.
+/// Files to be written into a folder.
 pub struct Files<'a> {
     staged: Staged,
     folder: &'a Folder<'a>,
 }
 
 impl<'a> Files<'a> {
-    /// None yet, for this folder.
+    /// Begins without files for this folder.
     pub fn new(folder: &'a Folder<'a>) -> Result<Self, WriteError> {
         let mut staged = Staged::new(folder.path)?;
-        // A command does not replace what it was given.
+        // A command must not replace its own input.
         if !folder.command.is_empty() {
             staged.spare(read_so_far());
         }
         Ok(Self { staged, folder })
     }
 
-    /// Adds a file as `write` writes it.
+    /// Adds a file with the content that `write` writes.
     pub fn add(
         &mut self,
         name: &str,
@@ -111,7 +111,7 @@ impl<'a> Files<'a> {
         self.text(name, &json::document(object, self.folder.command))
     }
 
-    /// Adds a figure, once in each format. An error is also that it cannot be drawn.
+    /// Adds a figure in each format. Fails also if it cannot be drawn.
     pub fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), WriteError> {
         for format in &self.folder.formats {
             self.staged.add(format!("{name}.{}", format.name()), |out| {
@@ -127,10 +127,11 @@ impl<'a> Files<'a> {
     }
 }
 
-/// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
+/// Bytes of a number in a CSV file, including its comma: `1.23456789e-6,`.
 const WRITTEN: u64 = 14;
 
-/// About how many bytes [`solve`] will write: fields as text, as an archive and as VTK; the rest is small beside large ones.
+/// Approximate number of bytes that [`solve`] will write: fields as text, as an archive and as VTK. Everything else is small beside large
+/// fields.
 pub fn expected_size(folder: &Folder<'_>, problem: &Problem, recording: &Recording) -> u64 {
     let lines = (recording.frames * recording.teeth * recording.x.len()) as u64;
     let map = recording.pressure.len() as u64;
@@ -138,7 +139,7 @@ pub fn expected_size(folder: &Folder<'_>, problem: &Problem, recording: &Recordi
     let series = recording.frames as u64;
     let mut first = Vec::new();
     if folder.vtk {
-        // All instants are as long as the first. Writing to memory cannot fail.
+        // All instants have the size of the first. Writing to memory cannot fail.
         let _ = vtk::write(problem, recording, 0, &mut first);
     }
     let vtk = series * first.len() as u64;
@@ -176,7 +177,7 @@ pub fn solve(
     Ok(files.commit()?)
 }
 
-/// The figures of a solve alone; `torque`: over speed, of a motor.
+/// Writes only the figures of a solve; `torque` is torque over speed, for a motor.
 pub fn solve_figures(
     folder: &Folder<'_>,
     solved: &Solved<'_>,
@@ -189,7 +190,7 @@ pub fn solve_figures(
     Ok(files.commit()?)
 }
 
-/// The problem with the name that it has above its figures, which may name what was changed.
+/// The problem with the name for titles of its figures, which may include changes.
 fn titled(solved: &Solved<'_>) -> Problem {
     let name =
         if solved.problem.name == solved.scene.name { solved.scene.headline() } else { solved.problem.name.clone() };
@@ -226,7 +227,7 @@ fn add_figures(
     Ok(())
 }
 
-/// A file by itself, as `write` writes it. Returns its path.
+/// Writes a single file with the content that `write` writes. Returns its path.
 pub fn alone(
     path: &Path,
     write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
@@ -240,7 +241,7 @@ pub fn fields(path: &Path, solved: &Solved<'_>) -> Result<Vec<PathBuf>, ExportEr
     alone(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))
 }
 
-/// The cycle of a solve as moving pictures, in the format of its path.
+/// The cycle of a solve as an animation, in the format of its path.
 pub fn animation(
     path: &Path,
     solved: &Solved<'_>,
@@ -251,7 +252,7 @@ pub fn animation(
     control.counted(all, |done| animation::write(path, &titled(solved), solved.solution, options, done, control.cancel))
 }
 
-/// A movie as GIF. `path`: of the file, for a fault.
+/// A movie as GIF. `path` is that of the file, for errors.
 pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
     let mut gif = Vec::new();
     match movie.gif(&mut gif, cancel) {
@@ -320,8 +321,7 @@ pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<V
     alone(path, |out| out.write_all(&bytes))
 }
 
-/// Writes the files of `squeezefilm sweep --out` into a folder.
-/// `shown`: the quantity of the figure.
+/// Writes the files of `squeezefilm sweep --out` into a folder. `shown` is the quantity in the figure.
 pub fn swept(
     folder: &Folder<'_>,
     swept: &Sweep,
@@ -336,7 +336,7 @@ pub fn swept(
     files.commit()
 }
 
-/// Writes the files of `squeezefilm fit --out` for a fit to measurements into a folder; `problem`: with the values found.
+/// Writes the files of `squeezefilm fit --out` for a fit to measurements into a folder; `problem` has the values that were found.
 pub fn fitted(
     folder: &Folder<'_>,
     problem: &Problem,
@@ -369,7 +369,7 @@ pub fn optimum(
     files.commit()
 }
 
-/// Writes the files of `squeezefilm startup --out` into a folder. `wall_s`: by the caller's clock, or not a number.
+/// Writes the files of `squeezefilm startup --out` into a folder. `wall_s` is the wall time by the caller's clock, or NaN.
 pub fn startup(
     folder: &Folder<'_>,
     (scene, problem): (&Scene, &Problem),
@@ -395,7 +395,8 @@ pub fn startup(
     files.commit()
 }
 
-/// Writes into a folder the files of `squeezefilm startup --out` for a plate that is dropped. `wall_s`: by the caller's clock, or not a number.
+/// Writes the files of `squeezefilm startup --out` for a plate that is dropped into a folder. `wall_s` is the wall time by the caller's
+/// clock, or NaN.
 pub fn fall(
     folder: &Folder<'_>,
     (scene, problem): (&Scene, &Problem),

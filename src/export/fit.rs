@@ -14,8 +14,8 @@ use crate::scene::show_text;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// The object of `fit --json`: a fit of the scene `preset`, and the measurements beside what is computed. Its numbers are those of [`Fitted`];
-/// what is not known is null.
+/// The object of `fit --json`: a fit of the scene `preset`, and the measurements beside computed values. Its numbers are those of
+/// [`Fitted`]; unknown values are null.
 pub fn object(preset: &str, fitted: &Fitted, measured: &Measured) -> Value {
     json!({
         "preset": preset,
@@ -56,10 +56,10 @@ fn rows(fitted: &Fitted, measured: &Measured) -> Vec<Value> {
         let computed = row.computed.as_ref().ok();
         json!({
             "row": one.label,
-            // Keys that its condition changes, as `--set` takes them.
+            // Keys by which its condition differs from the scene, as in `--set`.
             "condition": changes.collect::<Vec<_>>().join(" "),
             "quantity": one.what.name(),
-            // Of a torque.
+            // The speed of a torque.
             "rotor_speed_rpm": one.what.speed_rpm(),
             "measured": one.value,
             // Its standard error, scaled if it was not given.
@@ -79,15 +79,15 @@ fn rows(fitted: &Fitted, measured: &Measured) -> Vec<Value> {
     measured.measurements.iter().zip(&fitted.rows).map(row).collect()
 }
 
-/// Writes the measurements beside what is computed.
+/// Writes the measurements beside computed values.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
     csv::rows(rows(fitted, measured), out)
 }
 
-/// Most rows that are named in the figure of residuals.
+/// Greatest number of rows that have names in the figure of residuals.
 const MOST_NAMED: usize = 40;
 
-/// The figures of a fit: `fit` (measured and computed, of torques over the speed), `residuals` and, of two unknowns or more,
+/// The figures of a fit: `fit` (measured and computed values, torques over the speed), `residuals` and, for two or more unknowns,
 /// `correlation`.
 pub fn figures(problem: &Problem, fitted: &Fitted, measured: &Measured) -> Vec<(&'static str, Figure)> {
     let dressed = |title: &str| Figure { provenance: Provenance::named(&fitted.scene.name), ..Figure::new(title) };
@@ -129,7 +129,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
                 of_condition.map(|(one, row, _)| (speed(one.what), one.value, row.error)).collect();
             let style = Style::unmarked(condition);
             let named = if condition == 0 { ["measured", "computed"] } else { ["", ""] };
-            // Of several conditions points and curve are told to belong together by their colour.
+            // With several conditions, points and curves of the same condition have the same colour.
             let colour = if measured.conditions.len() == 1 { Colour::BLACK } else { style.colour };
             let mut dots = Points::new(named[0], points.iter().map(|point| [point.0, point.1]), colour, hollow);
             dots.errors = points.iter().map(|point| point.2).collect();
@@ -152,7 +152,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
 /// Residuals in standard errors, a line for each measurement.
 fn residuals(fitted: &Fitted, measured: &Measured) -> Panel {
     let count = fitted.rows.len();
-    // The first one at the top.
+    // The first one is at the top.
     let place = |i: usize| (count - i) as f64;
     let mut y = Axis::new("", "");
     if count <= MOST_NAMED {
@@ -178,7 +178,7 @@ fn residuals(fitted: &Fitted, measured: &Measured) -> Panel {
 fn correlation(fitted: &Fitted) -> Panel {
     let count = fitted.unknowns.len();
     let places: Vec<f64> = (1..=count).map(|i| i as f64).collect();
-    // The first unknown at the top.
+    // The first unknown is at the top.
     let values = (0..count).flat_map(|x| (0..count).rev().map(move |y| fitted.correlation[x][y])).collect();
     let mut x = Axis::new("unknown", "");
     let mut y = Axis::new("", "");
@@ -199,7 +199,7 @@ fn correlation(fitted: &Fitted) -> Panel {
     })
 }
 
-/// The object of `fit --maximise --json` of the scene `preset`. Its numbers are those of [`Optimum`]; what is not known is null.
+/// The object of `fit --maximise --json` for the scene `preset`. Its numbers are those of [`Optimum`]; unknown values are null.
 pub fn optimum(preset: &str, found: &Optimum) -> Value {
     let Optimum { goal, value, before, limited, lines, converged, solves, warnings, .. } = found;
     json!({
@@ -251,10 +251,10 @@ pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()>
     csv::rows(rows, out)
 }
 
-/// Name of the part of a line through an optimum where a limit is not kept.
+/// Name of the part of a line through an optimum where a limit is broken.
 pub const BEYOND: &str = "beyond";
 
-/// Lines through the optimum, a panel for each unknown; dashed where a limit is not kept.
+/// Lines through the optimum, a panel for each unknown; they are dashed where a limit is broken.
 pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     let words = found.goal.quantity.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));

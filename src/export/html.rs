@@ -1,9 +1,9 @@
-//! Reports: one HTML file that needs nothing else. Figures are inline SVG, pictures are data in the file, there is no script,
-//! and a policy in the head forbids the browser to fetch anything.
+//! Reports: one self-contained HTML file. Figures are inline SVG, pictures are data in the file, there is no script, and a policy in the
+//! head forbids the browser to load anything.
 //!
-//! A page is well-formed XML as well as HTML, so that any reader of XML can take numbers out of it. What it looks like is
-//! decided here and in `assets/report.css`, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
-//! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
+//! A page is well-formed XML as well as HTML, so that any XML reader can extract its numbers. Its look is defined here and in
+//! `assets/report.css`, for all reports: a serif type for text and a sans type for figures and numbers, three colours (the film's, the
+//! contact's, grey), and tables with rules but without boxes. It is wide enough for a projector and plain enough for print.
 
 use super::figure::{Figure, escaped as xml_escaped, to_svg};
 use crate::scene::escaped as shown;
@@ -11,7 +11,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 
-/// A page as it grows.
+/// A page that is being written.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
     title: String,
@@ -21,18 +21,18 @@ pub struct Page {
     contents: Vec<String>,
 }
 
-/// Where a cell's words stand, and how they look.
+/// Alignment and look of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Words, on the left.
+    /// Text, on the left.
     Words,
-    /// A number, on the right, digits below digits.
+    /// A number, on the right, with digits aligned.
     Number,
-    /// A number that matters most.
+    /// A number that is most important.
     Strong,
-    /// Secondary.
+    /// Secondary text.
     Quiet,
-    /// Something is wrong here.
+    /// An error or a warning.
     Alarm,
 }
 
@@ -57,14 +57,14 @@ pub struct Table {
 }
 
 impl Table {
-    /// With heads above several columns: how many, and the words.
+    /// Adds heads above several columns: the number of columns, and the text.
     #[must_use]
     pub fn groups<S: Into<String>>(mut self, groups: impl IntoIterator<Item = (usize, S)>) -> Self {
         self.groups = groups.into_iter().map(|(columns, words)| (columns, words.into())).collect();
         self
     }
 
-    /// With a head for each column.
+    /// Adds a head for each column.
     #[must_use]
     pub fn heads<S: Into<String>>(mut self, heads: impl IntoIterator<Item = (Kind, S)>) -> Self {
         self.heads = heads.into_iter().map(|(kind, words)| (kind, words.into())).collect();
@@ -79,7 +79,7 @@ impl Table {
 
 // Writing to a String cannot fail: the results of `write!` are dropped below.
 impl Page {
-    /// A page with its title, a line above it that says what kind of page it is, and a few sentences below.
+    /// A page with its title, a line above it for the kind of page, and a few sentences below.
     pub fn new(kicker: &str, title: &str, lead: &str) -> Self {
         let head = format!(
             "<header>\n<p class=\"kicker\">{}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
@@ -90,7 +90,7 @@ impl Page {
         Self { title: title.to_owned(), head, ..Self::default() }
     }
 
-    /// Numbers that matter most, large, below the title: the number, and what it is.
+    /// The most important numbers, in large type below the title: the number, and its description.
     pub fn highlights<S: AsRef<str>>(&mut self, numbers: impl IntoIterator<Item = (S, S)>) {
         self.body.push_str("<dl class=\"highlights\">\n");
         for (number, words) in numbers {
@@ -100,14 +100,14 @@ impl Page {
         self.body.push_str("</dl>\n");
     }
 
-    /// Begins a section, which is listed in the contents.
+    /// Begins a section, which appears in the contents.
     pub fn section(&mut self, title: &str) {
         self.close();
         self.contents.push(title.to_owned());
         let _ = writeln!(self.body, "<section id=\"s{}\">\n<h2>{}</h2>", self.contents.len(), escaped(title));
     }
 
-    /// Ends the section that has begun, if any.
+    /// Ends the present section, if there is one.
     fn close(&mut self) {
         if !self.contents.is_empty() {
             self.body.push_str("</section>\n");
@@ -129,7 +129,7 @@ impl Page {
         let _ = writeln!(self.body, "<p class=\"note\">{}</p>", escaped(words));
     }
 
-    /// A paragraph that has to be seen.
+    /// A paragraph that stands out.
     pub fn warning(&mut self, words: &str) {
         let _ = writeln!(self.body, "<p class=\"warning\">{}</p>", escaped(words));
     }
@@ -159,12 +159,12 @@ impl Page {
         }
     }
 
-    /// Text as it is: a command, a file.
+    /// Preformatted text: a command or a file.
     pub fn code(&mut self, text: &str) {
         let _ = writeln!(self.body, "<pre>{}</pre>", escaped(text));
     }
 
-    /// Text as it is, folded away under a line.
+    /// Preformatted text that is folded under a line.
     pub fn folded(&mut self, line: &str, text: &str) {
         let _ = writeln!(
             self.body,
@@ -176,7 +176,7 @@ impl Page {
 
     /// A table.
     pub fn table(&mut self, table: &Table) {
-        // With the keyboard, too, a wide table can be moved.
+        // A wide table can also be scrolled with the keyboard.
         self.body.push_str("<div class=\"table\" tabindex=\"0\"><table>\n");
         self.body.push_str("<thead>\n");
         if !table.groups.is_empty() {
@@ -203,7 +203,7 @@ impl Page {
         self.body.push_str("</tr>\n");
     }
 
-    /// Figures side by side where there is room, each with a name in bold before its caption (may be empty).
+    /// Figures side by side where there is room, each with its name in bold before its caption (the name may be empty).
     pub fn figures<'a>(&mut self, figures: impl IntoIterator<Item = (&'a str, &'a Figure)>) {
         self.body.push_str("<div class=\"figures\">\n");
         for (name, figure) in figures {
@@ -222,7 +222,7 @@ impl Page {
         }
     }
 
-    /// A GIF, kept in the page.
+    /// A GIF, embedded in the page.
     pub fn picture(&mut self, gif: &[u8], alternative: &str, name: &str, caption: &str) {
         let _ = write!(
             self.body,
@@ -245,7 +245,7 @@ impl Page {
             }
             contents.push_str("</ol>\n</nav>\n");
         }
-        // The contents stand before the first section, after what leads to it.
+        // The contents are before the first section, after the introduction.
         let (lead, sections) = self.body.split_at(self.body.find("<section").unwrap_or(self.body.len()));
         format!(
             "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -262,7 +262,7 @@ impl Page {
     }
 }
 
-/// Text for HTML. Control characters and marks of direction are shown as escapes.
+/// Text for HTML. Control characters and direction marks are shown as escapes.
 pub fn escaped(text: &str) -> String {
     text.split_inclusive(['\n', '\t']).fold(String::with_capacity(text.len()), |out, part| {
         let words = part.trim_end_matches(['\n', '\t']);
@@ -270,7 +270,7 @@ pub fn escaped(text: &str) -> String {
     })
 }
 
-/// A command line as a shell takes it.
+/// A command line with quotes for a shell.
 pub fn shell<S: AsRef<str>>(words: &[S]) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,+%@".contains(c);
     let quoted = |word: &S| {
@@ -284,7 +284,7 @@ pub fn shell<S: AsRef<str>>(words: &[S]) -> String {
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
-/// No `<` and no `&` in there: it is read as XML too.
+/// It must contain neither `<` nor `&`, because it is read as XML too.
 const STYLE: &str = include_str!("../../assets/report.css");
 
 #[cfg(test)]

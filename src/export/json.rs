@@ -1,4 +1,4 @@
-//! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
+//! The JSON object of a solve. Scripts depend on the names: new ones may be added, but none may be renamed.
 
 use super::estimates::{self, finite};
 use super::figure::extent;
@@ -29,24 +29,24 @@ pub struct Summary {
     pub problem: Problem,
     /// The result.
     pub outcome: Outcome,
-    /// How it ended; in the object as [`status_name`] says it.
+    /// How it ended; in the object in the form of [`status_name`].
     pub status: Status,
-    /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for and that is stated, relative to it, and
-    /// to a hundredth of the load where α is less than that. What was asked for is null on grids that the scene prescribes.
+    /// The requested and the stated error of the headline (α, a plate's mean load, or the mean gap of a plate that floats), relative to it,
+    /// or to a hundredth of the load if α is less than that. The requested error is null for grids that the scene prescribes.
     pub accuracy: Accuracy,
-    /// The numbers. The object has those that say what came of the solve, and of the others `residual` and `tolerance`.
+    /// The numbers. The object has those that are results of the solve, and also `residual` and `tolerance`.
     pub numbers: Numbers,
-    /// Torque, power and efficiency (motor), if they were asked for.
+    /// Torque, power and efficiency (motor), if they were requested.
     pub torque: Option<TorqueCurves>,
     /// Exact limits beside the computed values (plate).
     pub exact: Option<ExactComparison>,
     /// Wall time of the solve alone \[s\].
     pub wall_s: f64,
-    /// Cost of the solve other than time, counted.
+    /// Cost of the solve except time, as counts.
     pub stats: Stats,
     /// The model that was solved; in the object with a sentence for each decision.
     pub model: Model,
-    /// Limits of the model that the scene exceeds; empty within them.
+    /// Limits of the model that the scene exceeds; empty if it exceeds none.
     pub validity: Vec<Excess>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
@@ -54,7 +54,7 @@ pub struct Summary {
     pub command: Vec<String>,
 }
 
-/// The numbers of the object that say what came of a solve, in its order.
+/// The numbers of the object that are results of a solve, in its order.
 const RESULTS: [Quantity; 27] = [
     Quantity::Alpha,
     Quantity::AlphaError,
@@ -87,8 +87,8 @@ const RESULTS: [Quantity; 27] = [
 
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // The bound of the torque of the whole ring without the air film; whether no tooth touches at any instant; how a plate floats, null if its
-        // mean gap is given.
+        // The bound of the torque of the whole ring without the air film; whether no tooth touches at any instant; and how a plate floats,
+        // which is null if its mean gap is prescribed.
         let (dry, levitated, floating) = match (&self.problem.scenario, &self.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 (finite(motor.friction_torque(motor.load)), Some(result.levitated), None)
@@ -97,7 +97,7 @@ impl Serialize for Summary {
                 let floats = plate.load.zip(result.floating);
                 (None, None, floats.map(|(load, found)| floating_object(plate, load, &found)))
             }
-            // A solver answers in kind.
+            // A solver returns the kind of result that belongs to the scene.
             _ => (None, None, None),
         };
         let mut map = serializer.serialize_map(None)?;
@@ -112,7 +112,7 @@ impl Serialize for Summary {
             map.serialize_entry(name, &value)?;
         }
         for quantity in RESULTS {
-            // Between the numbers, what is none, or is not one of every solve.
+            // Between the numbers are entries that are not numbers, or not numbers of every solve.
             match quantity {
                 Quantity::FilmLoad => map.serialize_entry("force_unit", force_unit(&self.problem))?,
                 Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &dry)?,
@@ -144,7 +144,7 @@ pub(super) fn accuracy_entries(accuracy: Option<Accuracy>) -> [(&'static str, Va
     ]
 }
 
-/// The kind of scene, as its file names it.
+/// The kind of scene, as in its file.
 pub(super) fn kind(problem: &Problem) -> &'static str {
     if matches!(problem.scenario, Scenario::Motor(_)) { "motor" } else { "plate" }
 }
@@ -154,10 +154,10 @@ pub fn small_load_gap(plate: &Plate, load: f64) -> f64 {
     plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt()
 }
 
-/// How a plate floats under its load: mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass
-/// whose weight is the load; and at which mean gap trapped gas that does not slip would carry it, and a small load. Of a strip, forces and mass
-/// are those of a metre of its width. `stable` is null if the error of the stiffness leaves it open. Natural frequency and slow motion are null
-/// unless it is true, and so is a time or frequency of a motion that the plate does not make.
+/// How a plate floats under its load: the mean gap at which the film carries it, the stiffness against slow motion, and the natural
+/// frequency of a mass whose weight is the load; also the mean gap at which trapped gas without slip would carry the load, and would carry
+/// a small load. For a strip, forces and mass are per metre of width. `stable` is null if the error of the stiffness leaves it open.
+/// Natural frequency and slow motion are null unless it is true, and so is a time or frequency of a motion that the plate does not perform.
 fn floating_object(plate: &Plate, load: f64, found: &Floating) -> Value {
     let mut object = json!({ "load_n": load });
     estimates::add(&mut object, "mean_gap", "_um", Some(found.mean_gap * 1e6));
@@ -235,8 +235,7 @@ impl Summary {
         }
     }
 
-    /// The object of a solution. `wall_s`: how long the solve took, by the caller's clock. `command`: the words of the
-    /// command line, kept as they are.
+    /// The object of a solution. `wall_s` is the wall time of the solve by the caller's clock. `command` is the words of the command line.
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
         let problem = &*settled(problem, &solution.outcome);
         let plate = problem.scenario.plate().zip(solution.outcome.plate());
@@ -259,7 +258,7 @@ impl Summary {
         summary
     }
 
-    /// Warns of numbers that the scene has and that are not known.
+    /// Adds warnings about numbers that the scene has, but that are not known.
     fn tell_unknown(&mut self, solution: &Solution) {
         let known = |quantity: Quantity| self.numbers.get(quantity).is_some();
         if known(Quantity::StallTorque) && !known(Quantity::StallTorqueError) {
@@ -283,7 +282,7 @@ impl Summary {
     }
 }
 
-/// An object of `--json` as text, between what all of them have: the version of the format first, the program's version and the
+/// An object of `--json` as text, with the parts that all of them have: the version of the format first, the program's version and the
 /// command line (word by word; empty if there was none) last.
 pub fn document(object: &impl Serialize, command: &[String]) -> String {
     #[derive(serde::Serialize)]
@@ -301,7 +300,7 @@ pub fn document(object: &impl Serialize, command: &[String]) -> String {
 pub fn text(object: &impl Serialize) -> String {
     // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
     let text = serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n");
-    // Names may have characters that a terminal obeys; in JSON they are only within strings.
+    // Names may contain characters that control a terminal; in JSON these occur only within strings.
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
         if c != '\n' && is_unseen(c) {
@@ -329,7 +328,8 @@ pub fn status_name(status: &Status) -> &'static str {
     }
 }
 
-/// A status, or that of a run in files, as it is marked beside numbers: in capitals, but for a reason after a colon; empty where all is well.
+/// The status of a solve, or that of a run in files, as a mark beside numbers: in capitals, except for a reason after a colon; empty if all
+/// is well.
 pub fn mark(status: &str) -> String {
     match status.split_once(": ") {
         _ if status == status_name(&Status::Converged) => String::new(),

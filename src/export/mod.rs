@@ -1,4 +1,4 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports.
+//! The output of results: the objects of `--json`, the tables of `--out`, figures, animations and reports.
 
 pub mod animation;
 pub mod compare;

@@ -1,7 +1,7 @@
-//! AV1 in an MP4: one track, the index before the data, so that it plays while it arrives.
+//! AV1 in an MP4 file: one track, with the index before the data, so that it can be played while it is loaded.
 //!
-//! A player does not repeat by itself, so the packets of a cycle stand in the file several times. What is known of the pictures is a
-//! comment as Apple's programs write it, which nearly all readers know.
+//! A player does not repeat by itself, so the file contains the packets of a cycle several times. The provenance is a comment in the form
+//! of Apple's programs, which nearly all readers know.
 
 use crate::control::Cancel;
 use shiguredo_mp4::bitstream::av1::{
@@ -14,18 +14,18 @@ use squeezefilm_video::{Picture, encode};
 use std::io::{self, Write};
 use std::num::NonZeroU32;
 
-/// Room for the boxes round a comment \[bytes\].
+/// Space for the boxes round a comment \[bytes\].
 const ABOUT: usize = 256;
 /// A box begins with its length and its name \[bytes\].
 const HEADER: usize = 8;
 
-/// A video has whole cycles, and lasts at least this \[s\].
+/// A video consists of whole cycles, and has at least this duration \[s\].
 const LONG_ENOUGH: f64 = 12.0;
-/// Shortest cycle for which that is taken at its word \[s\]: shorter ones would have to be repeated without end.
+/// Shortest cycle for which this holds \[s\]: shorter ones would have to be repeated too often.
 const SHORTEST: f64 = 0.02;
 
-/// Writes a cycle of `count` pictures of a size, each called for by its number, as often as [`LONG_ENOUGH`] asks, with a comment.
-/// `done` is called after each picture.
+/// Writes a cycle of `count` pictures, each requested by its number, as often as [`LONG_ENOUGH`] requires, with a comment. `done` is called
+/// after each picture.
 pub(super) fn write(
     (size, count, seconds): ([u32; 2], usize, f64),
     picture: &Picture<'_>,
@@ -34,7 +34,7 @@ pub(super) fn write(
     done: &dyn Fn(),
     cancel: &Cancel,
 ) -> io::Result<()> {
-    // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+    // Time is counted in units of 1/`count` of a millisecond. In these units a frame lasts as long as the cycle does in milliseconds.
     let step = (1000.0 * seconds).round() as u32;
     let timescale = u32::try_from(1000 * count).map_err(io::Error::other)?;
     let cycles = (LONG_ENOUGH / seconds.max(SHORTEST)).ceil() as u32;
@@ -45,7 +45,7 @@ pub(super) fn write(
     mux(&packets, [step, timescale], cycles, comment, out)
 }
 
-/// Writes the packets of a cycle `cycles` times, each for `step` \[s\], a fraction.
+/// Writes the packets of a cycle `cycles` times, each with the duration `step` \[s\], a fraction.
 fn mux(packets: &[Vec<u8>], step: [u32; 2], cycles: u32, comment: &str, out: &mut dyn Write) -> io::Result<()> {
     let samples = packets.iter().map(|packet| sample(packet)).collect::<io::Result<Vec<Vec<u8>>>>()?;
     let mut entry = Some(entry(samples.first().map_or(&[], Vec::as_slice))?);
@@ -76,7 +76,7 @@ fn mux(packets: &[Vec<u8>], step: [u32; 2], cycles: u32, comment: &str, out: &mu
     let compatible_brands = vec![Brand::ISOM, Brand::ISO6, Brand::AV01, Brand::MP41];
     let ftyp = FtypBox { major_brand: Brand::ISOM, minor_version: 0x200, compatible_brands };
     let head = [bytes(ftyp)?, bytes(moov)?].concat();
-    // The data stand where the index says: room that it did not need stays free.
+    // The data begin where the index says; the reserved space that is not needed is filled.
     let (begin, data) = boxes.offset_and_bytes_pairs().last().unwrap_or_default();
     let free = (begin as usize).checked_sub(head.len() + HEADER);
     let payload = vec![0; free.ok_or_else(|| io::Error::other("the index of the video is too long"))?];
@@ -84,7 +84,7 @@ fn mux(packets: &[Vec<u8>], step: [u32; 2], cycles: u32, comment: &str, out: &mu
     all().try_for_each(|(_, sample)| out.write_all(sample))
 }
 
-/// A packet without delimiters, which a container has no use for.
+/// A packet without delimiters, which are not needed in a container.
 fn sample(packet: &[u8]) -> io::Result<Vec<u8>> {
     let obus = parse_obus(packet, Av1ObuParseContext::Sample).map_err(io::Error::other)?;
     let kept = obus.iter().filter(|obu| obu.obu_type != Av1ObuType::TemporalDelimiter);
@@ -103,7 +103,7 @@ fn entry(first: &[u8]) -> io::Result<SampleEntry> {
 }
 
 fn about(comment: &str) -> io::Result<UnknownBox> {
-    // Text in UTF-8, of no country.
+    // Text in UTF-8, without a country.
     let text = [&[0, 0, 0, 1, 0, 0, 0, 0], comment.as_bytes()].concat();
     let item = plain(*b"\xa9cmt", bytes(plain(*b"data", text))?);
     let list = plain(*b"ilst", bytes(item)?);

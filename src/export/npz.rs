@@ -1,10 +1,9 @@
-//! The fields of one cycle as a NumPy archive, `fields.npz`: arrays of float64 under names with their unit, axes as arrays of
-//! their own, and where the numbers come from as text. `numpy.load` reads it in one line.
+//! The fields of one cycle as a NumPy archive, `fields.npz`: arrays of float64 with the unit in their names, the axes as separate arrays,
+//! and the provenance as text. `numpy.load` reads it in one line.
 //!
-//! An archive is a zip of files in NumPy's format, version 1.0: a magic string, a header that says type, order and shape, and
-//! the numbers as they are in memory (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>). They
-//! are stored, not compressed, which costs a few megabytes and saves seconds; entries carry no time, so that a run
-//! gives the same bytes every time.
+//! An archive is a zip of files in NumPy's format, version 1.0: a magic string, a header with type, order and shape, and the numbers as
+//! they are in memory (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>). They are stored without compression,
+//! which costs a few megabytes and saves seconds. The entries have no time stamps, so that a run gives the same bytes every time.
 //!
 //! Beside the [`fields`] there are `preset`, `version`, `fidelity` and `scene_toml` as text.
 
@@ -29,19 +28,19 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
     archive.0.finish().map_err(io::Error::from)?.flush()
 }
 
-/// A zip as a stream: sizes and sums follow each array, and the index is at the end.
+/// A zip as a stream: sizes and checksums follow each array, and the index is at the end.
 struct Archive<'a>(ZipWriter<StreamWriter<&'a mut dyn Write>>);
 
 impl Archive<'_> {
     fn begin(&mut self, name: &str, kind: &str, shape: &[usize]) -> io::Result<()> {
-        // The format has to be told beforehand of an array beyond 4 GB.
+        // The format has to know in advance about an array larger than 4 GB.
         let large = shape.iter().product::<usize>() as u64 * 8 >= u64::from(u32::MAX) - 1024;
         let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
         self.0.start_file(format!("{name}.npy"), options).map_err(io::Error::from)?;
         self.0.write_all(&header(kind, shape))
     }
 
-    /// Numbers, the last index fastest; as many as the shape says.
+    /// Numbers, the last index fastest; their count follows from the shape.
     fn numbers(&mut self, name: &str, shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<()> {
         self.begin(name, "<f8", shape)?;
         let mut buffered = BufWriter::new(&mut self.0);
@@ -49,7 +48,7 @@ impl Archive<'_> {
         buffered.flush()
     }
 
-    /// A text without shape: NumPy's own characters have four bytes.
+    /// A text as an array without dimensions; NumPy's characters have four bytes.
     fn text(&mut self, name: &str, text: &str) -> io::Result<()> {
         let count = text.chars().count().max(1);
         self.begin(name, &format!("<U{count}"), &[])?;
@@ -59,10 +58,10 @@ impl Archive<'_> {
     }
 }
 
-/// Magic string, version, length, and a dictionary of Python, padded so that the numbers begin at a multiple of 64.
+/// Magic string, version, length, and a Python dictionary, padded so that the numbers begin at a multiple of 64.
 fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     const BEFORE: usize = 10;
-    // A tuple of one has a comma in Python.
+    // A Python tuple of one element has a comma.
     let shape: Vec<String> = shape.iter().map(|length| format!("{length},")).collect();
     let words = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", shape.join(" "));
     let length = (BEFORE + words.len() + 1).next_multiple_of(64) - BEFORE;

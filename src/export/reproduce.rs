@@ -1,5 +1,5 @@
-//! The paper's tables and figures: published numbers beside those of its own algorithm and the converged ones, as JSON and CSV, in
-//! sentences, as figures, and as one report.
+//! The paper's tables and figures: published numbers beside those of its own algorithm and the converged ones, as JSON, CSV, sentences,
+//! figures, and one report.
 
 mod figures;
 mod report;
@@ -12,8 +12,8 @@ pub use statements::{Statement, statements};
 use crate::analysis::reproduce::{Both, FrequencyPoint, ReproducedRow, Reproduction};
 use serde_json::{Value, json};
 
-/// A row of Table I as published, by the paper's algorithm on its own meshes, and converged; a difference is that of the film loads. What was not
-/// computed is null.
+/// A row of Table I as published, by the paper's algorithm on its own meshes, and converged; differences are those of the film loads.
+/// Numbers that were not computed are null.
 pub fn row_object(row: &ReproducedRow) -> Value {
     let (paper, ours) = (Both::result(&row.both.paper), Both::result(&row.both.ours));
     let published = &row.published;
@@ -33,8 +33,8 @@ pub fn row_object(row: &ReproducedRow) -> Value {
     })
 }
 
-/// The object of `--json`: Table I, Fig. 10, what the text says and what came of it, and how many solves did not converge. What was not
-/// computed is null.
+/// The object of `--json`: Table I, Fig. 10, the statements of the text with the computed numbers, and how many solves did not converge.
+/// Numbers that were not computed are null.
 pub fn object(all: &Reproduction) -> Value {
     json!({
         "fidelity": all.settings.fidelity.to_string(),

@@ -1,8 +1,8 @@
-//! A sweep that is not complete, or a part of it, as a CSV file: saved while it is solved, continued, and joined to the whole.
+//! An incomplete sweep, or a part of a sweep, as a CSV file, which is saved while it is solved, continued, and joined to the whole.
 //!
-//! The first line is a comment: an object of JSON that says of which sweep the rows are, and which part. The rest is the CSV of a sweep
-//! with a checksum of each row. Numbers are written with the fewest digits that read back to the same bits, so that a sweep in parts is the
-//! same, byte by byte, as one that is solved at once.
+//! The first line is a comment: a JSON object that says which sweep, and which part of it, the rows belong to. The rest is the CSV of a
+//! sweep with a checksum in each row. Numbers are written with the fewest digits that read back to the same bits, so that a sweep in parts
+//! is the same, byte by byte, as a sweep that is solved at once.
 
 use super::sweep::{BETWEEN, FIRST, STOPPED_BY, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
@@ -20,7 +20,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::time::Duration;
 
-/// Largest file of rows that is read \[MB\]: more than all points that a sweep can have.
+/// Largest file of rows that is read \[MB\]: larger than a sweep with the greatest number of points.
 pub const LARGEST: u64 = 512;
 
 /// The last column.
@@ -43,7 +43,7 @@ struct Head {
     command: Vec<String>,
 }
 
-/// Writes rows of a part of a sweep, to go on with or to be joined. `command`: the command line that solves the whole, if there is one.
+/// Writes rows of a part of a sweep, to be continued or joined. `command` is the command line that solves the whole, if there is one.
 pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], out: &mut dyn Write) -> io::Result<()> {
     let fingerprint = sweep.fingerprint();
     let head = Head {
@@ -66,11 +66,11 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], o
     writer.flush()
 }
 
-/// Message about a file of another sweep.
+/// Message about a file of a different sweep.
 const ANOTHER: &str = "it is of another sweep: another scene, range, setting, budget or version";
 
-/// Message about a file of something else.
-const NO_PART: &str = "it is no part of a sweep, as sweep --part saves them";
+/// Message about a file that is not part of a sweep.
+const NO_PART: &str = "it is no part of a sweep in the form that sweep --part saves";
 
 /// Message about a damaged file; lines are counted from 1.
 fn damaged(line: u64, fault: impl Display) -> String {
@@ -87,7 +87,7 @@ fn head(text: &str) -> Result<Head, String> {
 /// Rows of a part of `sweep` from the text that [`write()`] made of them.
 ///
 /// # Errors
-/// Why they are no such rows. A row too many, twice, or changed since it was written, is damage.
+/// Why these are not such rows. A row that is not expected, occurs twice, or was changed after it was written, counts as damage.
 pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<SweepRow>, String> {
     let (fingerprint, head) = (sweep.fingerprint(), head(text)?);
     if head.sweep != fingerprint {
@@ -99,7 +99,7 @@ pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<SweepRow>, Stri
     rows(sweep, &fingerprint, sweep.points_of(part), text)
 }
 
-/// The rows of a text, all of these `points`.
+/// The rows of a text, which all must belong to these `points`.
 fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<SweepRow>, String> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(COMMENT)).from_reader(text.as_bytes());
     let found = reader.headers().map_err(|error| damaged(2, error))?;
@@ -112,7 +112,7 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
         let record =
             record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), csv_fault(&error)))?;
         let line = record.position().map_or(0, csv::Position::line);
-        // The reader refuses a record of another length than the header.
+        // The reader refuses a record whose length differs from that of the header.
         let field = |column: usize| record.get(column).unwrap_or("");
         if field(0) != fingerprint {
             return Err(ANOTHER.to_owned());
@@ -171,14 +171,14 @@ pub struct Joined {
     pub command: Vec<String>,
 }
 
-/// Missing parts that are named.
+/// Greatest number of missing parts that are named.
 const NAMED: usize = 8;
 
-/// The whole of all its parts, each with a name to tell it by, in any order.
+/// The whole sweep from all its parts, each with a name for messages, in any order.
 ///
 /// # Errors
-/// Which text is no part of the sweep of the first, was given before or is not solved to its end; which parts are missing; or more points than
-/// one sweep can have.
+/// Which text is not part of the first one's sweep, was given before or is not complete; which parts are missing; or that there are more
+/// points than a sweep can have.
 pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
     fn fault(name: &str, fault: impl Display) -> String {
         format!("{name}: {fault}")
@@ -210,7 +210,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
         let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|error| fault(name, error))?;
         if rows.len() < points.len() {
             let solved = format!("{} of the {} points of part {part} are solved", rows.len(), points.len());
-            return Err(fault(name, format!("{solved}; the command that began it goes on")));
+            return Err(fault(name, format!("{solved}; the command that began it continues it")));
         }
         rows.sort_by_key(|row| row.point);
         if found[part.number() - 1].replace(rows).is_some() {
@@ -230,7 +230,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
 }
 
 impl Head {
-    /// The sweep that it names, of which this part is small enough.
+    /// The sweep that the header describes, of which this part is small enough.
     fn sweep(&self, part: Part) -> Result<Sweep, AnalysisError> {
         let scene = Scene::from_toml(&self.scene_toml, "the scene of the part")?;
         let vary = self.vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
@@ -280,7 +280,7 @@ mod tests {
         let third = text.lines().nth(2).unwrap();
         let twice = read(&ours, &format!("{text}{third}\n")).unwrap_err();
         assert!(twice.ends_with("point 0 is not expected here"), "{twice}");
-        // A row that somebody has changed is no result.
+        // A row that was changed by hand is not a result.
         for (from, to) in [
             ("0.30000000000000004", "0.31"),
             ("0.30000000000000004", "nan"),
@@ -294,7 +294,7 @@ mod tests {
 
     #[test]
     fn all_parts_are_the_whole_and_what_is_no_whole_is_told() {
-        // Of a range, of a logarithmic one and of words.
+        // A range, a logarithmic range and words.
         for vary in [
             "stator.frequency_khz=3:100:3",
             "stator.frequency_khz=3.3:100:3:log",
@@ -318,7 +318,7 @@ mod tests {
             assert_eq!(told(&parts[..2]), "parts are missing: 1/4, 2/4");
             assert_eq!(told(&[&parts[..], &parts[1..2]].concat()), "3/4.csv: part 3/4 was given before");
             let none = ("x.csv".to_owned(), saved(&ours, Part::all(4).last().unwrap(), &[]));
-            let told_none = "x.csv: 0 of the 3 points of part 4/4 are solved; the command that began it goes on";
+            let told_none = "x.csv: 0 of the 3 points of part 4/4 are solved; the command that began it continues it";
             assert_eq!(told(std::slice::from_ref(&none)), told_none);
             let third = ("y.csv".to_owned(), saved(&ours, Part::all(3).next().unwrap(), &[]));
             assert_eq!(told(&[parts[3].clone(), third]), "y.csv: it is part 1/3, and the parts before it are of 4");

@@ -16,13 +16,13 @@ use std::io::{self, Write};
 pub struct SensitivityStudy<'a> {
     /// Results and derivatives.
     pub sensitivity: &'a Sensitivity,
-    /// Uncertain keys; may be none.
+    /// Uncertain keys; there may be none.
     pub uncertainties: &'a Uncertainties,
     /// Random draws.
     pub carlo: Option<&'a MonteCarlo>,
 }
 
-/// The random draws: where the random numbers began, and how many draws were asked for, were solved, failed and were drawn again.
+/// The random draws: the seed, and how many draws were requested, solved, failed and drawn again.
 fn draws(MonteCarlo { seed, asked, draws, failures, redrawn }: &MonteCarlo) -> Value {
     json!({ "seed": seed, "asked": asked, "solved": draws.len(), "failed": failures.len(), "redrawn": redrawn })
 }
@@ -42,7 +42,7 @@ fn spread(spread: Spread) -> Value {
 }
 
 impl SensitivityStudy<'_> {
-    /// The object of `--json`. What is not known is null.
+    /// The object of `--json`. Unknown values are null.
     pub fn object(&self) -> Value {
         let sensitivity = self.sensitivity;
         json!({
@@ -57,8 +57,8 @@ impl SensitivityStudy<'_> {
         })
     }
 
-    /// One result, by its place: its value, the standard deviation that the uncertain keys make, how the random draws are distributed, and
-    /// a row for each key.
+    /// The result with this index: its value, the standard deviation due to the uncertain keys, the distribution of the random draws, and a
+    /// row for each key.
     fn output(&self, output: usize) -> Value {
         let of = self.sensitivity.outputs[output];
         let propagated = self.propagated(output);
@@ -85,7 +85,7 @@ impl SensitivityStudy<'_> {
         (0..self.sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect()
     }
 
-    /// A result by a key, a row of the CSV. Errors are estimated ones, absolute.
+    /// A result with respect to a key, a row of the CSV. Errors are estimated and absolute.
     fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Value {
         let sensitivity = self.sensitivity;
         let Column { parameter, at, step, sides, slopes } = &sensitivity.columns[column];
@@ -102,21 +102,21 @@ impl SensitivityStudy<'_> {
             "derivative": slope.map(|slope| slope.value),
             // The sum of the next three.
             "derivative_error": slope.map(|slope| slope.error()),
-            // By the length of the step.
+            // Due to the length of the step.
             "step_error": slope.map(|slope| slope.step_error),
-            // By the grids.
+            // Due to the grids.
             "grid_error": slope.map(|slope| slope.grid_error()),
-            // By what is left out of the model.
+            // Due to what is left out of the model.
             "left_out_error": slope.map(|slope| slope.left_out),
             // By how many per cent the result changes with 1 % of the key, of a temperature from absolute zero.
             "elasticity": relative.map(|found| found.value),
             "elasticity_error": relative.map(|found| found.error),
-            // That of the differences, in the unit of the key.
+            // The step of the differences, in the unit of the key.
             "step": step,
-            // `both`, or the side on which there is room: `above` or `below`.
+            // `both`, or the side with the points: `above` or `below`.
             "sides": sides,
-            // Standard deviation of the key, in its unit, if it is uncertain; what it contributes to that of the result, signed; and its share of
-            // the variance of the result, 0 to 1.
+            // Standard deviation of the key, in its unit, if it is uncertain; its contribution to that of the result, signed; and its share
+            // of the variance of the result, 0 to 1.
             "uncertainty": self.uncertainties.deviation(parameter),
             "contribution": contribution.map(|(_, part)| part.value),
             "variance_share": propagated.and_then(|found| found.share(parameter)),
@@ -150,12 +150,12 @@ impl SensitivityStudy<'_> {
         Figure { caption, provenance, ..Figure::default() }
     }
 
-    /// A tornado for each result: its elasticities. Keys that hardly matter are left out.
+    /// A tornado chart for each result: its elasticities. Keys with little effect are left out.
     pub fn tornado(&self) -> Figure {
         self.tornado_of("Change of each result for 1 % more of each parameter", None)
     }
 
-    /// A tornado for each result: what each uncertain key contributes; `None` if no key is uncertain.
+    /// A tornado chart for each result: the contribution of each uncertain key; `None` if no key is uncertain.
     pub fn uncertainty(&self) -> Option<Figure> {
         let what = "Change of each result for one standard deviation (s.d.) more of each uncertain parameter";
         (!self.uncertainties.is_empty()).then(|| self.tornado_of(what, Some(self.uncertainties)))
@@ -168,7 +168,7 @@ impl SensitivityStudy<'_> {
         figure
     }
 
-    /// How the random draws of each result are distributed, beside the normal distribution of the first order; `None` without draws.
+    /// The distribution of the random draws of each result, beside the normal distribution to first order; `None` without draws.
     pub fn histogram(&self) -> Option<Figure> {
         let carlo = self.carlo?;
         let caption = format!(
@@ -186,7 +186,7 @@ impl SensitivityStudy<'_> {
     }
 }
 
-/// The bars of a result: elasticities or, of `uncertain` keys, what each contributes.
+/// The bars of a result: elasticities or, for `uncertain` keys, the contribution of each.
 pub fn bars(sensitivity: &Sensitivity, output: usize, uncertain: Option<&Uncertainties>) -> Panel {
     let of = sensitivity.outputs[output];
     let (shown, smaller) = sensitivity.tornado(output, uncertain);
@@ -217,7 +217,7 @@ pub fn bars(sensitivity: &Sensitivity, output: usize, uncertain: Option<&Uncerta
     panel.layer(Mark::vertical(0.0, ""))
 }
 
-/// How the random draws of a result are distributed, beside the normal distribution of the first order; `None` without draws of it.
+/// The distribution of the random draws of a result, beside the normal distribution to first order; `None` without draws of it.
 pub fn distribution(
     sensitivity: &Sensitivity,
     output: usize,

@@ -17,7 +17,7 @@ pub fn object(preset: &str, fidelity: Fidelity, cells: &[Cell], unmapped: &[(&Ma
     json!({ "preset": preset, "fidelity": fidelity.to_string(), "cells": cells, "unmapped": unmapped })
 }
 
-/// One cell, a row of the CSV; x and y are the keys of the map. What is not known is null, or empty.
+/// One cell, a row of the CSV; x and y are the keys of the map. Unknown values are null, or empty.
 pub fn cell_object(cell: &Cell) -> Value {
     let number = |quantity| cell.numbers.get(quantity);
     let count = |quantity| number(quantity).map(|count| count as u64);
@@ -40,7 +40,7 @@ pub fn cell_object(cell: &Cell) -> Value {
     })
 }
 
-/// Why a cell is not solved, and what about its numbers cannot be.
+/// Why a cell is not solved, and what is physically impossible in its numbers.
 pub fn detail(cell: &Cell) -> String {
     let mut reasons = cell.violations.clone();
     match &cell.verdict {
@@ -66,13 +66,13 @@ const COLOURS: [Colour; VERDICTS.len()] = [
     Colour(0xbb, 0xbb, 0xbb),
 ];
 
-/// The maps below each other, each method's beside the other's.
+/// The maps below each other; those of the methods are side by side.
 pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
     let several = cells.iter().any(|cell| cell.method != cells[0].method);
     let (columns, width) = if several { (2, Width::Page) } else { (1, Width::Column) };
     let provenance = Provenance { fidelity: fidelity.to_string(), ..Provenance::named(preset) };
     let mut figure = Figure { provenance, columns, width, ..Figure::default() };
-    // Cells come map by map and method by method.
+    // The cells are in the order of maps and methods.
     for of_one in cells.chunk_by(|a, b| a.map.name == b.map.name && a.method == b.method) {
         let first = &of_one[0];
         let axes = [0, 1].map(|axis| {
@@ -95,7 +95,7 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
     figure
 }
 
-/// A logarithmic axis, and where its values are drawn. Zero has a place of its own, below the others.
+/// A logarithmic axis, and the positions of its values. Zero has its own position, below the others.
 fn places(key: &str, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
     let mut found: Vec<(usize, f64)> = values.collect();
     found.sort_by_key(|(place, _)| *place);
@@ -111,7 +111,7 @@ fn places(key: &str, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f
     {
         let stand_in = first * first / second;
         axis.names.push((stand_in, "0".to_owned()));
-        // Decades from the first of the others, which keep their values.
+        // Decades from the first of the other values, which keep their positions.
         let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
         let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
         axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, as_given(at).to_string())));

@@ -27,18 +27,18 @@ fn numbers() -> impl Iterator<Item = Quantity> {
     Quantity::all().filter(move |number| ranges.iter().any(|range| range.contains(number)))
 }
 
-/// One cycle. Its errors are those that the grids show.
+/// One cycle. Its errors are those that follow from the grids.
 #[derive(Clone, Copy, Debug)]
 pub struct CycleRow {
     /// From 1.
     pub cycle: usize,
-    /// Time at its end.
+    /// The time at its end.
     pub time_us: f64,
     /// Its means and extremes.
     pub numbers: Numbers,
     /// Largest change of ln Z over the cycle.
     pub change: f64,
-    /// By how much ln Z may still change; `None` while nothing is known.
+    /// The remaining change of ln Z; `None` while it is not known.
     pub remaining: Option<f64>,
 }
 
@@ -54,7 +54,7 @@ impl CycleRow {
         }
     }
 
-    /// As an object: `name` of each number, but `load_ratio`; what its scene does not have is null.
+    /// The numbers as an object, each under the name from `name`, except `load_ratio`; numbers that the scene does not have are null.
     fn object(&self, name: impl Fn(Quantity) -> String) -> Value {
         let mut row = json!({ "cycle": self.cycle, "time_us": self.time_us });
         for number in numbers() {
@@ -65,7 +65,7 @@ impl CycleRow {
         row
     }
 
-    /// How much of the way is done, 0 to 1, as ln of what remains.
+    /// Progress, 0 to 1, by the logarithm of the remaining change.
     pub fn share(&self, settings: &Settings) -> f64 {
         let by_cycles = self.cycle as f64 / settings.cycles as f64;
         let by_change = self.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
@@ -73,8 +73,8 @@ impl CycleRow {
     }
 }
 
-/// The object of `--json`: a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included. What is not
-/// known is null.
+/// The object of `--json`: a start-up that ended, and its cycles. `wall_s` is the wall time by the caller's clock, including the periodic
+/// solve. Unknown values are null.
 pub fn object(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[CycleRow], wall_s: f64) -> Value {
     let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
     json!({
@@ -101,7 +101,7 @@ pub fn object(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[C
     })
 }
 
-/// The limits of the model that its last cycle exceeds; without one, those that the scene alone does.
+/// The limits of the model that its last cycle exceeds; without a cycle, those that the scene exceeds by itself.
 pub fn validity(problem: &Problem, ended: &Startup) -> Vec<Excess> {
     of_outcome(problem, (ended.cycles > 0).then_some(&ended.outcome), &ended.decisions)
 }
@@ -111,7 +111,7 @@ pub fn warnings(ended: &Startup) -> Vec<String> {
     ended.warnings.iter().cloned().chain(unsettled(ended)).collect()
 }
 
-/// Puts a cycle among the others: after them, or in place of the same one on coarser grids.
+/// Inserts a cycle: after the others, or in place of the same cycle on coarser grids.
 pub fn place<T>(rows: &mut Vec<T>, number: usize, row: T) {
     match rows.get_mut(number - 1) {
         Some(coarser) => *coarser = row,
@@ -127,7 +127,7 @@ pub fn steady(problem: &Problem, startup: &Startup) -> Option<Estimate> {
     })
 }
 
-/// In words, what was taken although film and contact did not agree; `None` if every step settled.
+/// A message about steps in which film and contact did not agree; `None` if every step converged.
 pub fn unsettled(startup: &Startup) -> Option<String> {
     let (stats, Status::NotConverged { residual, tolerance }) = (&startup.stats, startup.status) else { return None };
     (stats.unsettled_steps > 0).then(|| {
@@ -147,12 +147,12 @@ pub fn write_csv(problem: &Problem, rows: &[CycleRow], out: &mut dyn Write) -> i
     csv::rows(rows.iter().map(|row| row.object(column)), out)
 }
 
-/// The line at what the periodic solve gives.
+/// The line at the value of the periodic solve.
 pub(super) fn periodic(value: f64) -> Mark {
     Mark { style: Style::solid(Colour::ROTOR).dash(Dash::Dashed), ..Mark::horizontal(value, "periodic solve") }
 }
 
-/// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
+/// Cycle means as they approach the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
 pub fn figure<'a>(
     problem: &Problem,
     rows: &[CycleRow],
@@ -167,7 +167,7 @@ pub fn figure<'a>(
     let at = |row: &CycleRow| (row.cycle as f64, row.numbers.main());
     let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
     let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
-    // One cycle is a point.
+    // A single cycle is drawn as a point.
     let alone = (rows.len() == 1).then(Marker::default);
     let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
         .layer(Band::new("error of the grids", band, Colour::FILM))

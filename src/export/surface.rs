@@ -7,13 +7,13 @@ use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
 use serde_json::{Value, json};
 
-/// h/σ at which flow factors are told.
+/// h/σ at which flow factors are listed.
 pub const RATIOS: [f64; 4] = [1.0, 2.0, 3.0, 5.0];
 
-/// The object of `squeezefilm surface --json`: the faces, each with the name of its file, and what follows from them together. One alone is both.
-/// Of a face, what is along x comes before what is along y; a correlation length is where the autocorrelation falls to ½ or to 0.2, null where
-/// it does not. H_m is the mean of both peak-to-valley heights, as in the paper; summits are those of McCool (1987); `preset` has the lines to
-/// be pasted into one.
+/// The object of `squeezefilm surface --json`: the faces, each with the name of its file, and the values for the pair; a single face counts
+/// as both. Values along x come before values along y. A correlation length is where the autocorrelation falls to ½ or to 0.2; it is null
+/// if it does not. H_m is the mean of both peak-to-valley heights, as in the paper; summits are those of McCool (1987); `preset` has the
+/// lines to be pasted into a preset.
 pub fn object<'a>(faces: impl Iterator<Item = (&'a str, &'a HeightMap, &'a Texture)>, pair: &Pair) -> Value {
     let micrometres = |lengths: [Option<f64>; 2]| lengths.map(|length| length.map(|length| length * 1e6));
     let face = |(file, map, texture): (&str, &HeightMap, &Texture)| {
@@ -52,8 +52,8 @@ pub fn object<'a>(faces: impl Iterator<Item = (&'a str, &'a HeightMap, &'a Textu
     })
 }
 
-/// The lines of a preset that follow, to four digits: the paper's way first, as comments the other. A value that its key does not allow
-/// is moved to the end of the range, and says so.
+/// The lines of a preset that follow, to four digits: those of the paper's model first, those of the other model as comments. A value that
+/// its key does not allow is moved to the end of the range, with a note.
 pub fn preset(pair: &Pair) -> String {
     let line = |key: &str, value: f64| {
         let (mut value, mut note) = (rounded(value, 4), String::new());

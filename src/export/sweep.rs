@@ -21,12 +21,12 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// Columns before those of the keys: which sweep, and which of its points.
+/// Columns before those of the keys: the fingerprint of the sweep, and the index of the point.
 pub(super) const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
-/// Why no finer grid was solved: `accuracy`, `budget` or `limit`; nothing where it failed.
+/// Why no finer grid was solved: `accuracy`, `budget` or `limit`; empty if it failed.
 pub(super) const STOPPED_BY: &str = "stopped_by";
-/// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
+/// Names of the limits of the model that a point exceeds; in a CSV file they are separated by this.
 pub(super) const VALIDITY: &str = "validity";
 pub(super) const BETWEEN: &str = ";";
 
@@ -55,7 +55,7 @@ pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &SweepRow) -> Vec<St
     cells
 }
 
-/// Writes the rows as CSV, the header first; what is not there is empty.
+/// Writes the rows as CSV, the header first; missing values are empty.
 pub fn write_csv(sweep: &Sweep, rows: &[SweepRow], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
@@ -75,7 +75,7 @@ pub fn object<'a>(sweep: &'a Sweep, rows: &'a [SweepRow]) -> impl Serialize + 'a
         // The paper's method has no fidelity.
         fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
         complete: rows.len() == sweep.len(),
-        // As in the first column of the CSV.
+        // These are the values in the first column of the CSV.
         sweep: sweep.fingerprint(),
         axes: sweep.axes().iter().map(axis_object).collect(),
         rows: Rows { sweep, rows },
@@ -97,7 +97,7 @@ struct Object<'a> {
     published: Vec<Published>,
 }
 
-/// Made into JSON one after the other: there may be a hundred thousand.
+/// The rows, converted to JSON one after the other, because there may be a hundred thousand.
 struct Rows<'a> {
     sweep: &'a Sweep,
     rows: &'a [SweepRow],
@@ -110,7 +110,8 @@ impl Serialize for Rows<'_> {
     }
 }
 
-/// An axis: its key, the unit, how its values are spaced (`linear`, `log`, or of words `list`), and the values, numbers or words as in `--set`.
+/// An axis: its key, the unit, the spacing of its values (`linear`, `log`, or `list` for words), and the values, numbers or words as in
+/// `--set`.
 fn axis_object(axis: &SweepAxis) -> Value {
     let scale = match axis.scale {
         _ if !axis.words.is_empty() => "list",
@@ -137,8 +138,8 @@ fn row_object(axes: &[SweepAxis], quantities: &[Quantity], row: &SweepRow) -> Va
     [(FIRST[1], row.point.into())].into_iter().chain(keys).chain(how).chain(numbers).collect()
 }
 
-/// A quantity of the sweep as a figure. Over one key: with its error as a band, and below the [`primary`] one a second. Over two: a
-/// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
+/// A quantity of the sweep as a figure. Over one key: a curve with its error as a band, and a second curve below the [`primary`] one. Over
+/// two keys: a map with contours. Published points of Table I are included, and crosses where a point did not converge.
 pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
     let worst = |error: Quantity| {
@@ -165,14 +166,14 @@ pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
     let found =
         rows.iter().filter(|row| row.status == RunStatus::Converged).filter_map(|row| row.numbers.get(quantity));
     let [least, most] = extent(found);
-    // On a map, what differs by less than its error has one colour.
+    // On a map, values that differ by less than their error have one colour.
     let error = typical_error(rows, quantity);
     let noise = error.is_finite() && (0.0..error).contains(&(most - least));
     let noise = noise.then_some(Range::Fixed(least - error, most + error));
     match sweep.axes() {
         [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity, noise.unwrap_or_default())),
         [first, x, y] => {
-            // A map for each value of the first key, with one scale of colours.
+            // There is a map for each value of the first key, with one colour scale.
             let range = noise.unwrap_or(if least < most { Range::Fixed(least, most) } else { Range::Auto });
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
@@ -201,7 +202,7 @@ pub fn figure(sweep: &Sweep, rows: &[SweepRow], quantity: Quantity) -> Figure {
     figure
 }
 
-/// Most maps in a figure of three keys.
+/// Greatest number of maps in a figure of three keys.
 const MOST_MAPS: usize = 12;
 
 /// The main quantity of a sweep: α of a motor, the mean gap of a plate that floats, the load ratio of any other plate.
@@ -220,13 +221,13 @@ fn figure_axis(axis: &SweepAxis) -> Axis {
     Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
 }
 
-/// Points with numbers that are not sound.
+/// Points whose numbers are not reliable.
 const UNSOUND: &str = "not converged or not resolved";
 
-/// Up to this many points each has its marker.
+/// Curves with at most this many points have a marker at each.
 const FEW: usize = 40;
 
-/// One quantity over one key, with a gap where a point has no value, or is still to be solved.
+/// One quantity over one key, with a gap where a point has no value, or is not solved yet.
 pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quantity: Quantity) -> Panel {
     let mut points: Vec<(f64, Option<&SweepRow>)> = x.values.iter().map(|value| (*value, None)).collect();
     rows.iter().for_each(|row| points[row.point].1 = Some(row));
@@ -242,7 +243,7 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
     };
     let curve: Vec<[f64; 2]> = points.iter().map(|(x, row)| [*x, number(&row.filter(sound), quantity)]).collect();
     let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
-    // There is nothing between words.
+    // There are no values between words.
     if !x.words.is_empty() {
         panel = panel.layer(Points { errors, ..Points::new("computed", curve, colour, dot) });
     } else {
@@ -271,12 +272,12 @@ pub(crate) fn curve_panel(sweep: &Sweep, rows: &[SweepRow], x: &SweepAxis, quant
     with_points(panel, "published (Table I)", published, Colour::BLACK, Marker::hollow(Shape::Square))
 }
 
-/// With points of this name, if there are any.
+/// Adds points of this name, if there are any.
 fn with_points(panel: Panel, name: &str, points: Vec<[f64; 2]>, colour: Colour, marker: Marker) -> Panel {
     if points.is_empty() { panel } else { panel.layer(Points::new(name, points, colour, marker)) }
 }
 
-/// `rows` are those of the map, with the values of its two axes alone.
+/// `rows` are those of the map, with only the values of its two axes.
 pub(crate) fn map_panel(
     sweep: &Sweep,
     rows: &[SweepRow],
@@ -292,7 +293,7 @@ pub(crate) fn map_panel(
     let (xs, ys) = (ascending(&x.values), ascending(&y.values));
     let mut values = vec![f64::NAN; xs.len() * ys.len()];
     let mut unsound = Vec::new();
-    // What they have in common.
+    // The description that all of them share.
     let number = |row: &SweepRow| matches!(row.status, RunStatus::NotConverged | RunStatus::NotResolved);
     let sound = |row: &SweepRow| row.status == RunStatus::Converged;
     let name = if rows.iter().all(|row| sound(row) || number(row)) {
@@ -311,7 +312,7 @@ pub(crate) fn map_panel(
             values[i * ys.len() + j] = value;
         }
     }
-    // There is nothing between words.
+    // There are no values between words.
     let contours = (x.words.is_empty() && y.words.is_empty()).then(|| typical_error(rows, quantity));
     let (label, unit) = (quantity.words().to_owned(), quantity.unit(sweep.problem()).to_owned());
     let grid = Grid { x: xs, y: ys, values };
@@ -382,7 +383,7 @@ pub(super) mod tests {
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&*map.label, &*map.unit), ("highest pressure", "kPa"));
 
-        // Crosses have a name that is true of all.
+        // The name of the crosses must be true for all of them.
         let failed = || RunStatus::Failed("no solution".to_owned());
         for (statuses, name) in [
             ([failed(), failed()], "not solved"),
@@ -396,7 +397,7 @@ pub(super) mod tests {
             assert_eq!((&*crosses.name, crosses.points.len()), (name, 2));
         }
 
-        // Of nothing there is no range, and what differs by less than its error has one colour.
+        // Without values there is no range, and values that differ by less than their error have one colour.
         let range = |rows: &[SweepRow]| match figure(&plane, rows, Quantity::Alpha).panels[0].layers[0] {
             Layer::Map(ref map) => map.range.clone(),
             _ => panic!("no map"),

@@ -9,9 +9,9 @@ use crate::solution::{OperatingPoint, Performance};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// The object: with and without the film, the friction coefficient that a model without film needs for the same maximum operating
-/// torque, the mean power spent on squeezing the film, a bound of its viscous drag (signed), the greatest speed of the stator's surface,
-/// and a bound of what the film's answer to another rotor speed changes, relative to the torque. What is not known is null.
+/// The object: with and without the film, the friction coefficient that a model without film needs for the same maximum operating torque,
+/// the mean power needed to squeeze the film, a bound of its viscous drag (signed), the greatest speed of the stator's surface, and a bound
+/// of the relative change of the torque because the film changes with the rotor speed. Unknown values are null.
 pub(super) fn merit(curves: &TorqueCurves) -> Value {
     let [with, without] = [&curves.with_film, &curves.without_film].map(|found| side(curves, found));
     let mut object = json!({ "with_film": with, "without_film": without });
@@ -42,8 +42,8 @@ fn side(curves: &TorqueCurves, found: &Performance) -> Value {
     object
 }
 
-/// At the rotor speed of the scene: power given to the rotor, heat of friction, and the output over what the stator gives, null where
-/// the rotor is not driven.
+/// At the rotor speed of the scene: power given to the rotor, friction heat, and the ratio of the output to the power from the stator,
+/// which is null if the rotor is not driven.
 fn present(curves: &TorqueCurves, point: &OperatingPoint) -> Value {
     let mut object = json!({ "speed_rpm": curves.rpm(point.speed) });
     estimates::add(&mut object, "torque", "_nm", Some(point.torque));
@@ -53,7 +53,7 @@ fn present(curves: &TorqueCurves, point: &OperatingPoint) -> Value {
     object
 }
 
-/// Writes both curves, one row for each speed. Where a value is not known, or the rotor is not driven, a field is empty.
+/// Writes both curves, one row for each speed. A field is empty if its value is not known, or if the rotor is not driven.
 pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let columns = [("torque", "_nm"), ("output", "_w"), ("friction", "_w"), ("efficiency", "")];

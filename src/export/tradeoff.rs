@@ -7,7 +7,7 @@ use crate::export::figure::{
 };
 use serde_json::{Value, json};
 
-/// The object of `--json`: the settings of a scene, and those that serve what was asked for, if anything.
+/// The object of `--json`: the settings of a scene, and those that meet the targets, if there are any.
 pub fn object(preset: &str, tradeoff: &Tradeoff, targets: &[Target]) -> Value {
     json!({
         "preset": preset,
@@ -29,7 +29,7 @@ fn choice(tradeoff: &Tradeoff, target: Target) -> Value {
     json!({ "wish": wish, "value": value, "setting": setting, "options": options })
 }
 
-/// One object for each setting, a row of the CSV, in the order of the curve. What is not known is null, or empty.
+/// One object for each setting, a row of the CSV, in the order of the curve. Unknown values are null, or empty.
 pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
     let setting = |(i, point): (usize, &TradeoffPoint)| {
         let run = &point.run;
@@ -45,15 +45,15 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<Value> {
             "upper_quartile_s": point.quartiles.1,
             "runs": run.times.len(),
             "value": run.numbers.get(tradeoff.judged),
-            // The greater of the next two, by which it is judged.
+            // The greater of the next two, by which the setting is judged.
             "error": point.error,
             // Distance from the reference plus the reference's own stated error, relative.
             "measured_error": point.measured,
-            // What it states of itself, relative.
+            // Its stated error, relative.
             "stated_error": point.stated,
-            // No other is at once as fast and as accurate.
+            // Whether no other setting is both faster and more accurate.
             "pareto": point.best,
-            // The one that the others are judged by.
+            // Whether the others are judged by this setting.
             "reference": tradeoff.reference == Some(i),
             "film_nodes": run.grid.0,
             "steps_per_cycle": run.grid.1,
@@ -75,8 +75,8 @@ pub fn words(family: Family) -> (&'static str, Colour) {
     }
 }
 
-/// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
-/// names at the fidelities, and rings of this name and colour round some settings.
+/// Error against time, both logarithmic: the error that each setting is judged by, the front of the settings that no other beats, names at
+/// the fidelities, and rings with this name and colour round some settings.
 pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize])) -> Panel {
     let place = |point: &TradeoffPoint| Some([point.median, 100.0 * point.error?]);
     let label = format!("error of {}", tradeoff.of_what());
@@ -98,10 +98,10 @@ pub fn panel(tradeoff: &Tradeoff, (name, colour, chosen): (&str, Colour, &[usize
     let named = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
     Panel::new("", time, Axis::new(label, "%").log())
         .height(60.0)
-        // Inside, its signs would read as settings, and these as its signs.
+        // Inside the axes, the symbols of the legend could be taken for settings, and settings for symbols.
         .legend(Legend::Above)
         .layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)))
-        // The rings are under the points, so that these stay to be seen.
+        // The rings are below the points, so that the points remain visible.
         .layers(std::iter::once(rings).chain(families).filter(there))
         .layers(named.filter_map(|point| Some(Text::new(place(point)?, point.run.candidate.name.clone()))))
 }

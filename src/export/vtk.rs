@@ -1,8 +1,9 @@
 //! The fields of one cycle for ParaView and other programs that read VTK: faces on both sides of the film, one file for each instant.
 //!
-//! A motor is its whole ring: the tops of all teeth, and the rotor above them, as wide as the contact. A plate is the wall and the plate; a
-//! strip is drawn as wide as it is long. Points lie in one plane \[mm\], because heights are too small to be seen: `height_mm` is a vector to warp
-//! by, a thousandfold or so. Points carry `pressure_kpa` (absolute), `film_thickness_nm` and `face`: 0 below the film, 1 above it.
+//! For a motor this is the whole ring: the tops of all teeth, and the rotor above them, as wide as the contact. For a plate it is the wall
+//! and the plate; a strip is drawn as wide as it is long. All points lie in one plane \[mm\], because the heights are too small to be
+//! visible: `height_mm` is a vector for the warp filter, with a factor of about a thousand. The points have `pressure_kpa` (absolute),
+//! `film_thickness_nm` and `face`: 0 below the film, 1 above it.
 //!
 //! The format is VTK's own ("legacy", version 3.0, binary): a few lines of text, each followed by numbers of four bytes, the most significant first
 //! (<https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>).
@@ -14,12 +15,12 @@ use crate::recording::sample::column;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 
-/// Points round a disc, or across a strip.
+/// Number of points round a disc, or across a strip.
 const ROUND: usize = 96;
 
-/// A line of points across, with the same film thickness.
+/// A line of points across the film, all with the same film thickness.
 struct Across {
-    /// Where they are, in the plane of the faces \[m\].
+    /// Their positions in the plane of the faces \[m\].
     places: Vec<[f64; 2]>,
     /// Absolute pressure \[Pa\] at each.
     pressure: Vec<f64>,
@@ -27,7 +28,7 @@ struct Across {
     bottom: f64,
     /// Height of the upper face \[m\].
     top: f64,
-    /// \[m\].
+    /// Film thickness \[m\].
     thickness: f64,
 }
 
@@ -36,7 +37,7 @@ struct Across {
 struct Mesh {
     points: Vec<[f64; 3]>,
     quads: Vec<[usize; 4]>,
-    /// Of each point its height, and what [`SCALARS`] names.
+    /// Height of each point, and the values that [`SCALARS`] names.
     values: Vec<(f64, [f64; 3])>,
 }
 
@@ -44,7 +45,7 @@ struct Mesh {
 const SCALARS: [&str; 3] = ["pressure_kpa", "film_thickness_nm", "face"];
 
 impl Mesh {
-    /// Adds both faces of a piece, from lines of as many points each.
+    /// Adds both faces of a piece, from lines with equal numbers of points.
     fn add(&mut self, lines: &[Across]) {
         for face in [0.0, 1.0] {
             let first = self.points.len();
@@ -66,7 +67,7 @@ impl Mesh {
     }
 }
 
-/// Writes the faces at a frame of the cycle. Nothing is known of a plane of pressure that was not recorded: `Ok` without a face.
+/// Writes the faces at a frame of the cycle. If no map of the pressure was recorded, it writes no faces and returns `Ok`.
 pub fn write(problem: &Problem, recording: &Recording, frame: usize, out: &mut dyn Write) -> io::Result<()> {
     let mut mesh = Mesh::default();
     match &problem.scenario {
@@ -93,7 +94,7 @@ pub fn write(problem: &Problem, recording: &Recording, frame: usize, out: &mut d
             let heights = |i: usize| (0.0, recording.film_thickness[line + i]);
             let strip = plate.is_strip();
             let place = |x: f64, y: f64| match (recording.radial, strip) {
-                // What is across is then an angle, or a share of the length.
+                // The position across is then an angle, or a share of the length.
                 (true, _) => [x * y.cos(), x * y.sin()],
                 (false, true) => [x, y * plate.length / TAU],
                 (false, false) => [x, y],
@@ -104,7 +105,7 @@ pub fn write(problem: &Problem, recording: &Recording, frame: usize, out: &mut d
     Vtk(out).write(&format!("{}, t/T = {:.4}", problem.name, frame as f64 / recording.frames as f64), &mesh)
 }
 
-/// The lines of a piece: over the length that was solved and its mirror image, and across likewise, or round.
+/// The lines of a piece: over the length that was solved and its mirror image, and the same across, or round the disc.
 fn piece(
     recording: &Recording,
     (tooth, frame): (usize, usize),
@@ -115,7 +116,7 @@ fn piece(
     let nodes = &recording.x;
     let half = recording.half_length && !recording.radial && nodes.first().is_some_and(|x| *x >= 0.0);
     let line = recording.line_offset(tooth, frame);
-    // Round, or along a strip, all values are the same.
+    // Round a disc, or across a strip, all values are the same.
     let alone = recording.map_y.len() < 2;
     mirrored(nodes, half)
         .into_iter()
@@ -151,7 +152,7 @@ impl Vtk<'_> {
         writeln!(self.0, "CELLS {quads} {}", 5 * quads)?;
         self.whole(mesh.quads.iter().flat_map(|quad| [&4].into_iter().chain(quad)))?;
         writeln!(self.0, "CELL_TYPES {quads}")?;
-        // Nine is a quadrilateral.
+        // Type 9 is a quadrilateral.
         self.whole(std::iter::repeat_n(&9, quads))?;
         writeln!(self.0, "POINT_DATA {points}\nVECTORS height_mm float")?;
         self.numbers(mesh.values.iter().flat_map(|(height, _)| [0.0, 0.0, *height]))?;
@@ -177,7 +178,7 @@ impl Vtk<'_> {
     }
 }
 
-/// The names of the files of a cycle, and the series that ParaView opens: JSON with the time of each.
+/// The file names of a cycle, and the series file for ParaView: JSON with the time of each.
 pub fn series(recording: &Recording) -> (Vec<String>, String) {
     let names: Vec<String> = (0..recording.frames).map(|frame| format!("film-{frame:04}.vtk")).collect();
     let files = names.iter().enumerate();

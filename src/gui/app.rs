@@ -1,4 +1,4 @@
-//! The application: between the frames of eframe it takes what has happened, carries out commands, and draws.
+//! The application: in each frame of eframe it handles what has happened since the last one, carries out commands, and draws.
 
 use super::command::Command;
 use super::state::dialogs::Purpose;
@@ -22,7 +22,7 @@ use eframe::egui::accesskit::{Action, ActionRequest, TreeId};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Time from the beginning of one frame of a motion to the next: a little less than a sixtieth of a second, since waking up takes time as well.
+/// Time between two frames of an animation: a little less than a sixtieth of a second, because waking up takes time as well.
 const FRAME: Duration = Duration::from_millis(15);
 
 /// Interval at which unsaved work is stored.
@@ -32,7 +32,7 @@ const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 pub struct App {
     /// Carries out commands and owns the state.
     pub updater: Updater,
-    /// Whether text is being typed anywhere but in the search field of the glossary.
+    /// Whether text is being typed in any field except the search field of the glossary.
     typing: bool,
     /// Commands given while text was being typed, carried out once the text is committed.
     after_text: Vec<Command>,
@@ -43,14 +43,14 @@ pub struct App {
     address: String,
     /// Title that the window has.
     title: String,
-    /// What the keyboard was at when the last frame began.
+    /// The widget that had the keyboard focus when the last frame began.
     focused: Option<egui::Id>,
     /// Why the last save failed; it is told once.
     fault: Option<String>,
 }
 
 impl App {
-    /// The application on the scene that was `opened`, or where the last window was left, or on the fundamental case.
+    /// The application with the scene `opened`, or else the scene of the last window, or else the fundamental case.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,
@@ -72,13 +72,13 @@ impl App {
         &self.updater.state
     }
 
-    /// Does what a panel or a key would ask for.
+    /// Carries out a command as if a panel or a key had given it.
     pub fn carry_out(&mut self, command: Command) {
         self.unwritten |= !matches!(command, Command::Hover(_));
         self.updater.carry_out(command);
     }
 
-    /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.
+    /// Escape closes the tour, then the glossary, but only when nothing is open over them and no text is being typed.
     fn escape(&self, ctx: &egui::Context) -> Option<Command> {
         let state = self.state();
         let close = match (state.lessons.tour, &state.lessons.glossary) {
@@ -92,8 +92,8 @@ impl App {
         pressed.then_some(close)
     }
 
-    /// Scrolls to what the keyboard has gone to since the last frame, if its middle is out of sight: egui passes the keyboard on to what is
-    /// scrolled away too.
+    /// Scrolls to the widget that has got the keyboard focus since the last frame, if its middle is out of sight: egui moves the focus to
+    /// widgets that are scrolled away, too.
     fn follow_focus(&mut self, ctx: &egui::Context) {
         let focused = ctx.memory(|memory| memory.focused());
         let noted = egui::Id::unique(FOLLOWED);
@@ -102,7 +102,8 @@ impl App {
         }
         let hidden = |found: &egui::Response| !found.interact_rect.contains(found.rect.center());
         if let Some(found) = focused.and_then(|id| ctx.read_response(id)).filter(hidden) {
-            // As a screen reader asks for it: the scroll areas around it follow, but for tables, which are told.
+            // The request is the one that a screen reader makes: the scroll areas around the widget follow it, except for tables, which get
+            // a note.
             ctx.data_mut(|data| data.insert_temp(noted, found.id));
             let (action, target_node) = (Action::ScrollIntoView, found.id.accesskit_id());
             let request = ActionRequest { action, target_tree: TreeId::ROOT, target_node, data: None };
@@ -138,7 +139,7 @@ impl App {
         Obstacles { modal: self.state().modal.is_some() || self.state().shortcuts, typing: self.typing }
     }
 
-    /// Carries `commands` out, in a frame or two if text is being typed, which has to be taken first.
+    /// Carries out `commands`: at once, or a frame or two later if text is being typed, because the text has to be committed first.
     fn after_text(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
         if commands.is_empty() || !ctx.text_edit_focused() {
             commands.into_iter().for_each(|command| self.carry_out(command));
@@ -165,7 +166,7 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.updater.drain();
         let now = self.updater.now();
-        // A frame after a pause must not leap.
+        // After a pause the animation must not jump.
         let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
         if self.updater.animate(elapsed) {
             ctx.request_repaint_after(FRAME);
@@ -174,7 +175,7 @@ impl eframe::App for App {
         self.updater.follow_torque();
         self.updater.follow_rotor();
         if !self.after_text.is_empty() {
-            // The field hands its text over when the cursor leaves it.
+            // A field commits its text when it loses the focus.
             ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
         }
         let address = fragment();
@@ -205,7 +206,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         if frame.gl().is_none() {
-            // Only OpenGL is sure to have cleared the window with this.
+            // Only with OpenGL is the window certain to have been cleared with this colour.
             ui.painter().rect_filled(ctx.content_rect(), 0.0, ui.visuals().panel_fill);
         }
         if self.updater.observe() {
@@ -218,27 +219,28 @@ impl eframe::App for App {
         }
         self.follow_focus(&ctx);
         let cx = DrawContext::new(self.state(), self.updater.now());
-        // Known to what fades into it.
+        // Scroll areas that fade at their edges need to know this background.
         let ground = egui::Frame::new().fill(ui.visuals().panel_fill);
         let stack = egui::UiStackInfo::new(egui::UiKind::GenericArea).with_frame(ground);
         ui.scope_builder(egui::UiBuilder::new().ui_stack_info(stack), |ui| layout::show(ui, &cx));
         let commands = cx.into_commands();
         self.typing = ctx.text_edit_focused() && !is_searched(&ctx);
         if !commands.is_empty() || ctx.memory(|memory| memory.focused()) != self.focused {
-            // What a command changes is drawn soon, and so is what the keyboard has gone to.
+            // The effect of a command is drawn soon, and so is a change of the keyboard focus.
             ctx.request_repaint();
         }
         let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();
         commands.into_iter().for_each(|command| self.carry_out(command));
         self.text_taken(&ctx, &asked);
         if self.unwritten {
-            // The frame in which it is written away. Asked for in every frame until then, since an earlier one takes its place.
+            // This requests the frame in which the state is saved. It is requested in every frame until then, because an earlier request
+            // replaces it.
             ctx.request_repaint_after(SAVE_INTERVAL + Duration::from_millis(500));
         }
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        // The ground of all panels.
+        // The background of all panels.
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 
@@ -260,8 +262,8 @@ impl eframe::App for App {
     }
 }
 
-/// The state that the last window was left in, with the scene that was `opened`, if one was; or that scene to be asked for, if the last
-/// window left changes unsaved. A `file` that can neither be read nor kept is not written to: it is taken away.
+/// The state that the last window was left in, with the scene `opened` if there is one. If the last window left unsaved changes, `opened`
+/// is returned beside that state, to be opened after a question. A `file` that can neither be read nor kept is not written to: it is taken away.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
@@ -277,10 +279,10 @@ fn restored(
         Ok(None) => storage?.get_string(key),
         Err(()) => None,
     };
-    // The tour is for whoever has never seen the window, and not over a file that was asked for.
+    // The tour is for users who have never seen the window, and is not shown over a file that was to be opened.
     let empty = stored("tour").is_none() && stored("scene").is_none();
     let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
-    // What the last window left unsaved is there first, and asked for.
+    // Unsaved changes of the last window are shown first, and the user is asked about them.
     let (document, next) = match (opened, last_document(&stored, &mut faults)) {
         (Some(opened), Some(last)) if last.is_dirty() => (last, Some(opened)),
         (opened, last) => (opened.or(last).map_or_else(Document::fundamental, Ok)?, None),
@@ -302,14 +304,14 @@ fn restored(
         faults.push(format!("The progress in lessons cannot be read: {fault}."));
     }
     state.lessons.tour = first_start.then_some(0);
-    // What cannot be read is told, and the rest is there.
+    // What cannot be read is reported, and the rest is restored.
     if let Some(Err(fault)) = stored("pins").map(|text| state.pins.restore(&text)) {
         faults.push(format!("Not all pinned runs of the last window can be read.\n{fault}"));
     }
     if !faults.is_empty() {
-        // The next save replaces it.
+        // The next save replaces the file, so a copy is kept.
         match file.as_deref().map_or(Ok(None), keep) {
-            Ok(Some(copy)) => faults.push(format!("What the last window left is kept in {}.", copy.display())),
+            Ok(Some(copy)) => faults.push(format!("The state of the last window is kept in {}.", copy.display())),
             Ok(None) => {}
             Err(error) => {
                 *file = None;

@@ -1,4 +1,4 @@
-//! The commands that panels and keys can give. `ui` pushes commands; `update` alone carries them out.
+//! The commands that panels and keys give. `ui` pushes commands, and only `update` carries them out.
 
 use super::state::dialogs::Purpose;
 use super::state::document::Next;
@@ -31,17 +31,17 @@ pub enum Command {
     },
     /// Sets a scene parameter from typed text; refused text becomes a message at the parameter.
     SetText(&'static str, String),
-    /// Back to the parameter's default (for an optional one: absent).
+    /// Resets the parameter to its default; an optional parameter becomes absent.
     Reset(&'static str),
-    /// Solves edits up to this fidelity, with all of these numerics, from now on: one edit.
+    /// From now on solves edits up to this fidelity and with all of these numerics, as one edit.
     Use(Fidelity, Numerics),
-    /// The most time that a solve may take from now on, if that is limited.
+    /// Limits the time of each solve from now on; `None` for no limit.
     Budget(Option<Duration>),
     /// Copies a link to the present view.
     CopyLink,
-    /// Tells what the program is, and how it is cited.
+    /// Shows what the program is, and how to cite it.
     About,
-    /// Copies its citation.
+    /// Copies the citation of the program.
     CopyCitation,
     /// Undoes the last edit.
     Undo,
@@ -49,23 +49,23 @@ pub enum Command {
     Redo,
     /// Opens a preset, or closes the window: asks first if there are unsaved changes.
     Proceed(Next),
-    /// Asks about a new motor.
+    /// Asks the questions about a new motor.
     NewMotor,
-    /// Answers one of the questions about it, by its name.
+    /// Answers one of the questions about a new motor, by its name.
     AnswerNewMotor(&'static str, String),
     /// Makes the motor that the answers describe.
     MakeNewMotor(Answers),
-    /// Asks for a file or a folder to do this with.
+    /// Asks for a file or a folder for this purpose.
     Ask(Purpose),
-    /// Does this with the file or the folder that was chosen.
+    /// Uses the file or the folder that was chosen for this purpose.
     Chosen(Purpose, PathBuf),
-    /// Does this with the path that was typed. If nothing can be saved there the prompt stays, with the reason.
+    /// Uses the path that was typed for this purpose. If nothing can be saved there, the prompt stays open and shows the reason.
     Typed(Purpose, PathBuf),
     /// Saves to the scene's file, or asks for one; then does this.
     Save(Option<Next>),
     /// Saves to the scene's file, whatever another program has written there; then does this.
     Replace(Option<Next>),
-    /// Closes the window although work goes on; asks about unsaved changes.
+    /// Closes the window although work is running; asks about unsaved changes.
     QuitAnyway,
     /// Discards unsaved changes, then does this.
     DiscardThen(Next),
@@ -75,11 +75,11 @@ pub enum Command {
     TypePath(String),
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
-    /// Cancels the running solve; if there is none, what was started in the tab that is shown.
+    /// Cancels the running solve; if there is none, the work that was started in the tab on screen.
     CancelSolve,
-    /// Cancels what was started in the tab that is shown; what there is of it stays.
+    /// Cancels the work that was started in the tab on screen; its results so far stay.
     CancelTab,
-    /// Shows this in the middle of the window.
+    /// Shows this tab in the middle of the window.
     Show(Tab),
     /// A command for the pinned runs.
     Pin(PinCommand),
@@ -91,27 +91,27 @@ pub enum Command {
     Fit(FitCommand),
     /// Forgets the measured face.
     ForgetFace,
-    /// Gives the scene the roughness that follows from the measured face: one edit.
+    /// Sets the roughness of the scene from the measured face, as one edit.
     TakeRoughness,
     /// A command for the held plate.
     Hold(HoldCommand),
     /// A command for the start-up.
     Startup(StartupCommand),
-    /// Measures error against time, now.
+    /// Starts to measure the error against the solve time.
     Measure,
     /// Sets a target of the trade-off: an accuracy or a time.
     Target(Target),
-    /// Ends the export under way; nothing is written.
+    /// Cancels the running export; nothing is written.
     CancelExport,
     /// Closes the note about the files of the last export.
     CloseExportNote,
-    /// Play or pause what moves in the middle.
+    /// Plays or pauses the animation of the tab.
     TogglePlay,
     /// Moves by this many frames, pausing.
     StepFrames(i64),
-    /// The pointer is at this x of a view \[m\], or in none.
+    /// The pointer is at this x of a view \[m\]; `None` if it is in no view.
     Hover(Option<f64>),
-    /// Jumps to this phase of the cycle, or share of what is recorded of a held plate, 0 to 1, pausing.
+    /// Jumps to this phase of the cycle, or to this share of the recording of a held plate, 0 to 1, and pauses.
     Seek(f64),
     /// Seconds on screen for one cycle.
     SecondsPerCycle(f64),
@@ -123,11 +123,11 @@ pub enum Command {
     Orbit(Orbit),
     /// Shows a prompt for a path to open.
     OpenPathPrompt,
-    /// Light or dark.
+    /// Changes between the light and the dark theme.
     ToggleTheme,
-    /// Large text, for a lecture room, or the usual size.
+    /// Changes between large text, for a lecture room, and the usual size.
     ToggleLecture,
-    /// Shows or hides the parameters: without panels the views have the whole window.
+    /// Shows or hides the parameters. Without the panels the views take the whole window.
     ToggleParameters,
     /// Shows or hides the results.
     ToggleResults,
@@ -137,7 +137,7 @@ pub enum Command {
     ToggleShortcuts,
     /// A command for lessons.
     Lesson(LessonCommand),
-    /// The tour, from this stop on; none ends it.
+    /// Shows the tour from this stop on; `None` ends it.
     Tour(Option<usize>),
     /// Shows or hides the glossary.
     Glossary(bool),
@@ -154,7 +154,7 @@ pub enum PinCommand {
     Preset(&'static str),
     /// Renames a pin.
     Rename(u64, String),
-    /// Removes a pin, or one that is being solved, or will be.
+    /// Removes a pin, or a scene that is being solved or waits to be solved for one.
     Remove(u64),
     /// Removes all pins.
     Clear,
@@ -203,7 +203,7 @@ pub enum StartupCommand {
     Start,
     /// Shows this cycle, or the nearest one that is kept.
     Choose(usize),
-    /// Whether the newest cycle is looked at.
+    /// Whether to follow the newest cycle.
     Follow(bool),
     /// Plays from the first cycle on.
     Replay,
@@ -216,7 +216,7 @@ pub enum SensitivityCommand {
     Start,
     /// Shows this result, by its index.
     Look(usize),
-    /// The uncertainty of a key, as it is typed; empty for none.
+    /// Sets the uncertainty of a key to the typed text; empty removes it.
     Uncertainty(&'static str, String),
     /// Sets the number of random scenes.
     Draws(usize),
@@ -231,14 +231,14 @@ pub enum HoldCommand {
     To(f64),
     /// Moves it by this share of its mean gap.
     By(f64),
-    /// Lets it go: it falls, or floats on the vibration; without a load it goes back to its mean gap.
+    /// Lets go of the plate. Under a load it falls, or floats on the vibration; without a load it returns to its mean gap.
     LetGo {
         /// Whether the face below vibrates.
         vibrates: bool,
     },
     /// Puts the film to rest at the mean gap, and clears the charts.
     Reset,
-    /// Plays what the charts hold once more.
+    /// Plays what the charts hold again.
     Replay,
     /// Slow motion: the leak time takes this many seconds.
     Seconds(f64),
@@ -247,31 +247,31 @@ pub enum HoldCommand {
 /// Commands for lessons.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LessonCommand {
-    /// Begins a lesson, by its place in the list, at a step or where it was left.
+    /// Begins a lesson, by its index, at a step or at the step where it was left.
     Open(usize, Option<usize>),
-    /// Begins the lesson that is followed once more, with nothing answered.
+    /// Begins the running lesson again, without answers.
     Again,
-    /// The step after this one; after the last comes the recap, and then the lesson ends.
+    /// Goes to the next step; after the last step comes the recap, and then the lesson ends.
     Next,
-    /// The step before this one.
+    /// Goes to the previous step.
     Back,
     /// Ends the lesson and brings the student's scene back.
     Leave,
-    /// Answers the question of the step, for now.
+    /// Sets the answer to the question of the step; it can still be changed.
     Predict(Prediction),
-    /// Keeps to that answer.
+    /// Commits the answer.
     Commit,
     /// Answers what was observed, by the index of the choice.
     Observe(usize),
-    /// Answers what is asked now with this choice.
+    /// Answers the present question with this choice.
     Choose(usize),
-    /// Does what comes next: commits an answer, goes to the marked parameter, or goes to the next step.
+    /// Does the next thing in the step: commits an answer, goes to the marked parameter, or goes to the next step.
     GoOn,
     /// Asks for one more hint.
     Hint,
     /// Makes the changes that fulfil the task.
     ShowMe,
-    /// Sets the step's scene up again.
+    /// Sets up the scene of the step again.
     SetUp,
     /// Shows all results in place of the lesson's text, or the text again.
     AllResults(bool),

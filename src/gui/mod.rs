@@ -1,8 +1,8 @@
-//! The window: an explorer that answers while the slider moves.
+//! The window, an interactive explorer: it shows new results while a slider moves.
 //!
-//! `app` is the glue to eframe. `state` is all that the window knows, and `derived` what is computed from runs to be drawn.
-//! `ui` reads the state, draws, and pushes commands; `update` carries them out, and never draws. The solver is reached through
-//! [`crate::job`] alone; the window's thread never solves.
+//! `app` connects the window to eframe. `state` holds everything that the window knows, and `derived` computes from runs what is drawn.
+//! `ui` reads the state, draws, and pushes commands; `update` carries them out, and never draws. The solver is reached only through
+//! [`crate::job`]; the window's thread never solves.
 
 pub mod app;
 pub mod command;
@@ -21,8 +21,9 @@ use std::time::Duration;
 use update::platform::Platform;
 use update::storage::{NOT_KEPT, StorageFile, beside};
 
-/// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
-/// beside the built-in ones. `link`: what to show of that. `fidelity` and `budget`: how exactly, and for how long, edits are solved.
+/// Opens the window with a scene, or with the state of the last window, and returns when it is closed. `lessons` is a folder of lessons to
+/// add to the built-in ones, `link` the tab or lesson step to show. `fidelity` and `budget` set how exactly edits are solved, and how long
+/// a solve may take.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.

@@ -18,13 +18,13 @@ use basin::{
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// The search ends when a step makes χ² smaller by less than this share …
+/// The search ends when a step reduces χ² by less than this share …
 const LEAST_GAIN: f64 = 1e-4;
 /// … or after so many steps.
 const MOST_STEPS: u64 = 60;
-/// Steps that may fail to make χ² smaller before the search ends.
+/// Attempts at one step that may fail to reduce χ² before the search ends.
 const MOST_ATTEMPTS: usize = 8;
-/// An unknown this close in x to a bound that χ² falls towards is at the bound.
+/// An unknown this close in x to a bound towards which χ² decreases is taken to be at the bound.
 const AT_BOUND: f64 = 5e-3;
 /// Correlation above which a warning says that two unknowns can hardly be distinguished.
 const ALIKE: f64 = 0.98;
@@ -38,26 +38,27 @@ pub struct Fitted {
     pub unknowns: Vec<FittedUnknown>,
     /// The measurements beside what is computed.
     pub rows: Vec<FittedRow>,
-    /// Of each condition under which torques were measured, what is computed over the rotor's speed, `[rpm, N m]`; empty of the others.
+    /// For each condition under which torques were measured, the computed torque over the rotor's speed, `[rpm, N m]`; empty for the
+    /// others.
     pub curves: Vec<Vec<[f64; 2]>>,
     /// Σ ((computed − measured)/error)².
     pub chi_squared: f64,
-    /// Measurements less unknowns that are not at a bound.
+    /// Number of measurements minus number of unknowns that are not at a bound.
     pub degrees_of_freedom: usize,
-    /// Factor on the errors that were given or assumed which makes χ² equal to its degrees of freedom; 1 where the errors are known;
-    /// `None` without degrees of freedom.
+    /// Factor on the given or assumed errors that makes χ² equal to the degrees of freedom; 1 if the errors are known; `None` without
+    /// degrees of freedom.
     pub error_scale: Option<f64>,
     /// Whether the errors of the measurements were given.
     pub errors_known: bool,
-    /// Greatest numerical error of what is computed, in standard errors of its measurement; `None` if none is known.
+    /// Greatest numerical error of a computed value, in standard errors of its measurement; `None` if none is known.
     pub numerical_error: Option<f64>,
-    /// Covariance of the unknowns in their units, row by row; not a number where one is at a bound.
+    /// Covariance of the unknowns in their units, row by row; NaN for an unknown at a bound.
     pub covariance: Vec<Vec<f64>>,
-    /// Correlation of the unknowns, likewise.
+    /// Correlation of the unknowns, in the same form.
     pub correlation: Vec<Vec<f64>>,
     /// Whether the search ended at a minimum.
     pub converged: bool,
-    /// The minima that several starts led to, the best first.
+    /// The minima that the different starts led to, the best first.
     pub minima: Vec<Minimum>,
     /// How many solves it took.
     pub solves: usize,
@@ -74,15 +75,16 @@ pub struct FittedUnknown {
     pub unknown: Unknown,
     /// The value, in the unit of the key.
     pub value: f64,
-    /// Its standard error, of the measurements and of what is computed; `None` at a bound, and where the measurements do not tell.
+    /// Its standard error, from the measurements and from the computed values; `None` at a bound, or if the measurements do not determine
+    /// it.
     pub error: Option<f64>,
     /// The bound it is at.
     pub at: Option<Bound>,
 }
 
 impl FittedUnknown {
-    /// Its value with the standard error, for people: `2.263 ± 0.012 µm`. An error wider than the bounds tells nothing of the value:
-    /// `2.26 µm, not determined`.
+    /// Its value with the standard error, for people: `2.263 ± 0.012 µm`. If the error is wider than the bounds, the value is not
+    /// determined: `2.26 µm, not determined`.
     pub fn told(&self) -> String {
         let Unknown { parameter, from, to, .. } = self.unknown;
         match self.error {
@@ -95,10 +97,10 @@ impl FittedUnknown {
     }
 }
 
-/// A measurement beside what is computed.
+/// A measurement beside the computed value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FittedRow {
-    /// The computed value with its numerical error, or why there is none: then the measurement was left out.
+    /// The computed value with its numerical error; or the reason why there is none, in which case the measurement was left out.
     pub computed: Computed,
     /// (computed − measured)/error, with the errors scaled by [`Fitted::error_scale`].
     pub residual: Option<f64>,
@@ -117,11 +119,11 @@ pub struct Minimum {
     pub starts: usize,
 }
 
-/// The problem as the library wants it.
+/// The problem in the form that the library needs.
 struct Search<'a> {
     model: &'a Model<'a>,
     measured: &'a Measured,
-    /// The measurements that count.
+    /// The measurements that are used.
     used: &'a [usize],
     lower: Vec<f64>,
     upper: Vec<f64>,
@@ -132,14 +134,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// (computed − measured)/error of the measurements that count, at `x`; not a number where nothing is computed.
+    /// (computed − measured)/error of the measurements that are used, at `x`; NaN if nothing can be computed.
     fn residuals(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
         let solved = self.model.at_one(x, self.cancel).ok_or(Stopped)?;
         Ok(residuals(self.measured, &in_order(self.measured, &solved), self.used))
     }
 
-    /// Of each unknown ∂residual/∂x; zeros where it is fixed. Those of a condition whose neighbours cannot be solved are zeros as well: it
-    /// then does not steer the search.
+    /// ∂residual/∂x for each unknown; zeros for an unknown that is fixed. If the neighbours of a condition cannot be solved, its
+    /// derivatives are zeros as well, so that it does not influence the search direction.
     fn derivatives(&self, x: &[f64]) -> Result<Vec<Vec<f64>>, Stopped> {
         let free: Vec<bool> = self.lower.iter().zip(&self.upper).map(|(lower, upper)| lower < upper).collect();
         let slopes = self.model.slopes(x, &free, self.cancel).ok_or(Stopped)?;
@@ -213,9 +215,8 @@ fn residuals(measured: &Measured, computed: &[Computed], used: &[usize]) -> Vec<
 /// also at the best of as many points, spread over the bounds and solved as drafts. A measurement that cannot be computed at the start is
 /// left out, and reported. `None` if cancelled.
 ///
-/// # Errors
-/// Keys that cannot be chosen, or all of whose values the table sets; a condition that the scene does not take; fewer measurements that can be
-/// computed than unknowns, or what the library that searches refuses.
+/// Keys that cannot be chosen, or whose values are all set by the table; a condition that the scene does not accept; fewer computable
+/// measurements than unknowns; or an error of the search library.
 pub fn fit(
     scene: &Scene,
     bounds: &[Bounds],
@@ -261,7 +262,7 @@ pub fn fit(
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let minima = distinct(model, &found);
     let (_, mut x, mut converged) = found.swap_remove(0);
-    // What χ² falls towards a bound with is put there, and the rest is looked for again.
+    // An unknown is fixed at a bound if χ² decreases towards it, and the search for the others is repeated.
     let mut at = free.clone();
     let columns = loop {
         let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
@@ -287,7 +288,7 @@ pub fn fit(
     Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, curves, minima, converged })?))
 }
 
-/// The best few of the points that are spread over the bounds, by drafts.
+/// The best few of the points spread over the bounds, evaluated at draft fidelity.
 fn coarse(
     model: &Model<'_>,
     measured: &Measured,
@@ -305,7 +306,7 @@ fn coarse(
     Some(best(judged.collect()))
 }
 
-/// From a point to the minimum that it leads to: χ² there, the point, and whether it is one. `None` if cancelled.
+/// Searches from a point for a minimum. Returns χ² there, the point, and whether it is a minimum. `None` if cancelled.
 fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, AnalysisError> {
     let solver = TrustRegionReflective::new()
         .with_max_inner_attempts(MOST_ATTEMPTS)
@@ -313,13 +314,13 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
         .with_relative_cost_change_tolerance(LEAST_GAIN);
     let ended = searched(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run())?;
     Ok(ended.map(|ended| {
-        // Where differences of solves are all noise no step gains anything: that is a minimum as well.
+        // Where the differences of solves are only noise, no step reduces χ²; this counts as a minimum as well.
         let converged = ended.report.termination.code() != TerminationCode::MaxIter;
         (2.0 * ended.cost(), ended.param().clone(), converged)
     }))
 }
 
-/// The minima that differ, best first.
+/// The distinct minima, best first.
 fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> {
     let mut minima: Vec<(&[f64], Minimum)> = Vec::new();
     for (chi_squared, x, _) in found.iter().filter(|found| found.0.is_finite()) {
@@ -339,7 +340,7 @@ fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> 
 struct Reached {
     x: Vec<f64>,
     at: Vec<Option<Bound>>,
-    /// Of each unknown ∂residual/∂x; zeros at a bound.
+    /// ∂residual/∂x for each unknown; zeros for an unknown at a bound.
     columns: Vec<Vec<f64>>,
     computed: Vec<Computed>,
     curves: Vec<Curve>,
@@ -347,7 +348,7 @@ struct Reached {
     converged: bool,
 }
 
-/// Statistics of the minimum that was reached.
+/// Statistics at the minimum.
 fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
     let Reached { x, at, columns, computed, curves, minima, converged } = reached;
     let count = x.len();
@@ -373,7 +374,7 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
             correlation[*row][*column] = if size > 0.0 { of(i, j) / size } else { f64::NAN };
         }
     }
-    // The error of the grids has one sign, nearly: it moves an unknown by up to the sum over all measurements.
+    // The grid errors have nearly all the same sign: they shift an unknown by up to the sum over all measurements.
     let grids = |k: usize| -> f64 {
         let Some(i) = free.iter().position(|one| *one == k) else { return 0.0 };
         let moved = |(row, measurement): (usize, &usize)| {
@@ -458,7 +459,7 @@ fn warnings(
         if let Some(at) = found.at {
             let parameter = found.unknown.parameter;
             warnings.push(format!(
-                "{} is at its {} bound, {} {}: χ² would fall further beyond it; the errors of the others take it for known",
+                "{} is at its {} bound, {} {}: χ² would fall further beyond it; the errors of the others assume that it is known",
                 parameter.key,
                 at.name(),
                 short(found.value, 6),
@@ -500,12 +501,12 @@ fn warnings(
     }
     match scatter {
         Some(scatter) if measured.errors_known && scatter > 2.0 => warnings.push(format!(
-            "the residuals are {} times as large as the errors of the measurements allow: the errors are too small, or the model does \
+            "the residuals are {} times as large as the errors of the measurements allow: the stated errors are too small, or the model does \
              not describe the measurements",
             significant(scatter, 2)
         )),
         None if !measured.errors_known => warnings.push(
-            "as many unknowns as measurements: without their errors nothing is known of how sure the values are".to_owned(),
+            "as many unknowns as measurements: without errors of the measurements the standard errors cannot be estimated".to_owned(),
         ),
         _ => {}
     }

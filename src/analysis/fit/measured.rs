@@ -1,4 +1,4 @@
-//! Tables of measurements: CSV, one measurement or several in a line.
+//! Tables of measurements in CSV format, with one or more measurements in each line.
 
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
@@ -14,17 +14,17 @@ use std::str::FromStr;
 
 /// Largest table of measurements that is read \[MB\].
 pub const LARGEST_TABLE: u64 = 10;
-/// The name of the table that is part of the program: Table I of Maeno and Bogy (1992).
+/// The name of the table that is built into the program: Table I of Maeno and Bogy (1992).
 pub const TABLE1: &str = "table1";
 const MOST_LINES: usize = 10_000;
 
 /// The column of the rotor's speed, which goes with [`TORQUE`].
 const SPEED: &str = "rotor_speed_rpm";
-/// The column of the torque at that speed.
+/// The column of torques, each at the speed in [`SPEED`].
 const TORQUE: &str = "torque_nm";
-/// The column that says how much a line counts.
+/// The column with the weight of a line.
 const WEIGHT: &str = "weight";
-/// Columns that name a line.
+/// Columns with names or notes.
 const LABELS: [&str; 3] = ["row", "name", "note"];
 
 /// A number that was measured.
@@ -32,7 +32,7 @@ const LABELS: [&str; 3] = ["row", "name", "note"];
 pub enum Observable {
     /// A number of a solve.
     Number(Quantity),
-    /// The torque of the whole ring \[N m\] at a speed of its rotor, the pressures being those of the scene's own speed.
+    /// The torque of the whole ring \[N m\] at a speed of its rotor, computed with the pressures at the scene's own speed.
     Torque {
         /// The speed \[rpm\].
         speed_rpm: f64,
@@ -82,21 +82,21 @@ pub struct Measurement {
 pub struct Measured {
     /// Name of the table.
     pub name: String,
-    /// Keys and values, as `--set` takes them, that each condition changes of the scene; no two are the same.
+    /// Keys and values, as in `--set`, by which each condition differs from the scene; no two conditions are equal.
     pub conditions: Vec<Vec<(String, String)>>,
     /// The measurements, line by line.
     pub measurements: Vec<Measurement>,
-    /// Whether the sizes of the errors were given.
+    /// Whether the sizes of the errors are known.
     pub errors_known: bool,
 }
 
-/// How large the errors are: `1%`, `0.005`, `film_load_n=1%`.
+/// The size of the errors: `1%`, `0.005`, `film_load_n=1%`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorSize {
-    /// The name of what was measured; `None`: of everything.
+    /// The name of what was measured; `None` for everything.
     name: Option<String>,
     size: f64,
-    /// A share of the measured value.
+    /// Whether it is a share of the measured value.
     relative: bool,
 }
 
@@ -132,7 +132,7 @@ enum Column {
     Label,
 }
 
-/// Numbers that can be measured: those of a solve but for what it cost and its own errors.
+/// Numbers that can be measured: those of a solve except its cost and its own errors.
 pub fn measurable(problem: &Problem) -> Vec<Quantity> {
     let other = |quantity: &Quantity| matches!(quantity, Quantity::Residual | Quantity::Tolerance);
     Quantity::of(problem).filter(|quantity| !quantity.is_count() && !quantity.is_error() && !other(quantity)).collect()
@@ -160,11 +160,11 @@ impl Measured {
         Self::from_csv(&text, &show_text(name_or_path), &Problem::try_from(scene)?)
     }
 
-    /// The published film loads of Table I, each under the changes of its row. How exact they are is not known: the errors are taken
-    /// to be one share of every load. With `Method::Auto` the rows are converged, so that that of the doubled mesh has no change.
+    /// The published film loads of Table I, each with the changes of its row. Their errors are not known and are taken to be the same share
+    /// of every load. With `Method::Auto` the rows are converged, so the row with the doubled mesh has no change.
     ///
     /// # Errors
-    /// A fault in a built-in preset; a test reads them all.
+    /// An error in a built-in preset; a test reads them all.
     pub fn table1(method: Method) -> Result<Self, SceneError> {
         let fundamental = presets::find("fundamental")?;
         let mut measured =
@@ -182,7 +182,7 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Reads a table, of commas, or of semicolons or tabs, which may have decimal commas. Its first line names the columns:
+    /// Reads a table with commas, semicolons or tabs; with semicolons or tabs it may have decimal commas. Its first line names the columns:
     ///
     /// * a key of the scene, as `film.min_spacing_nm`: the condition of the line; an empty cell leaves it as the scene has it;
     /// * a number of a solve, as `film_load_n`, or `torque_nm` with `rotor_speed_rpm`: measured; an empty cell was not measured;
@@ -190,15 +190,15 @@ impl Measured {
     /// * `row`, `name` or `note`: words.
     ///
     /// # Errors
-    /// [`AnalysisError::Input`], which names line, column, value and what is allowed.
+    /// [`AnalysisError::Input`], with line, column, value and what is allowed.
     pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, AnalysisError> {
         let fault = |line: Option<u64>, what: String| {
             let line = line.map_or_else(String::new, |line| format!(":{line}"));
             AnalysisError::Input(format!("{origin}{line}: {what}"))
         };
-        // The reader miscounts lines that end in CRLF.
+        // The reader counts lines that end in CRLF wrongly.
         let text = &text.replace("\r\n", "\n");
-        // Where the comma is in decimals, semicolons or tabs divide the columns.
+        // If commas are used as decimal commas, semicolons or tabs separate the columns.
         let delimiter = match text.lines().find(|line| !line.starts_with('#')).unwrap_or_default() {
             names if names.contains(';') => b';',
             names if names.contains('\t') && !names.contains(',') => b'\t',
@@ -308,7 +308,7 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Without errors, all of one column are taken to be equal, and in proportion to what it holds.
+    /// Without errors, the errors of a column are assumed to be equal, and proportional to the values in the column.
     fn scale_errors(&mut self) {
         let sizes: Vec<f64> = self
             .measurements
@@ -323,7 +323,8 @@ impl Measured {
         self.measurements.iter_mut().zip(sizes).for_each(|(one, size)| one.error *= size);
     }
 
-    /// With errors of these sizes, the last that applies. Those of all measurements have to be given, unless the table has them.
+    /// Sets errors of these sizes; of several that apply, the last one. All measurements must have errors then, from here or from the
+    /// table.
     ///
     /// # Errors
     /// A name that was not measured, a share of a value that is 0, or a measurement without an error.
@@ -361,7 +362,7 @@ impl Measured {
         Ok(self)
     }
 
-    /// Without the lines of these names; some have to be left.
+    /// Removes the lines with these names; at least one must remain.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
         for label in labels {
             let before = self.measurements.len();
@@ -377,7 +378,7 @@ impl Measured {
         Ok(self)
     }
 
-    /// The place of a condition, which is added if it is new.
+    /// The index of a condition, which is added if it is new.
     fn condition(&mut self, changes: Vec<(String, String)>) -> usize {
         match self.conditions.iter().position(|other| *other == changes) {
             Some(place) => place,
@@ -389,7 +390,7 @@ impl Measured {
     }
 }
 
-/// Kind of the column of this name, or why it has none.
+/// The kind of the column with this name, or why there is none.
 fn column(problem: &Problem, name: &str) -> Result<Column, String> {
     if Parameter::find(name).is_some() {
         return Ok(Column::Key);
@@ -399,7 +400,7 @@ fn column(problem: &Problem, name: &str) -> Result<Column, String> {
     }
     match name {
         TORQUE => return Ok(Column::Value(None)),
-        // As the program writes it: torque.csv.
+        // The program writes the column in this form in torque.csv.
         SPEED | "speed_rpm" => return Ok(Column::Speed),
         WEIGHT => return Ok(Column::Weight),
         name if LABELS.contains(&name) => return Ok(Column::Label),
@@ -407,7 +408,7 @@ fn column(problem: &Problem, name: &str) -> Result<Column, String> {
     }
     let of = |stem: &str| if stem == TORQUE { Some(None) } else { named(problem, stem).map(Some) };
     let error = name.strip_suffix("_error").and_then(of).or_else(|| {
-        // As the program writes it: film_load_error_n.
+        // The program writes such names: film_load_error_n.
         let found =
             measurable(problem).into_iter().find(|quantity| quantity.error().is_some_and(|error| error.name() == name));
         found.map(Some)

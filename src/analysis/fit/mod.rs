@@ -1,5 +1,4 @@
-//! Keys of a scene chosen so that what is computed agrees with what was measured, or so that one number is as large or as small as it
-//! can be.
+//! Chooses keys of a scene so that computed values agree with measurements, or so that one number is as large or as small as possible.
 //!
 //! [`Measured`] holds the measurements: each belongs to a [condition](Measured::conditions), the values of some keys, and each
 //! condition is solved once, however many measurements share it. [`Unknown`]s are the keys that are chosen, each within its bounds; the
@@ -34,15 +33,15 @@ pub use optimum::{Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;
 pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
 
-/// Tells how far a fit or an optimisation is: how many points have been tried, and the best so far (of a fit χ², of an optimum the
-/// number that is sought; not a number before there is one).
+/// Reports the progress of a fit or an optimisation: the number of points tried, and the best value so far (χ² for a fit, the sought number
+/// for an optimum; NaN before there is one).
 pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);
 
-/// The error by which the library that searches is told that the caller has cancelled.
+/// The error that tells the search library that the caller has cancelled.
 #[derive(Debug)]
 struct Stopped;
 
-/// Runs the library that searches, which refuses what it was not made for with an error or a panic; `None` if cancelled.
+/// Runs the search library, which reports problems that it cannot handle by an error or a panic; `None` if cancelled.
 fn searched<T>(run: impl FnOnce() -> Result<T, ConstraintSolveError<Stopped>>) -> Result<Option<T>, AnalysisError> {
     let failed = |reason: String| Err(AnalysisError::Search(format!("the search failed: {reason}")));
     match caught(run) {

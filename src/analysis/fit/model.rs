@@ -25,7 +25,7 @@ const CURVE: usize = 61;
 /// Torque over the rotor's speed, `[rpm, N m]`.
 pub(super) type Curve = Vec<[f64; 2]>;
 
-/// A number computed with its estimated numerical error, or why there is none.
+/// A computed number with its estimated numerical error, or why there is none.
 pub type Computed = Result<Estimate, String>;
 
 /// A scene, the keys that are chosen, and the conditions under which it is solved.
@@ -44,15 +44,14 @@ pub(super) struct Model<'a> {
 #[derive(Debug)]
 struct Condition {
     scene: Scene,
-    /// Of each unknown, whether it is chosen there: where the table sets the key, its value is known.
+    /// Whether each unknown is chosen under this condition: if the table sets the key, its value is known.
     chosen: Vec<bool>,
-    /// What is asked of it.
+    /// The numbers to be computed.
     asked: Vec<Observable>,
 }
 
 impl<'a> Model<'a> {
-    /// Checks the keys that are chosen, and every condition of a table: its keys, and that it can be solved at the values from which the
-    /// search starts.
+    /// Checks the keys to be chosen, and whether the scene can be solved at the values from which the search starts.
     pub(super) fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
             let found = bounds.len();
@@ -69,10 +68,10 @@ impl<'a> Model<'a> {
         Ok(Self { scene, settings: *settings, unknowns, conditions: Vec::new(), solves: AtomicUsize::new(0) })
     }
 
-    /// Under the conditions of a table, to compute what it holds.
+    /// Adds the conditions of a table, and computes what the table holds.
     ///
     /// # Errors
-    /// Every line sets a key that is to be chosen, or one sets a key that the scene does not take.
+    /// Every line sets a key that is to be chosen, or a line sets a key that the scene does not accept.
     pub(super) fn under(mut self, measured: &Measured) -> Result<Self, AnalysisError> {
         let sets = |changes: &[(String, String)], key: &str| changes.iter().any(|(other, _)| other == key);
         for unknown in &self.unknowns {
@@ -95,7 +94,7 @@ impl<'a> Model<'a> {
         Ok(self)
     }
 
-    /// Asked for these numbers of the scene itself.
+    /// Computes these numbers of the scene itself.
     pub(super) fn asking(mut self, asked: Vec<Observable>) -> Self {
         self.conditions = vec![Condition { scene: self.scene.clone(), chosen: vec![true; self.unknowns.len()], asked }];
         self
@@ -118,7 +117,7 @@ impl<'a> Model<'a> {
         condition.scene.with_numbers(chosen.map(|((unknown, x), _)| (unknown.parameter.key, unknown.value(*x))))
     }
 
-    /// The scene itself with the values at `x`, named as one that was fitted.
+    /// The scene itself with the values at `x`; its name says that it was fitted.
     pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, AnalysisError> {
         let values = self.unknowns.iter().zip(x).map(|(unknown, x)| (unknown.parameter.key, unknown.value(*x)));
         let mut scene = self.scene.with_numbers(values)?;
@@ -166,7 +165,7 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(found)
     }
 
-    /// As `at`, from solves at draft fidelity.
+    /// As `at`, but solved at draft fidelity.
     pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
         self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
     }
@@ -198,9 +197,9 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// ∂/∂x of what is asked of each condition at `x`, by the unknowns that are free: `[condition][asked][unknown]`. Zeros by the others,
-    /// and nothing at all of a condition that has no derivatives. They are those of `Method::Auto`; for the paper's, whose contact moves
-    /// from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
+    /// ∂/∂x of the numbers of each condition at `x`, by the unknowns that are free: `[condition][asked][unknown]`. They are zero for the
+    /// others, and a condition without derivatives has none. They are derivatives of `Method::Auto`; for the paper's method, whose contact
+    /// moves from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
     pub(super) fn slopes(&self, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<Vec<f64>>>> {
         let of = |condition: &Condition| {
             self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); condition.asked.len()])
@@ -250,7 +249,7 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Reads the observables off a solution.
+/// Takes the observables from a solution.
 fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Computed> {
     let numbers = Numbers::of(problem, solution);
     let mut curve = Vec::new();

@@ -22,11 +22,11 @@ use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use std::sync::{Mutex, PoisonError};
 
-/// Radius in x of the first models, and the one at which the search ends.
+/// Trust radius in x at the beginning of the search, and the radius at which the search ends.
 const RADIUS: (f64, f64) = (0.2, 5e-4);
 /// Most points that are tried from one start.
 const MOST_POINTS: u64 = 600;
-/// An unknown this close in x to a bound is at the bound.
+/// An unknown this close in x to a bound is taken to be at the bound.
 const AT_BOUND: f64 = 2e-3;
 /// Optima whose unknowns differ by more than this share of the bounds are different optima.
 const ANOTHER: f64 = 0.05;
@@ -34,9 +34,9 @@ const ANOTHER: f64 = 0.05;
 const LINE: usize = 21;
 /// Relative loss against the optimum that is still acceptable; it defines the range `Scan::flat`.
 const FLAT: f64 = 0.01;
-/// Share of the bounds over which a number that changes less makes a plateau.
+/// If the number changes little over this share of the bounds, there is a plateau.
 const PLATEAU: f64 = 0.1;
-/// Penalty in place of a number that could not be computed, in units of the number that is sought.
+/// Penalty for a number that could not be computed, in units of the sought number.
 const NOTHING: f64 = 1e3;
 
 /// A limit on another number: `alpha<0.3`, `stall_torque_nm>0.2`.
@@ -77,13 +77,13 @@ impl FromStr for Limit {
 }
 
 impl Limit {
-    /// By how much `found` is beyond the limit, and up to which size that says nothing.
+    /// By how much `found` exceeds the limit, and the size up to which this is not significant.
     fn over(&self, found: &Estimate) -> (f64, f64) {
         let over = if self.below { found.value - self.value } else { self.value - found.value };
         (over, found.error.max(2e-3 * self.value.abs()))
     }
 
-    /// Whether `found` keeps the limit, as far as it is known.
+    /// Whether `found` keeps the limit within its error.
     fn is_kept(&self, found: &Estimate) -> bool {
         let (over, unclear) = self.over(found);
         over <= unclear
@@ -101,12 +101,12 @@ impl std::fmt::Display for Limit {
     }
 }
 
-/// A number that is to be made as great or as small as it can be, within limits on others.
+/// A number to be made as great or as small as possible, within limits on others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// The number.
     pub quantity: Quantity,
-    /// Its greatest value; otherwise its least.
+    /// Whether the greatest value is sought; otherwise the least.
     pub greatest: bool,
     /// Limits on other numbers.
     pub limits: Vec<(Limit, Quantity)>,
@@ -132,7 +132,7 @@ impl Goal {
             .collect()
     }
 
-    /// To be made small, and what has to be at most 0, from what was computed; in units of `size`.
+    /// The value to be minimised, and the values that have to be at most 0, from the computed numbers; in units of `size`.
     fn judge(&self, computed: &[Computed], size: f64) -> Option<(f64, Vec<f64>)> {
         let sought = computed[0].as_ref().ok()?.value / size;
         let mut beyond = Vec::new();
@@ -168,13 +168,13 @@ pub struct Optimum {
 }
 
 impl Optimum {
-    /// The share of the optimum within which the number stays over [`Scan::flat`]: a hundredth, or its own numerical error where that is greater.
+    /// The relative change of the number within [`Scan::flat`]: a hundredth, or its own numerical error if that is greater.
     pub fn flatness(&self) -> f64 {
         flatness(&self.value)
     }
 }
 
-/// The number that is sought along one unknown, the others being those of the optimum.
+/// The sought number along one unknown, with the others at the optimum.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scan {
     /// The unknown.
@@ -183,9 +183,9 @@ pub struct Scan {
     pub value: f64,
     /// The bound it is at.
     pub at: Option<Bound>,
-    /// Values of the unknown, ascending, and of the number there; `None` where it cannot be computed.
+    /// Values of the unknown, ascending, with the number at each; `None` where it cannot be computed.
     pub points: Vec<(f64, Option<f64>)>,
-    /// Of each of them, whether all limits are kept.
+    /// For each point, whether all limits are kept.
     pub kept: Vec<bool>,
     /// The range round the optimum in which all limits are kept, and the number stays within [`Optimum::flatness`] of it; `None` if they are
     /// not kept at the optimum itself.
@@ -193,14 +193,14 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// The value and the ends of [`Self::flat`], to as many digits: what is rounded alike stays in order.
+    /// The value and the ends of [`Self::flat`], rounded to the same number of digits, so that they stay in order.
     pub fn told(&self) -> (String, Option<[String; 2]>) {
         let told = |value| significant(value, 4);
         (told(self.value), self.flat.map(|(from, to)| [told(from), told(to)]))
     }
 }
 
-/// The problem as the library wants it.
+/// The problem in the form that the library needs.
 struct Search<'a> {
     model: &'a Model<'a>,
     goal: &'a Goal,
@@ -211,7 +211,7 @@ struct Search<'a> {
     told: Tell<'a>,
     /// Points tried, and the best number so far.
     tried: &'a Mutex<(usize, f64)>,
-    /// The last point, and what came of it: the library asks for the number and for its limits one after the other.
+    /// The last point and its outcome: the library asks for the number and for its limits separately.
     last: Mutex<Option<(Vec<f64>, Option<Outcome>)>>,
 }
 
@@ -220,7 +220,7 @@ type Outcome = (f64, Vec<f64>);
 
 impl Search<'_> {
     fn at(&self, x: &[f64]) -> Result<Option<Outcome>, Stopped> {
-        // The library may look beyond the bounds.
+        // The library may try points beyond the bounds.
         let x: Vec<f64> = x.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((point, found)) = last.as_ref()
@@ -276,8 +276,8 @@ impl NonlinearInequalityValues for Search<'_> {
     }
 }
 
-/// Looks for the optimum of `goal` over the unknowns of `bounds`, from the scene's own values and, with `starts` above 1, from the best
-/// of as many points spread over the bounds and solved as drafts. `None` if cancelled.
+/// Searches for the optimum of `goal` over the unknowns of `bounds`: from the scene's own values and, with `starts` above 1, also from the
+/// best of as many points spread over the bounds and solved at draft fidelity. `None` if cancelled.
 pub fn optimise(
     scene: &Scene,
     bounds: &[Bounds],
@@ -297,13 +297,13 @@ pub fn optimise(
     };
     let judged = solved.iter().zip(points).skip(1).filter_map(|(solved, point)| {
         let (cost, beyond) = goal.judge(&solved[0], size)?;
-        // What breaks a limit is no good start, unless all do.
+        // A point that breaks a limit is no good start, unless all do.
         Some((cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond)), point))
     });
     let starts = best(judged.collect());
     let tried = Mutex::new((0, f64::NAN));
     let count = own.len();
-    // The cost, with what breaking a limit adds to it, the point, and whether the search ended by itself.
+    // The cost with the penalties for broken limits, the point, and whether the search ended by itself.
     let mut reached: Vec<([f64; 2], Vec<f64>, bool)> = Vec::new();
     for start in std::iter::once(own.clone()).chain(starts) {
         let search = Search {
@@ -321,7 +321,7 @@ pub fn optimise(
         let run = || Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run();
         let Some(ended) = searched(run)? else { return Ok(None) };
         let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
-        // Of limits that are kept to a thousandth of their value.
+        // Limits count as kept within a thousandth of their value.
         let Some(solved) = model.at_one(&x, cancel) else { return Ok(None) };
         let Some((cost, beyond)) = goal.judge(&solved[0], size) else { continue };
         let broken = NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
@@ -332,7 +332,7 @@ pub fn optimise(
     let Some((_, mut x, converged)) = reached.next() else {
         return Err(no_start("no point that was tried could be solved"));
     };
-    // What breaks a limit is no optimum.
+    // A point that breaks a limit is no optimum.
     let lesser = reached.find(|([_, broken], other, _)| *broken == 0.0 && distance(other, &x) > ANOTHER);
     let lesser = lesser.map(|([cost, _], other, _)| (cost * size * if goal.greatest { -1.0 } else { 1.0 }, other));
     let at: Vec<Option<Bound>> = x.iter().map(|x| Bound::near(*x, AT_BOUND)).collect();
@@ -456,7 +456,7 @@ fn describe(
         ));
     }
     let scene = model.fitted(&x, "optimised")?;
-    // What is said of it wherever it is solved.
+    // Warnings that are given wherever this scene is solved.
     if let Ok(solution) = attempt(&Problem::try_from(&scene)?, &model.settings, &mut (), cancel) {
         warnings.extend(solution.warnings);
     }
@@ -473,14 +473,14 @@ fn describe(
     }))
 }
 
-/// The share by which the number may differ within [`Scan::flat`]: a hundredth, or its own numerical error where that is greater.
+/// The relative change of the number that is allowed within [`Scan::flat`]: a hundredth, or its own numerical error if that is greater.
 fn flatness(best: &Estimate) -> f64 {
     let own = best.error / best.value.abs();
     if own.is_finite() { own.max(FLAT) } else { FLAT }
 }
 
-/// Where, above or below the optimum, the number first differs from it by more than a share, linear between points; before that the last
-/// point at which all limits are kept; the end of the line if there is neither.
+/// The place above or below the optimum where the number first differs from it by more than a share, by linear interpolation. If a limit is
+/// broken before that, the last point at which all limits are kept; if there is neither, the end of the line.
 fn edge(
     (points, kept): (&[(f64, Option<f64>)], &[bool]),
     (middle, best, little): (usize, f64, f64),
@@ -514,7 +514,7 @@ mod tests {
         let mut kept = [true; 101];
         assert!((edge((&parabola, &kept), (40, 2.0, FLAT), true) - 0.5).abs() < 1e-3);
         assert!((edge((&parabola, &kept), (40, 2.0, FLAT), false) - 0.3).abs() < 1e-3);
-        // Not where a limit is not kept; and farther where the number is not known as well.
+        // The range does not extend to where a limit is broken, nor end before the difference exceeds the error of the number.
         kept[35] = false;
         assert_eq!(edge((&parabola, &kept), (40, 2.0, FLAT), false), 0.36);
         let known = Estimate { value: 2.0, error: 0.08 };

@@ -2,13 +2,13 @@
 
 /// Most starts of a search.
 pub const MOST_STARTS: u16 = 10_000;
-/// Starts that are refined at most, beside that of the scene's own values.
+/// Most starts that are refined, in addition to the scene's own values.
 const REFINED: usize = 3;
-/// So far from each other in one direction at least: those that are nearer would lead to the same place.
+/// Least distance between starts in at least one direction: closer starts would lead to the same minimum.
 const APART: f64 = 0.2;
 
-/// `count` points that fill the unit cube of so many dimensions evenly: the additive recurrence whose step is the generalised golden
-/// ratio, the root of φ^(d+1) = φ + 1 (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). The same ones every time.
+/// `count` points that fill the unit cube evenly: the additive recurrence whose step is the generalised golden ratio, the root of φ^(d+1) =
+/// φ + 1 (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). The points are the same every time.
 pub(super) fn spread(dimensions: usize, count: usize) -> Vec<Vec<f64>> {
     let mut ratio = 2.0_f64;
     for _ in 0..64 {
@@ -21,7 +21,7 @@ pub(super) fn spread(dimensions: usize, count: usize) -> Vec<Vec<f64>> {
     (1..=count).map(point).collect()
 }
 
-/// The points with the least numbers that are apart from each other, best first: those that are refined.
+/// The points with the least values, not too close to each other, best first: these are refined.
 pub(super) fn best(mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut chosen: Vec<Vec<f64>> = Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn best(mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     chosen
 }
 
-/// The greatest difference between the places of two points.
+/// The greatest difference between the coordinates of two points.
 pub(super) fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-/// Singular values below this share of the largest are taken for nothing: differences of solves are no more accurate.
+/// Singular values below this share of the largest count as zero, because differences of solves are no more accurate.
 const RANK: f64 = 1e-4;
 
 /// Certainty of the unknowns x, from the derivatives J of (computed/error).

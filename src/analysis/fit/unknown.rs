@@ -9,7 +9,7 @@ use std::str::FromStr;
 
 /// Most keys that are chosen at once.
 pub const MOST_UNKNOWNS: usize = 12;
-/// Bounds with at least this ratio are searched by equal ratios.
+/// Bounds with at least this ratio are searched on a logarithmic scale.
 const WIDE: f64 = 10.0;
 
 /// A key to choose, and its bounds: `key=from:to`, `key=from:to:log` or `key=from:to:lin`.
@@ -47,13 +47,13 @@ impl FromStr for Bounds {
     }
 }
 
-/// The fault of bounds that are not of the form asked for.
+/// The error for bounds that do not have the required form.
 fn no_bounds(found: &str) -> AnalysisError {
     let expected = "expected key=from:to or key=from:to:log, as in film.min_spacing_nm=100:400";
     AnalysisError::Input(format!("vary {found}: {expected}"))
 }
 
-/// The fault of bounds for a key that is no number, or a whole one.
+/// The error for bounds of a key that is not a number, or is a whole number.
 fn no_number(parameter: &Parameter) -> AnalysisError {
     AnalysisError::Input(format!(
         "vary {}: it accepts {}; only a key that is a number, and not a whole one, can be chosen between two bounds",
@@ -80,7 +80,7 @@ impl Bound {
         }
     }
 
-    /// That which x from 0 to 1 is closer to than `within`.
+    /// The bound that x, from 0 to 1, is closer to than `within`.
     pub(super) fn near(x: f64, within: f64) -> Option<Self> {
         match x {
             x if x < within => Some(Self::Lower),
@@ -89,7 +89,7 @@ impl Bound {
         }
     }
 
-    /// Where it is from 0 to 1.
+    /// Its position from 0 to 1.
     pub(super) fn place(self) -> f64 {
         match self {
             Self::Lower => 0.0,
@@ -109,7 +109,7 @@ pub struct Unknown {
     pub to: f64,
     /// How the range between them is searched.
     pub scale: Scale,
-    /// Value to start from: that of the scene, or the middle if it lies outside of the bounds.
+    /// The value to start from: that of the scene, or the middle of the bounds if that lies outside of them.
     pub start: f64,
 }
 
@@ -118,7 +118,7 @@ impl Unknown {
     pub fn new(scene: &Scene, bounds: &Bounds) -> Result<Self, AnalysisError> {
         let key = &bounds.key;
         let Some(parameter) = Parameter::find(key) else {
-            // Setting it tells what is wrong with it.
+            // Setting the key reports what is wrong with it.
             scene.clone().set(key, "0")?;
             return Err(no_bounds(key));
         };

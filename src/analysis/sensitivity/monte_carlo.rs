@@ -16,16 +16,16 @@ pub struct Draw {
 /// Results of random scenes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MonteCarlo {
-    /// Where the random numbers began.
+    /// The seed of the random numbers.
     pub seed: u64,
-    /// How many were asked for; fewer are here if it was cancelled.
+    /// The number of draws that were requested; there are fewer if it was cancelled.
     pub asked: usize,
     /// Those that were solved, in the order in which they were drawn.
     pub draws: Vec<Draw>,
-    /// Why others were not.
+    /// Why the others were not solved.
     pub failures: Vec<String>,
-    /// How many draws were outside of the ranges of their keys, or broke a rule between keys, and were drawn again: what they would have given is
-    /// missing.
+    /// The number of draws that were outside of the ranges of their keys, or broke a rule between keys, and were drawn again. Their results
+    /// are missing from the distribution.
     pub redrawn: usize,
 }
 
@@ -38,26 +38,26 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
-    /// Quantiles of 5, 50 and 95 %; their error is the standard deviation that they have because there are so many draws and no more.
+    /// Quantiles of 5, 50 and 95 %; their error is the standard deviation due to the limited number of draws.
     pub quantiles: [Estimate; 3],
-    /// Bins of equal width from the least draw to the greatest: where the first begins, how wide they are, how many draws each has.
+    /// Bins of equal width from the least draw to the greatest: the start of the first, their width, and the number of draws in each.
     pub bins: (f64, f64, Vec<usize>),
 }
 
 impl Spread {
-    /// Whether the mean is not `value`, by more than chance, than a tenth of the spread and than its numerical error.
+    /// Whether the mean differs from `value` by more than chance, a tenth of the spread and the numerical error of `value`.
     pub fn is_off(&self, value: Estimate) -> bool {
         (self.mean - value.value).abs() > (3.0 * self.mean_error()).max(0.1 * self.deviation).max(value.error)
     }
 
-    /// The standard deviation that the mean has because there are so many draws and no more.
+    /// The standard deviation of the mean due to the limited number of draws.
     pub fn mean_error(&self) -> f64 {
         self.deviation / (self.count as f64).sqrt()
     }
 }
 
 impl MonteCarlo {
-    /// Of the outputs at a place; `None` with fewer than two draws.
+    /// The spread of the output with this index; `None` with fewer than two draws.
     pub fn spread(&self, output: usize) -> Option<Spread> {
         let values = self.draws.iter().filter_map(|draw| Some(draw.results.get(output)?.value));
         let mut found: Vec<f64> = values.filter(|value| value.is_finite()).collect();

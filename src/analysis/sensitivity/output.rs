@@ -1,4 +1,4 @@
-//! The results whose sensitivity is told.
+//! The results whose sensitivity is computed.
 
 use crate::analysis::exact::{Harmonic, solved, units};
 use crate::analysis::quantity::{Numbers, Quantity, labelled};
@@ -6,7 +6,7 @@ use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::solution::{Solution, settled};
 
-/// A result whose sensitivity is told.
+/// A result whose sensitivity is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
     /// One of the numbers of every solve.
@@ -18,7 +18,7 @@ pub enum Output {
 }
 
 impl Output {
-    /// Those of a problem, the headline first.
+    /// The outputs of a problem, the headline first.
     pub fn of(problem: &Problem) -> &'static [Self] {
         use Quantity::{Alpha, FilmLoad, MeanGap, NoLoadSpeed, StallTorque};
         match &problem.scenario {
@@ -70,7 +70,7 @@ impl Output {
         labelled(self.words(), self.unit(problem))
     }
 
-    /// Its value in a solution, whose lines are kept, with its stated numerical error; not finite where it has none.
+    /// Its value in a solution that has its line fields, with its stated numerical error; not finite if there is none.
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
         let harmonic = || {
             let (plate, result) = problem.scenario.plate().zip(solution.outcome.plate())?;

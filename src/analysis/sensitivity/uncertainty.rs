@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// A draw is given up after so many.
+/// Number of attempts after which a draw is given up.
 const MOST_REDRAWN: usize = 1000;
 
 /// The uncertainty of a key, as in `20%`, `10` or `±10`: a standard deviation, or limits if it begins with `±`.
@@ -86,10 +86,10 @@ pub struct Uncertainties {
 }
 
 impl Uncertainties {
-    /// Of keys of `scene` by name.
+    /// Uncertainties of keys of `scene`, by name.
     ///
     /// # Errors
-    /// A key that cannot be varied, or an uncertainty that means nothing for it.
+    /// A key that cannot be varied, or an uncertainty that has no meaning for it.
     pub fn new<S: AsRef<str>>(scene: &Scene, given: &[(S, Uncertainty)]) -> Result<Self, AnalysisError> {
         let keys: Vec<&str> = given.iter().map(|(key, _)| key.as_ref()).collect();
         let given = given.iter().map(|(_, uncertainty)| *uncertainty).collect();
@@ -121,7 +121,7 @@ impl Uncertainties {
         self.given.is_empty()
     }
 
-    /// Random values of the keys, what is to be solved there, and how often what was drawn is no scene.
+    /// Random values of the keys, the problem there, and the number of draws that gave no valid scene.
     pub(super) fn draw(&self, number: u64, seed: u64) -> Result<(Vec<f64>, Problem, usize), String> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
@@ -138,7 +138,7 @@ impl Uncertainties {
 /// The uncertainty of a result, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Propagated {
-    /// Its standard deviation, with the error that those of the derivatives make.
+    /// Its standard deviation, with the error caused by the errors of the derivatives.
     pub deviation: Estimate,
     /// Contribution of each key, signed, in the unit of the result.
     pub parts: Vec<(&'static Parameter, Estimate)>,

@@ -11,7 +11,7 @@ use std::str::FromStr;
 
 /// Most values of one key.
 pub const MOST_VALUES: usize = 10_000;
-/// Most points of a sweep, or of a part of it that is solved alone.
+/// Most points of a sweep, or of a part that is solved alone.
 pub const MOST_POINTS: usize = 100_000;
 /// Most keys that are varied at once.
 pub const MOST_KEYS: usize = 3;
@@ -39,11 +39,11 @@ pub enum Values {
         /// Equal steps or equal ratios.
         scale: Scale,
     },
-    /// Each as in `--set`.
+    /// Values, each as in `--set`.
     List(Vec<String>),
 }
 
-/// As it is given.
+/// Written as on the command line.
 impl fmt::Display for Vary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.values {
@@ -88,20 +88,20 @@ impl FromStr for Vary {
 pub struct Axis {
     /// The key.
     pub parameter: &'static Parameter,
-    /// Its values in the unit of the key, in the order they were asked for; of words their places in `words`.
+    /// Its values in the unit of the key, in the given order; for words, their indices in `words`.
     pub values: Vec<f64>,
-    /// The values if they are not all numbers, as in `--set`; otherwise empty.
+    /// The values as in `--set` if they are not all numbers; otherwise empty.
     pub words: Vec<String>,
     /// Equal steps or equal ratios.
     pub scale: Scale,
 }
 
 impl Axis {
-    /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
+    /// Checks an axis against the scene, and computes its values. The keys are not checked in combination yet.
     pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, AnalysisError> {
         let key = &vary.key;
         let Some(parameter) = Parameter::find(key) else {
-            // Setting it tells what is wrong with it.
+            // Setting the key reports what is wrong with it.
             scene.clone().set(key, "0")?;
             return Err(no_vary(key));
         };
@@ -112,7 +112,7 @@ impl Axis {
                 for word in words {
                     let mut scene = scene.clone();
                     scene.set(key, word)?;
-                    // In the unit of the key, whatever it was given in.
+                    // The values are in the unit of the key, whatever unit they were given in.
                     let number = scene.get(key).and_then(|value| value.as_number());
                     numbers.extend(number);
                     if !there.insert(number.map_or_else(|| word.clone(), |number| number.to_string())) {
@@ -165,13 +165,13 @@ impl Axis {
         }
     }
 
-    /// A value as it is written in `--set`.
+    /// A value as it is written for `--set`.
     pub fn text(&self, value: f64) -> String {
         self.words.get(value as usize).cloned().unwrap_or_else(|| value.to_string())
     }
 }
 
-/// The fault of a text that is not of the form asked for.
+/// The error for a text that does not have the required form.
 fn no_vary(found: &str) -> AnalysisError {
     AnalysisError::Input(format!(
         "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log, or a list of two \
@@ -179,7 +179,7 @@ fn no_vary(found: &str) -> AnalysisError {
     ))
 }
 
-/// The fault of a range of a key that is no number.
+/// The error for a range of a key that is not a number.
 fn no_range(parameter: &Parameter) -> AnalysisError {
     let (key, accepts) = (parameter.key, parameter.accepts());
     let example = match parameter.kind {
@@ -191,7 +191,7 @@ fn no_range(parameter: &Parameter) -> AnalysisError {
     ))
 }
 
-/// The fault of a range with too few values, or too many.
+/// The error for a range with too few or too many values.
 fn count_fault(key: &str, found: &str) -> AnalysisError {
     AnalysisError::Field {
         told: format!("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}"),
@@ -199,7 +199,7 @@ fn count_fault(key: &str, found: &str) -> AnalysisError {
     }
 }
 
-/// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.
+/// `count` values from `from` to `to`; the ends are exact, the others have ten digits, so that they can be written down.
 pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
     let value = |i: usize| {

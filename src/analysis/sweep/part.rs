@@ -1,11 +1,11 @@
-//! Parts of a sweep, for many machines, and the chunks that they are made of. Both follow from the axes alone.
+//! Parts of a sweep, to be solved on several machines, and the chunks of which they consist. Both depend only on the axes.
 
 use super::axis::{Axis, MOST_POINTS};
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// A part of a sweep: the third of 64 is `3/64`.
+/// A part of a sweep: `3/64` is the third of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Part {
     number: usize,
@@ -16,7 +16,7 @@ impl Part {
     /// The whole sweep.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// All parts of as many, in order.
+    /// All parts of a sweep in `of` parts, in order.
     pub fn all(of: usize) -> impl Iterator<Item = Self> {
         (1..=of).map(move |number| Self { number, of })
     }
@@ -26,7 +26,7 @@ impl Part {
         self.of
     }
 
-    /// Which of them it is, from 1.
+    /// Its number, from 1.
     pub fn number(self) -> usize {
         self.number
     }
@@ -44,20 +44,20 @@ impl Part {
     }
 }
 
-/// Neighbours along the last axis that one thread solves one after the other.
+/// Number of neighbours along the last axis that one thread solves one after the other.
 pub(super) const CHUNK: usize = 4;
 
-/// How many points there are over these axes.
+/// The number of points over these axes.
 pub(super) fn count(axes: &[Axis]) -> usize {
     axes.iter().fold(1, |count, axis| count.saturating_mul(axis.values.len()))
 }
 
-/// How many of them are along the last axis.
+/// The number of points along the last axis.
 fn line(axes: &[Axis]) -> usize {
     axes.last().map_or(1, |axis| axis.values.len().max(1))
 }
 
-/// The first point of a chunk: chunks are runs of neighbours along the last axis, none across its end.
+/// The first point of a chunk. Chunks are runs of neighbours along the last axis, and none goes beyond its end.
 fn start(axes: &[Axis], chunk: usize) -> usize {
     let each = line(axes).div_ceil(CHUNK);
     chunk / each * line(axes) + chunk % each * CHUNK

@@ -6,9 +6,9 @@ use crate::solve::{Method, Settings};
 use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
-/// Accuracies between those that have names, in millionths.
+/// Accuracies between the named ones, in millionths.
 const BETWEEN: [u32; 3] = [10_000, 2_000, 500];
-/// Grids beside the accuracies: what each starts from, film nodes along and across, steps in a cycle.
+/// Grids in addition to the accuracies: the fidelity that each is based on, film nodes along and across, steps in a cycle.
 const GRIDS: [(Fidelity, usize, usize, usize); 6] = [
     (Fidelity::Draft, 9, 5, 36),
     (Fidelity::Draft, 25, 17, 72),
@@ -17,15 +17,15 @@ const GRIDS: [(Fidelity, usize, usize, usize); 6] = [
     (Fidelity::Fine, 33, 17, 180),
     (Fidelity::Fine, 65, 33, 180),
 ];
-/// Meshes of the paper's method: film nodes along and across, contact nodes; the paper's, half and twice as fine.
+/// Meshes of the paper's method: film nodes along and across, contact nodes. They are the paper's mesh, and meshes half and twice as fine.
 const PAPER_MESHES: [(&str, usize, usize, usize); 3] =
     [("paper, half its mesh", 26, 6, 91), ("paper", 51, 11, 181), ("paper, twice its mesh", 101, 21, 361)];
 
-/// Where a setting comes from.
+/// The origin of a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Family {
-    /// An accuracy that is asked for, by its name or as a number.
+    /// A requested accuracy, by its name or as a number.
     Fidelity,
     /// A grid of its own.
     Grid,
@@ -38,18 +38,18 @@ pub enum Family {
 pub struct Candidate {
     /// Its name.
     pub name: String,
-    /// Where it comes from.
+    /// Its origin.
     pub family: Family,
     /// Fidelity and method.
     pub settings: Settings,
-    /// All of the scene's numerics as they are solved: its switches, and a grid that may be another one.
+    /// All numerics of the scene as it is solved: its own switches, and the grid of the setting.
     pub numerics: Numerics,
     /// The options of the command line that choose it, added to those that make the scene.
     pub options: String,
 }
 
 impl Candidate {
-    /// A way to solve a scene that has the numerics `scene`.
+    /// A candidate for a scene with the numerics `scene`.
     pub fn new(name: String, family: Family, settings: Settings, numerics: Numerics, scene: &Numerics) -> Self {
         let mut options = match settings.method {
             Method::Auto => settings.fidelity.option(),
@@ -74,7 +74,7 @@ impl Candidate {
 }
 
 /// The scene's numerics without its grid: the switches of the model, which every candidate keeps, and the contact nodes, which our own
-/// method does not heed.
+/// method ignores.
 pub fn without_grid(numerics: &Numerics) -> Numerics {
     Numerics { film_nodes_along: None, film_nodes_across: None, steps_per_cycle: None, tolerance: None, ..*numerics }
 }

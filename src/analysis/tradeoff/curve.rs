@@ -1,4 +1,4 @@
-//! The curve of error against time that runs make, and which of them serves a target.
+//! The curve of error against time from the runs, and the choice of a setting that meets a target.
 
 use super::measure::MeasuredSetting;
 use crate::analysis::attempt::RunStatus;
@@ -18,11 +18,11 @@ pub struct TradeoffPoint {
     /// Its distance from the reference plus the reference's own error, a share of the value that is judged; `None` unless
     /// it converged and there is a reference.
     pub measured: Option<f64>,
-    /// The error it states of itself, a share of the value that is judged.
+    /// Its stated error, as a share of the value that is judged.
     pub stated: Option<f64>,
     /// The greater of the two, by which it is judged.
     pub error: Option<f64>,
-    /// No other is at once as fast and as accurate.
+    /// Whether no other setting is both faster and more accurate.
     pub best: bool,
 }
 
@@ -40,14 +40,14 @@ pub enum Target {
 pub struct Tradeoff {
     /// All settings, in the order they were measured.
     pub points: Vec<TradeoffPoint>,
-    /// Which of them the others are judged by: the one that states the least error.
+    /// The setting that the others are judged by: the one with the least stated error.
     pub reference: Option<usize>,
-    /// The number that is judged: α, a plate's film load, or the mean gap of one that floats.
+    /// The number that is judged: α, a plate's film load, or the mean gap of a plate that floats.
     pub judged: Quantity,
 }
 
 impl Tradeoff {
-    /// The curve of these runs, finished or not.
+    /// The curve from these runs, finished or not.
     pub fn of(runs: &[MeasuredSetting]) -> Self {
         let known = |quantity| runs.iter().any(|run| run.numbers.get(quantity).is_some());
         let judged = match () {
@@ -101,7 +101,7 @@ impl Tradeoff {
         }
     }
 
-    /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.
+    /// The cheapest setting that meets an accuracy, or the most accurate within a budget; `None` if there is none.
     pub fn choose(&self, target: Target) -> Option<usize> {
         let known = self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.median, point.error?)));
         let best = match target {
@@ -112,8 +112,8 @@ impl Tradeoff {
     }
 }
 
-/// Which of these (time, error) are such that no other is at least as good in both and better in one. What is not known
-/// is not among them.
+/// Which of these (time, error) belong to the front: no other is at least as good in both and better in one. Unknown ones do not belong to
+/// it.
 fn front(costs: &[Option<(f64, f64)>]) -> Vec<bool> {
     let beaten = |(time, error): (f64, f64)| {
         costs.iter().flatten().any(|(t, e)| *t <= time && *e <= error && (*t < time || *e < error))
@@ -121,7 +121,7 @@ fn front(costs: &[Option<(f64, f64)>]) -> Vec<bool> {
     costs.iter().map(|cost| cost.is_some_and(|cost| !beaten(cost))).collect()
 }
 
-/// Of ascending values, linear between them; NaN of none.
+/// A quantile of ascending values, with linear interpolation; NaN if there are none.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * sorted.len().saturating_sub(1) as f64;
     let (low, high) = (place.floor() as usize, place.ceil() as usize);

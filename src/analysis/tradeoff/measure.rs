@@ -1,4 +1,4 @@
-//! Candidates, measured: interleaved runs, timed by the caller's clock.
+//! Measures candidates by interleaved runs, timed by the caller's clock.
 
 use super::candidates::Candidate;
 use crate::analysis::attempt::{RunStatus, attempt};
@@ -7,20 +7,20 @@ use crate::control::{Cancel, Progress};
 use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
 
-/// Most repeats of one setting, if they are chosen by time.
+/// Most repeats of one setting, if their number depends on the time.
 const MOST_REPEATS: usize = 31;
 
-/// A run that took less \[s\] is timed with the caches full of its own data.
+/// A run that took less than this \[s\] is timed with its own data in the caches.
 const QUICK: f64 = 0.02;
 
-/// How much to measure.
+/// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Effort {
     /// Runs of every setting; `None`: as many as fit into `seconds`, at least one and at most 31.
     pub repeats: Option<usize>,
-    /// Time for all runs together, shared equally \[s\]; one run of each takes as long as it takes.
+    /// Time for all runs together, shared equally \[s\]. The first run of each setting always ends.
     pub seconds: f64,
-    /// A run that takes longer is given up \[s\].
+    /// A run that takes longer than this \[s\] is given up.
     pub longest: f64,
 }
 
@@ -30,12 +30,12 @@ impl Default for Effort {
     }
 }
 
-/// One setting and what was measured of it.
+/// One setting with its measured runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredSetting {
     /// The setting.
     pub candidate: Candidate,
-    /// How its runs ended, which are all alike but for the time they took.
+    /// How its runs ended. They all end alike and differ only in their time.
     pub status: RunStatus,
     /// The numbers; none unless it converged or reached its limit.
     pub numbers: Numbers,
@@ -45,9 +45,9 @@ pub struct MeasuredSetting {
     pub times: Vec<f64>,
 }
 
-/// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds from any start.
-/// `told` hears after every run: all runs so far, and the share of the work that is done, 0 to 1; `Tradeoff::of`
-/// makes the present state of them. If it is cancelled, the runs are what was measured.
+/// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds since any start. `told` is called
+/// after every run with all runs so far and the share of the work that is done, 0 to 1; `Tradeoff::of` computes the curve from them. If
+/// cancelled, the runs so far are returned.
 pub fn measure(
     problem: &Problem,
     candidates: Vec<Candidate>,
@@ -86,7 +86,7 @@ pub fn measure(
     }
 }
 
-/// How often a setting is to be run.
+/// The number of runs of a setting.
 fn wanted(run: &MeasuredSetting, effort: &Effort, count: usize) -> usize {
     let Some(first) = run.times.first() else { return 1 };
     if matches!(run.status, RunStatus::Failed(_) | RunStatus::GivenUp) {
@@ -96,7 +96,7 @@ fn wanted(run: &MeasuredSetting, effort: &Effort, count: usize) -> usize {
     effort.repeats.unwrap_or_else(|| affordable().min(MOST_REPEATS)).max(1)
 }
 
-/// The share of the work that is done: in time, with the first runs to come taken to cost as much as those there are.
+/// The share of the work that is done, by time; the first runs still to come are assumed to cost as much as those that are done.
 fn done(runs: &[MeasuredSetting], effort: &Effort) -> f64 {
     let (mut spent, mut left, mut waiting) = (0.0, 0.0, 0.0);
     for run in runs {
@@ -123,7 +123,7 @@ fn run_once(
     let problem = Problem { numerics: run.candidate.numerics, ..problem.clone() };
     let stop = cancel.child();
     if run.times.last().is_some_and(|last| *last < QUICK) {
-        // Timed is the second of two runs: what ran before has left its own data in the caches.
+        // The second of two runs is timed, because at the first the caches still hold other data.
         drop(attempt(&problem, &run.candidate.settings, &mut (), &stop));
     }
     let started = clock();

@@ -1,4 +1,4 @@
-//! Each limit of the model: its number, how great that may be, and what it means in a sentence.
+//! Each limit of the model: its number, the limit, and a sentence about its meaning.
 
 use crate::digits::brief;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// Greatest Re.
 const INERTIA: f64 = 0.1;
-/// Greatest Re/σ: the mean load that inertia gives, over that of a viscous film, is [`INERTIAL_LOAD`] times that.
+/// Greatest Re/σ. The mean load due to inertia, over that of a viscous film, is [`INERTIAL_LOAD`] times Re/σ.
 const INERTIA_TO_SQUEEZE: f64 = 0.015;
 /// (1/14)/(1/96), the two mean loads of a strip as σ → 0.
 const INERTIAL_LOAD: f64 = 48.0 / 7.0;
@@ -16,11 +16,11 @@ const INERTIAL_LOAD: f64 = 48.0 / 7.0;
 const THERMAL_DEPTHS: f64 = 1.0;
 /// Greatest side over the wavelength of sound, where the film is too viscous for waves …
 const WAVELENGTHS: f64 = 1.0;
-/// … and where it is not: half a wave stands under it.
+/// … and if it is not: half a wavelength fits under the side.
 const WAVELENGTHS_IN_THE_FILM: f64 = 0.5;
 /// Greatest sliding speed over that of sound.
 const MACH: f64 = 1.0;
-/// Greatest frequency over a natural one: there the rotor answers a tenth more than it does at rest, 1/(1 − 0.3²).
+/// Greatest frequency over a natural frequency: there the rotor yields a tenth more than under a static load, 1/(1 − 0.3²).
 const RESONANCE: f64 = 0.3;
 /// Greatest pressure \[MPa\] up to which the gas counts as ideal, and its viscosity as constant: about 5 % more viscous there.
 const DENSE_MPA: f64 = 5.0;
@@ -36,9 +36,9 @@ const ROUGHNESS: f64 = 1.0 / LEAST_RATIO;
 const LEAST_TOLD: f64 = 0.01;
 /// Greatest gap over the shorter side.
 const THINNESS: f64 = 0.025;
-/// By how much the gas beyond the edges lengthens a side, over the gap.
+/// Ratio to the gap of the length by which the gas beyond the edges lengthens a side.
 const ELONGATION: f64 = 1.3;
-/// Greatest width of the contact over its radius: at its edges the wave is a tenth faster or slower than in its middle.
+/// Greatest width of the contact over its radius: at the edges the wave is a tenth faster or slower than in the middle.
 const CURVATURE: f64 = 0.2;
 /// Greatest amplitude of a plate over its mean gap.
 const AMPLITUDE: f64 = 0.9;
@@ -71,9 +71,9 @@ pub(in crate::analysis) fn known_names<'de, D: serde::Deserializer<'de>>(
 pub struct Excess {
     /// Its name in JSON: `gas-inertia`.
     pub name: &'static str,
-    /// The number, above …
+    /// The number, which exceeds …
     pub value: f64,
-    /// … what it may be.
+    /// … this limit.
     pub limit: f64,
     /// Unit of both; empty for a pure number.
     pub unit: &'static str,
@@ -110,7 +110,7 @@ impl Film<'_> {
         let sigma = 12.0 * self.gas.viscosity * self.omega * (self.side / self.gap).powi(2) / self.gas.ambient_pressure;
         let (limit, text) = if value > INERTIA {
             let text = format!(
-                "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, {}), which the film equation leaves out.",
+                "The inertia of the gas matters in a gap of {} µm (ωρh²/12μ = {}, {}); the film equation neglects it.",
                 brief(self.gap * 1e6),
                 brief(value),
                 self.gas.ideal
@@ -222,7 +222,7 @@ pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
     excess("sound", value, MACH, "", text)
 }
 
-/// `natural`: the lowest natural frequency of the shape of each of the first harmonics \[Hz\].
+/// `natural`: the lowest natural frequency of the rotor for each of the first harmonics \[Hz\].
 pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
     let ratio = |(n, natural): &(u32, &f64)| f64::from(*n) * motor.frequency / **natural;
     let nearest = (1..).zip(natural).max_by(|a, b| ratio(a).total_cmp(&ratio(b)))?;
@@ -250,7 +250,7 @@ pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
 pub(super) fn dense(pressure: f64) -> Option<Excess> {
     let value = pressure * 1e-6;
     let text = format!(
-        "The gas is pressed to {} MPa, where it is neither ideal nor as viscous as at ambient pressure, as the film equation has it.",
+        "At a pressure of {} MPa the gas is neither ideal nor as viscous as at ambient pressure, which the film equation assumes.",
         brief(value)
     );
     excess("dense-gas", value, DENSE_MPA, "MPa", text)
@@ -259,7 +259,7 @@ pub(super) fn dense(pressure: f64) -> Option<Excess> {
 /// `pressure`: the greatest contact pressure \[Pa\].
 pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
     let value = pressure * 1e-6;
-    // Of a ring the face is that of its lowest part.
+    // For a ring, the face is the underside of its lowest part.
     let lowest = match &motor.rotor {
         RotorCompliance::Ring(section) => section.parts().iter().min_by(|a, b| a.bottom.total_cmp(&b.bottom)),
         _ => None,
@@ -272,14 +272,14 @@ pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
         let summits = asperities.summits();
         let value = summits.modulus * 1e-6 / (HARDNESS * limit) * (summits.rms / summits.radius).sqrt();
         let text = format!(
-            "The plasticity index of the faces, E*/H √(σ/R), is {} for the hardness of {what}: summits are pressed flat for good, \
-             which the elastic contact law has not, and faces that have run in are smoother.",
+            "The plasticity index of the faces, E*/H √(σ/R), is {} for the hardness of {what}: summits deform plastically, \
+             which the elastic contact law neglects, and faces that have run in are smoother.",
             brief(value)
         );
         return excess("contact-stress", value, PLASTIC, "", text);
     }
     let text = format!(
-        "Contact presses with up to {} MPa; {what} yields at {limit} MPa, and the model is elastic.",
+        "The contact pressure reaches {} MPa; {what} yields at {limit} MPa, but the model is elastic.",
         brief(value)
     );
     excess("contact-stress", value, limit, "MPa", text)
@@ -304,7 +304,7 @@ pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
 pub(super) fn curvature(motor: &Motor) -> Option<Excess> {
     let value = motor.contact_width / motor.contact_radius;
     let text = format!(
-        "The contact is {} mm wide round a radius of {} mm: teeth are no rectangles there, and at the edges of the contact the wave is \
+        "The contact is {} mm wide round a radius of {} mm: the teeth are not rectangles there, and at the edges of the contact the wave is \
          {} % faster and slower than in its middle.",
         brief(motor.contact_width * 1e3),
         brief(motor.contact_radius * 1e3),
@@ -315,8 +315,8 @@ pub(super) fn curvature(motor: &Motor) -> Option<Excess> {
 
 pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
     let text = format!(
-        "The plate comes within {} nm of the wall: the load hangs on faces smoother and more parallel than that, and 1 % of gap or \
-         amplitude is 7 % of it or more.",
+        "The plate comes within {} nm of the wall: the load holds only for faces smoother and more parallel than that, and 1 % of gap or \
+         amplitude changes it by 7 % or more.",
         brief((plate.mean_gap - plate.amplitude) * 1e9)
     );
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)

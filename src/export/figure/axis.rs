@@ -4,7 +4,7 @@ pub use crate::scene::Scale;
 
 /// One axis.
 ///
-/// Labels may raise and lower: `m^{2}`, `p_{a}`; raised and lowered characters of Unicode are set alike.
+/// Labels may contain raised and lowered text: `m^{2}`, `p_{a}`; the raised and lowered characters of Unicode look the same.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// The quantity.
@@ -34,21 +34,21 @@ impl Axis {
         self
     }
 
-    /// Only whole numbers are labelled.
+    /// Sets labels only at whole numbers.
     #[must_use]
     pub fn whole(mut self) -> Self {
         self.whole = true;
         self
     }
 
-    /// From the first number to the second.
+    /// Sets the range from the first number to the second.
     #[must_use]
     pub fn fixed(mut self, from: f64, to: f64) -> Self {
         self.range = Range::Fixed(from, to);
         self
     }
 
-    /// Covers the data and these values.
+    /// Extends the range of the data to these values.
     #[must_use]
     pub fn including(mut self, values: impl IntoIterator<Item = f64>) -> Self {
         self.range = Range::Including(values.into_iter().collect());
@@ -56,7 +56,7 @@ impl Axis {
     }
 }
 
-/// Least and greatest of values, what is not a number left out; of none, from infinity to minus infinity.
+/// Least and greatest of the values, without NaN; for none, infinity and minus infinity.
 pub(in crate::export) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     values.into_iter().fold(ends, |[low, high], value| [low.min(value), high.max(value)])

@@ -1,4 +1,4 @@
-//! Colours of figures: few, with a meaning, told apart with the common colour deficiencies.
+//! Colours of figures: few, each with a meaning, and distinguishable with the common colour vision deficiencies.
 
 use std::sync::LazyLock;
 
@@ -21,7 +21,7 @@ impl Colour {
     pub const FILM: Self = Self(0x00, 0x72, 0xb2);
     /// Contact pressure and contact load.
     pub const CONTACT: Self = Self(0xd5, 0x5e, 0x00);
-    /// Curves of several, in turn (Okabe–Ito, without the yellow that vanishes on white).
+    /// Colours of several curves, in turn (Okabe–Ito, without yellow, which is hardly visible on white).
     pub const CYCLE: [Self; 7] = [
         Self(0x00, 0x72, 0xb2),
         Self(0xd5, 0x5e, 0x00),
@@ -54,7 +54,7 @@ pub enum Colours {
     Signed,
 }
 
-/// Steps of a range that have colours of their own: finer than eight bits tell apart.
+/// Number of colour steps over a range: finer than eight bits can distinguish.
 const SHADES: usize = 4096;
 
 impl Colours {

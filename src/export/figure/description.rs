@@ -1,4 +1,4 @@
-//! The description of a figure: plain data that can be stored and compared. Nothing in here draws.
+//! The description of a figure: plain data that can be stored and compared. Nothing is drawn here.
 
 use super::axis::Axis;
 use super::layers::Layer;
@@ -11,9 +11,9 @@ pub struct Figure {
     pub title: String,
     /// How wide it is printed.
     pub width: Width,
-    /// Panels in a row; 0 is 1.
+    /// Number of panels in a row; 0 counts as 1.
     pub columns: usize,
-    /// Panels of a column have one x axis, labelled below the lowest.
+    /// Whether the panels of a column share one x axis, which is labelled below the lowest panel.
     pub share_x: bool,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
@@ -24,19 +24,19 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A figure of a journal column's width without panels.
+    /// A figure without panels, as wide as a journal column.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// With one more panel.
+    /// Adds a panel.
     #[must_use]
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
-    /// With this caption.
+    /// Sets the caption.
     #[must_use]
     pub fn caption(mut self, caption: impl Into<String>) -> Self {
         self.caption = caption.into();
@@ -67,7 +67,7 @@ impl Width {
         }
     }
 
-    /// In points, of which an inch has 72.
+    /// In points, 72 to the inch.
     pub fn points(self) -> f64 {
         self.millimetres() * 72.0 / 25.4
     }
@@ -104,27 +104,27 @@ impl Panel {
         Self { title: title.into(), height: 45.0, x, y, right: None, layers: Vec::new(), legend: Legend::Auto }
     }
 
-    /// With one more layer on top.
+    /// Adds a layer on top.
     #[must_use]
     pub fn layer(self, layer: impl Into<Layer>) -> Self {
         self.layers([layer])
     }
 
-    /// With more layers on top.
+    /// Adds layers on top.
     #[must_use]
     pub fn layers(mut self, layers: impl IntoIterator<Item: Into<Layer>>) -> Self {
         self.layers.extend(layers.into_iter().map(Into::into));
         self
     }
 
-    /// With another height \[mm\].
+    /// Sets the height \[mm\].
     #[must_use]
     pub fn height(mut self, millimetres: f64) -> Self {
         self.height = millimetres;
         self
     }
 
-    /// With the names of its layers elsewhere.
+    /// Sets the place of the legend.
     #[must_use]
     pub fn legend(mut self, legend: Legend) -> Self {
         self.legend = legend;

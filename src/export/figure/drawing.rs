@@ -7,11 +7,11 @@ use super::panel;
 use super::placed::{FOOT, TITLE};
 use super::svg::{Picture, Svg, Type};
 
-/// A figure as it is drawn: what the formats have in common.
+/// A figure as it is drawn: the part that is common to all formats.
 pub(super) struct Drawing {
     /// Width and height \[pt\].
     pub(super) size: [f64; 2],
-    /// Under everything else.
+    /// Pictures, which are below everything else.
     pub(super) pictures: Vec<Picture>,
     /// The elements of an SVG, without its root.
     pub(super) body: String,

@@ -1,23 +1,23 @@
-//! A figure in pixels, and why there is none.
+//! A figure in pixels, and the reasons why there is none.
 
 use std::path::PathBuf;
 
 /// No picture is larger than this along a side.
 pub(super) const MOST: f64 = 20_000.0;
 
-/// A figure that cannot be made or written.
+/// The reason why a figure cannot be made or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// The extension is none of those known.
+    /// The extension belongs to no known format.
     #[error("{}: figures are written as .svg, .png or .pdf", path.display())]
     Extension {
         /// The path asked for.
         path: PathBuf,
     },
-    /// The program was built without what draws it.
+    /// The program was built without a renderer.
     #[error("this program was built without what draws figures in pixels and on pages; it writes them as .svg")]
     NotBuilt,
-    /// The drawing is not understood by the program that turns it into pixels or a page.
+    /// The renderer does not understand the drawing.
     #[error("the figure cannot be drawn: {0}")]
     Draw(String),
     /// It would have too many pixels, or none.

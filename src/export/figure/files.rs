@@ -28,7 +28,7 @@ pub enum Format {
 impl Format {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
-    /// Those that this program writes: without the feature `render` there are no pixels and no pages.
+    /// The formats that this program writes: without the feature `render` it can draw neither pixels nor pages.
     pub const WRITTEN: &[Self] = if cfg!(feature = "render") { &Self::ALL } else { &[Self::Svg] };
 
     /// Its name, which is also its extension.
@@ -53,7 +53,7 @@ pub fn to_svg(figure: &Figure) -> String {
     Drawing::new(figure).svg(figure, true)
 }
 
-/// The figure as a PNG of `scale` pixels to the point ([`PRINT`] for 300 to the inch).
+/// The figure as a PNG with `scale` pixels per point ([`PRINT`] for 300 per inch).
 pub fn to_png(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
     let pixels = pixels(figure, scale)?;
     png_bytes(&pixels, Some(scale), &facts(figure)).map_err(|error| FigureError::Draw(error.to_string()))
@@ -66,7 +66,7 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     render::pdf(&[(drawing, svg)], &facts(figure))
 }
 
-/// The figure in a format, a PNG in print's resolution.
+/// The figure in a format; a PNG has the resolution of print.
 pub fn to_bytes(figure: &Figure, format: Format) -> Result<Vec<u8>, FigureError> {
     match format {
         Format::Svg => Ok(to_svg(figure).into_bytes()),
@@ -82,7 +82,7 @@ pub fn write(figure: &Figure, path: &Path) -> Result<(), FigureError> {
     Ok(())
 }
 
-/// The figure in pixels, `scale` of them to the point.
+/// The figure in pixels, with `scale` pixels per point.
 pub(in crate::export) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, FigureError> {
     let drawing = Drawing::new(figure);
     let [width, height] = drawing.size.map(|length| (length * scale).round());
@@ -92,7 +92,7 @@ pub(in crate::export) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, F
     render::pixels(&drawing, &drawing.svg(figure, false), scale, [width, height])
 }
 
-/// Metadata of the file, by the keywords of PNG.
+/// Metadata of the file, with the keywords of PNG.
 fn facts(figure: &Figure) -> Vec<(&'static str, String)> {
     let software = if figure.provenance.version.is_empty() {
         "squeezefilm".to_owned()
@@ -108,7 +108,7 @@ fn facts(figure: &Figure) -> Vec<(&'static str, String)> {
     facts.into_iter().filter(|(_, text)| !text.is_empty()).collect()
 }
 
-/// Pixels as a PNG, with facts in it; `scale` pixels to the point.
+/// Pixels as a PNG, with metadata; `scale` pixels per point.
 pub(in crate::export) fn png_bytes(
     pixels: &Pixels,
     scale: Option<f64>,
@@ -131,7 +131,7 @@ pub(in crate::export) fn png_bytes(
 }
 
 impl Drawing {
-    /// The SVG; without background and pictures for those who put them under it themselves.
+    /// The SVG; if not `whole`, without background and pictures, which the caller then puts under it.
     fn svg(&self, figure: &Figure, whole: bool) -> String {
         let [width, height] = self.size;
         let millimetres = |points: f64| coordinate(points / MM);
@@ -166,7 +166,7 @@ impl Drawing {
     }
 }
 
-/// A picture as an element, its pixels in it.
+/// A picture as an SVG element that contains its pixels.
 fn image(svg: &mut String, picture: &Picture) {
     let Ok(bytes) = png_bytes(&picture.pixels, None, &[]) else { return };
     let Rect { x, y, width, height } = picture.rect;

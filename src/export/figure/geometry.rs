@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 
 /// Points closer than this \[pt\] to the one before are left out of a line.
 const RESOLUTION: f64 = 0.04;
-/// Nothing is further from the paper than this \[pt\].
+/// Greatest distance of a point from the paper \[pt\].
 const FARTHEST: f64 = 1e9;
 
-/// The parts of a line that are inside `rect`. A point that is not a number interrupts the line.
+/// The parts of a line inside `rect`. A NaN point interrupts the line.
 pub(super) fn clipped_line(points: impl Iterator<Item = [f64; 2]>, rect: &Rect) -> Vec<Vec<[f64; 2]>> {
     let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut part: Vec<[f64; 2]> = Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn clipped_line(points: impl Iterator<Item = [f64; 2]>, rect: &Rect) 
     parts.into_iter().filter(|part| part.len() > 1).map(|part| thinned(&part)).collect()
 }
 
-/// Without points that lie on the one before; the ends stay.
+/// The line without points that lie too close to the one before; the ends stay.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Points from `a` to `b`, both included, at most `apart` from each other.
+/// Points from `a` to `b`, both included, at a distance of at most `apart`.
 pub(super) fn along(a: [f64; 2], b: [f64; 2], apart: f64) -> impl Iterator<Item = [f64; 2]> {
     let steps = (distance(a, b) / apart).ceil().max(1.0);
     (0..=steps as usize).map(move |i| [0, 1].map(|k| a[k] + i as f64 / steps * (b[k] - a[k])))
@@ -62,7 +62,7 @@ fn clipped_segment(a: [f64; 2], b: [f64; 2], rect: &Rect) -> Option<([f64; 2], [
     let sides = [(-dx, a[0] - rect.x), (dx, rect.right() - a[0]), (-dy, a[1] - rect.y), (dy, rect.bottom() - a[1])];
     for (p, q) in sides {
         if p == 0.0 {
-            // Parallel to this side, and on its wrong side; what is on it by rounding is inside.
+            // The line is parallel to this side, and on its wrong side; what is on the side except for rounding counts as inside.
             if q < -1e-6 {
                 return None;
             }
@@ -86,7 +86,7 @@ fn clipped_segment(a: [f64; 2], b: [f64; 2], rect: &Rect) -> Option<([f64; 2], [
 /// The part of an area inside `rect` (Sutherland and Hodgman 1974).
 pub(super) fn clipped_area(points: &[[f64; 2]], rect: &Rect) -> Vec<[f64; 2]> {
     let mut area: Vec<[f64; 2]> = points.iter().map(|point| point.map(|c| c.clamp(-FARTHEST, FARTHEST))).collect();
-    // A side: which coordinate, its value, and on which side of it the inside is.
+    // A side: which coordinate, its value, and the direction of the inside.
     for (axis, at, sign) in [(0, rect.x, 1.0), (0, rect.right(), -1.0), (1, rect.y, 1.0), (1, rect.bottom(), -1.0)] {
         let depth = |point: &[f64; 2]| sign * (point[axis] - at);
         let mut inside = Vec::with_capacity(area.len() + 4);
@@ -106,23 +106,21 @@ pub(super) fn clipped_area(points: &[[f64; 2]], rect: &Rect) -> Vec<[f64; 2]> {
     thinned(&area)
 }
 
-/// A line of equal value keeps this share of the range from either end.
+/// Least distance of a contour from either end of the range, as a share of the range.
 const NEAR_END: f64 = 0.02;
 
-/// Whether a value at this fraction of the range of a map gets a line of equal value: near an end the line would follow what the
-/// error is of, not the field.
+/// Whether a value at this fraction of the range of a map gets a contour: near an end the contour would follow the error, not the field.
 pub(crate) fn is_contour(fraction: f64) -> bool {
     (NEAR_END..=1.0 - NEAR_END).contains(&fraction)
 }
 
-/// The lines on which values at the nodes `x` × `y` (`[ix][iy]`) equal `level`, each in one piece. Cells with a value
-/// that is not a number have none.
+/// The contours on which values at the nodes `x` × `y` (`[ix][iy]`) equal `level`, each in one piece. Cells with a NaN value have none.
 pub(crate) fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<Vec<[f64; 2]>> {
     let (nx, ny) = (x.len(), y.len());
     if nx < 2 || ny < 2 || values.len() != nx * ny {
         return Vec::new();
     }
-    // An edge is named by its lower node and its direction; every edge joins at most two pieces of line.
+    // An edge is identified by its lower node and its direction; every edge joins at most two pieces of a line.
     let mut places: BTreeMap<Edge, [f64; 2]> = BTreeMap::new();
     let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
     for i in 0..nx - 1 {
@@ -136,7 +134,7 @@ pub(crate) fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<V
         }
     }
     let mut lines = Vec::new();
-    // Open lines first, from their ends; what is left are closed ones.
+    // Open lines are joined first, from their ends; the remaining ones are closed.
     let ends: Vec<Edge> = joined.iter().filter(|(_, to)| to.len() == 1).map(|(edge, _)| *edge).collect();
     let all: Vec<Edge> = joined.keys().copied().collect();
     for start in ends.into_iter().chain(all) {

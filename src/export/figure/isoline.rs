@@ -1,4 +1,4 @@
-//! Lines of equal value with their values written into them.
+//! Contours with their values written into them.
 
 use super::geometry::{along, distance};
 use super::style::Style;
@@ -7,16 +7,16 @@ use super::text;
 
 /// Size of the values \[pt\].
 const SIZE: f64 = 7.0;
-/// Distance between places on a line that are looked at.
+/// Distance between the points of a line that are tried as places for its value.
 const STEP: f64 = 1.0;
-/// A value stands at least this far, of its size, from other lines.
+/// Least distance of a value from other lines, relative to its size.
 const CLEAR: f64 = 0.75;
-/// A line is at least this many times as long as its value.
+/// A line gets a value only if it is at least this many times as long as the value.
 const LONGER: f64 = 3.0;
 
-/// One piece of a line of equal value.
+/// One piece of a contour.
 pub(super) struct Isoline {
-    /// Points close together, and whether each was a point of the line before.
+    /// Points close together, and whether each was a point of the original line.
     points: Vec<([f64; 2], bool)>,
     label: String,
     style: Style,
@@ -28,14 +28,14 @@ impl Isoline {
         let mut points = Vec::new();
         for pair in line.windows(2) {
             points.extend(along(pair[0], pair[1], STEP).enumerate().map(|(i, point)| (point, i == 0)));
-            // The end is the next one's beginning.
+            // The end of a segment is the beginning of the next one.
             points.pop();
         }
         points.extend(line.last().map(|last| (*last, true)));
         Self { points, label: label.to_owned(), style }
     }
 
-    /// The stretch for the value: straight, clear of other lines and values, as near the middle as may be.
+    /// The stretch for the value: straight, clear of other lines and values, and as near the middle as possible.
     fn stretch(&self, index: usize, lines: &[Self], values: &[[f64; 2]]) -> Option<(usize, usize)> {
         let need = text::width(&self.label, SIZE) + 4.0;
         let length = |from: usize, to: usize| (to - from) as f64 * STEP;
@@ -50,7 +50,7 @@ impl Isoline {
                 let (a, b) = (self.points[from].0, self.points[from + span].0);
                 let bent = 1.0 - distance(a, b) / length(from, from + span);
                 let off = ((from as f64 + 0.5 * span as f64) / count as f64 - 0.5).abs();
-                // Across the page rather than up it: values are read without turning the head.
+                // A value along the page is preferred to one up the page, so that it can be read without turning the head.
                 let steep = (b[1] - a[1]).abs() / distance(a, b).max(1e-9);
                 (bent < 0.15).then_some((4.0 * bent + 0.3 * off + 0.3 * steep, from))
             })
@@ -66,7 +66,7 @@ impl Isoline {
         places.into_iter().map(|(_, from)| from).take(150).find(|from| free(*from)).map(|from| (from, from + span))
     }
 
-    /// The points of the line before, from one place to another, both included.
+    /// The original points of the line, from one place to another, both included.
     fn between(&self, from: usize, to: usize) -> Vec<[f64; 2]> {
         let kept = |i: &usize| *i == from || *i == to || self.points[*i].1;
         (from..=to).filter(kept).map(|i| self.points[i].0).collect()

@@ -1,4 +1,4 @@
-//! The layers of a panel: curves, areas, points, fields, words.
+//! The layers of a panel: curves, areas, points, fields, text.
 
 use super::axis::Range;
 use super::colour::{Colour, Colours};
@@ -17,13 +17,13 @@ pub enum Layer {
     Mark(Mark),
     /// Values over a plane as colours.
     Map(Map),
-    /// Kinds over a plane.
+    /// Categories over a plane as colours.
     Categories(Categories),
-    /// Words that name a place.
+    /// A text that names a place.
     Text(Text),
 }
 
-/// A line with at most this many points has a marker on each.
+/// A line with at most this many points has a marker on each of them.
 pub(super) const MARKED: usize = 24;
 
 /// A curve. Points that are not finite, or not positive on a logarithmic axis, interrupt it.
@@ -31,11 +31,11 @@ pub(super) const MARKED: usize = 24;
 pub struct Line {
     /// Its name in the legend; empty for none.
     pub name: String,
-    /// `[x, y]`.
+    /// `[x, y]` of each point.
     pub points: Vec<[f64; 2]>,
     /// How it looks.
     pub style: Style,
-    /// Read on the right axis.
+    /// Whether it is read on the right axis.
     pub right: bool,
 }
 
@@ -60,7 +60,7 @@ pub struct Band {
     pub points: Vec<[f64; 3]>,
     /// Colour.
     pub colour: Colour,
-    /// 0 is invisible, 1 is solid.
+    /// Opacity: 0 is invisible, 1 is solid.
     pub opacity: f64,
 }
 
@@ -78,7 +78,7 @@ pub struct Points {
     pub name: String,
     /// `[x, y]`.
     pub points: Vec<[f64; 2]>,
-    /// Half the length of each point's error bar along y; shorter than `points`, the rest have none.
+    /// Half the length of each point's error bar along y; if there are fewer than points, the rest have none.
     pub errors: Vec<f64>,
     /// Colour.
     pub colour: Colour,
@@ -97,20 +97,20 @@ impl Points {
         Self { name: name.into(), points: points.into_iter().collect(), colour, marker, ..Self::default() }
     }
 
-    /// Half the length of the error bar of a point; 0 without one.
+    /// Half the length of the error bar of a point; 0 if it has none.
     pub(super) fn error(&self, point: usize) -> f64 {
         self.errors.get(point).copied().filter(|error| error.is_finite()).unwrap_or(0.0).abs()
     }
 }
 
-/// A straight line across the axes, with words at its end.
+/// A straight line across the axes, with a text at its end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mark {
     /// Which way it runs.
     pub direction: Direction,
-    /// The x of a vertical, the y of a horizontal one.
+    /// The x of a vertical line, or the y of a horizontal one.
     pub at: f64,
-    /// Words beside it; may be empty.
+    /// The text beside it; may be empty.
     pub label: String,
     /// How it looks.
     pub style: Style,
@@ -138,10 +138,10 @@ pub enum Direction {
     Horizontal,
 }
 
-/// Values at the nodes of a plane, as colours. Where a value is not finite nothing is drawn.
+/// Values at the nodes of a plane, as colours. Nothing is drawn where a value is not finite.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Map {
-    /// The quantity, at the colour bar.
+    /// The quantity, written at the colour bar.
     pub label: String,
     /// Its unit; empty for none.
     pub unit: String,
@@ -151,10 +151,10 @@ pub struct Map {
     pub colours: Colours,
     /// Range of values that the colours cover.
     pub range: Range,
-    /// Whether colours run from node to node or every node has its cell.
+    /// Whether colours are interpolated between nodes or each node has a cell.
     pub shading: Shading,
-    /// Draws up to ten labelled contour lines at round values, black or white as the colours need. The number is a typical error of the values:
-    /// where round values would be nearer to each other than it, there are no lines. `None`: no contours.
+    /// Draws up to ten labelled contours at round values, black or white depending on the colours. The number is a typical error of the
+    /// values: if round values would be closer to each other than the error, there are no contours. `None`: no contours.
     pub contours: Option<f64>,
 }
 
@@ -165,44 +165,44 @@ pub struct Grid {
     pub x: Vec<f64>,
     /// Ascending.
     pub y: Vec<f64>,
-    /// `[ix][iy]`, flat.
+    /// Values at `[ix][iy]`, as a flat array.
     pub values: Vec<f64>,
 }
 
 /// How the plane between nodes is filled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// Linear from node to node: fields.
+    /// Interpolated linearly between nodes, for fields.
     #[default]
     Smooth,
     /// A cell round every node: sweeps, where every value is a solve.
     Cells,
 }
 
-/// Kinds over a plane, each node's cell in the colour of its kind.
+/// Categories over a plane: the cell of each node has the colour of its category.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Categories {
     /// Ascending.
     pub x: Vec<f64>,
     /// Ascending.
     pub y: Vec<f64>,
-    /// `[ix][iy]`, flat: which of `kinds`; beyond them nothing is drawn.
+    /// Indices into `kinds` at `[ix][iy]`, as a flat array; nothing is drawn for an index beyond them.
     pub values: Vec<usize>,
-    /// Names, in the legend, and colours.
+    /// Names, shown in the legend, and colours.
     pub kinds: Vec<(String, Colour)>,
 }
 
-/// Words that name a place, beside it: on the first side where nothing else is drawn.
+/// A text that names a place, written beside it: on the first side where nothing else is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Text {
     /// `[x, y]` of the left axis.
     pub at: [f64; 2],
-    /// The words.
+    /// The text.
     pub text: String,
 }
 
 impl Text {
-    /// Words beside a place.
+    /// A text beside a place.
     pub fn new(at: [f64; 2], text: impl Into<String>) -> Self {
         Self { at, text: text.into() }
     }

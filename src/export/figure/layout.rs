@@ -1,4 +1,4 @@
-//! Where everything stands on the paper: plotting areas that line up, with room for what is round them.
+//! The positions of everything on the paper: plotting areas that are aligned, with room for what is around them.
 
 use super::axis::{Axis, Scale};
 use super::description::{Figure, Panel};
@@ -12,21 +12,21 @@ use super::scale::{Scaled, Tick, Ticks};
 use super::svg::Rect;
 use super::text;
 
-/// Round the figure.
+/// Margin round the figure.
 const MARGIN: f64 = 3.0;
 /// Between rows and between columns of panels.
 const ROW_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 11.0;
-/// Between a map and its upright colour bar.
+/// Distance between a map and its vertical colour bar.
 const BAR_GAP: f64 = 6.0;
 /// Maps lower than this \[pt\] have their colour bar above.
 const LOW: f64 = 75.0;
 /// Height that a colour bar takes above a map.
 const BAR_ABOVE: f64 = 19.0;
-/// Never smaller than this: a panel too narrow for its labels is still a panel.
+/// Least size of a plotting area, even if the panel is too narrow for its labels.
 const LEAST: f64 = 24.0;
 
-/// A figure's place for everything.
+/// The positions of everything in a figure.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     pub(super) width: f64,
@@ -79,7 +79,7 @@ impl Layout {
     }
 }
 
-/// Lines of type at the left margin, each with its place; `y` goes down to where they end.
+/// Lines of text at the left margin, each with its position; `y` is moved to where they end.
 fn set(lines: Vec<String>, size: f64, y: &mut f64) -> Vec<([f64; 2], String)> {
     let place = |line| {
         *y += size * LEADING;
@@ -91,17 +91,17 @@ fn set(lines: Vec<String>, size: f64, y: &mut f64) -> Vec<([f64; 2], String)> {
 /// Ranges of a panel's axes: x, y and right.
 type Ranges = (Scaled, Scaled, Option<Scaled>);
 
-/// Where the axes of a panel begin and end by itself: x, and the one at the left.
+/// The ends of the axes of a single panel: x, and the left axis.
 #[cfg(feature = "gui")]
 pub(crate) fn ends(panel: &Panel) -> [[f64; 2]; 2] {
     let (x, y, _) = ranges(panel, std::iter::once(panel));
     [x, y].map(|range| [range.from, range.to])
 }
 
-/// `together`: the panels that have one x axis with it, itself among them.
+/// `together` is the panels that share one x axis, including this one.
 fn ranges<'a>(panel: &Panel, together: impl Iterator<Item = &'a Panel>) -> Ranges {
     let values = together.flat_map(|other| covered(other, panel.x.scale, 0, false));
-    // Curves run from end to end; markers stand clear of the axes.
+    // Curves extend from end to end of the axes; markers keep a distance from them.
     let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
     let margin = !(fills(panel) || panel.layers.iter().any(curve));
     let x = Scaled::new(&panel.x.range, panel.x.scale, values, margin);
@@ -112,7 +112,7 @@ fn ranges<'a>(panel: &Panel, together: impl Iterator<Item = &'a Panel>) -> Range
     (x, upright(&panel.y, false), panel.right.as_ref().map(|axis| upright(axis, true)))
 }
 
-/// Values that the layers cover along x (0), or along the vertical axis (1) at the left or the right.
+/// Values that the layers cover along x (0), or along the left or right vertical axis (1).
 fn covered(panel: &Panel, scale: Scale, along: usize, right: bool) -> Vec<f64> {
     let log = scale == Scale::Log;
     let of = |layer: &Layer| match layer {
@@ -142,7 +142,7 @@ fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
     Ticks { ticks, power: 0 }
 }
 
-/// An upright axis: as many ticks as its height has room for, and of labels that would touch every other one.
+/// A vertical axis, with as many ticks as its height has room for. If labels would touch, every other label is left out.
 fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
     let mut ticks = ticks(axis, &range, ((height / (2.0 * TICK)) as usize).clamp(2, 7));
     loop {
@@ -156,12 +156,12 @@ fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
     }
 }
 
-/// Width that an upright axis needs beside the plotting area.
+/// Width that a vertical axis needs beside the plotting area.
 fn room(axis: &Ruler) -> f64 {
     axis.reach() + if axis.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
 }
 
-/// Ticks of a level axis whose labels do not touch: at most so many, unless they are two.
+/// Ticks of a horizontal axis whose labels do not touch: at most this many, but at least two.
 fn level_ticks(axis: &Axis, range: &Scaled, width: f64, mut most: usize) -> Ticks {
     loop {
         let ticks = ticks(axis, range, most);
@@ -186,11 +186,11 @@ fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
 }
 
 impl Placed {
-    /// The layout as far as it does not depend on the width: ranges, and what stands beside the axes.
+    /// The part of the layout that does not depend on the width: ranges, and what is beside the axes.
     fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
         let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
         let bar = first_map(panel).map(|map| {
-            // The ticks of a level one depend on its width.
+            // The ticks of a horizontal axis depend on its width.
             let (axis, range) = (Axis::new(&map.label, &map.unit), map_range(map));
             Bar { rect: Rect::default(), upright: height >= LOW, ruler: upright(&axis, range, height) }
         });
@@ -205,7 +205,7 @@ impl Placed {
         }
     }
 
-    /// Width needed at the right of the plotting area: axis and colour bar.
+    /// Width needed at the right of the plotting area, for the axis and the colour bar.
     fn right_side(&self) -> f64 {
         let axis = self.right.as_ref().map_or(0.0, room);
         let bar = self.bar.as_ref().filter(|bar| bar.upright).map_or(0.0, |bar| BAR_GAP + BAR + room(&bar.ruler));
@@ -213,12 +213,12 @@ impl Placed {
         (axis + bar).max(7.0)
     }
 
-    /// Height needed above the plotting area: title, legend, colour bar.
+    /// Height needed above the plotting area, for title, legend and colour bar.
     fn above(&self, panel: &Panel) -> f64 {
         let text = legend::height(self, panel);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
         let title = if panel.title.trim().is_empty() { 0.0 } else { HEAD * LEADING + 2.0 };
-        // A title and a colour bar share their line if there is room for both.
+        // A title and a colour bar are on one line if there is room for both.
         let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
         text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
     }
@@ -236,7 +236,7 @@ impl Placed {
         MAJOR + GAP + TICK + if self.x.label.is_empty() { 0.0 } else { GAP + LABEL * 1.15 }
     }
 
-    /// Sets the plotting area's top and places what is above it; titles of a row are at one height, at its top.
+    /// Sets the top of the plotting area, and places what is above it; titles of a row are at the same height, at its top.
     fn lower(&mut self, panel: &Panel, row: f64, top: f64) {
         self.rect.y = top;
         let rect = self.rect;
@@ -259,7 +259,7 @@ fn level_bar(rect: &Rect) -> f64 {
     (0.42 * rect.width).clamp(0.0, 150.0)
 }
 
-/// Gives every panel its left edge and width: plotting areas of a column have the same.
+/// Sets the left edge and width of every panel; the plotting areas of a column have the same.
 fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: f64) {
     let sides: Vec<[f64; 2]> = (0..columns)
         .map(|column| {

@@ -1,4 +1,4 @@
-//! The names of the layers: which there are, and where they stand.
+//! The legend: the names of the layers, and its place.
 
 use super::description::{Legend, Panel};
 use super::geometry::{along, clipped_line};
@@ -6,11 +6,11 @@ use super::layers::{Band, Layer, Line};
 use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills};
 use super::svg::Rect;
 
-/// Between names in a row.
+/// Distance between names in a row.
 const APART: f64 = 10.0;
-/// Between the axes and a legend inside.
+/// Distance between the axes and a legend inside them.
 const INSET: f64 = 4.0;
-/// A legend inside may cover this part of the plotting area.
+/// Greatest share of the plotting area that a legend inside may cover.
 const MOST: f64 = 0.45;
 
 /// The names of a panel that has a legend, in the order of its layers.
@@ -38,8 +38,8 @@ fn entries(panel: &Panel) -> Vec<Entry> {
     entries
 }
 
-/// Decides where the legend goes, of a plotting area that still has its corner at the origin. A legend inside is placed at once; one above
-/// when the area has its place.
+/// Decides where the legend goes, while the plotting area still has its corner at the origin. A legend inside is placed at once, a legend
+/// above the axes when the area has its place.
 pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let entries = entries(panel);
     if entries.is_empty() || panel.legend != Legend::Auto || fills(panel) {
@@ -55,7 +55,7 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let drawn = drawn(placed, panel, true);
     let (left, right) = (INSET, area.width - INSET - width);
     let (top, bottom) = (INSET, area.height - INSET - height);
-    // Corners first, then along the sides, then anywhere.
+    // Corners are tried first, then places along the sides, then any place.
     let heights = [top, bottom, 0.5 * (top + bottom), 0.25 * bottom + 0.75 * top, 0.75 * bottom + 0.25 * top];
     let places = [right, left, 0.5 * (left + right)].into_iter().flat_map(|x| heights.map(|y| [x, y]));
     let mut places: Vec<[f64; 2]> = places.collect();
@@ -79,7 +79,7 @@ pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
     points.iter().filter(|point| wide.holds(**point)).count()
 }
 
-/// Points all along what is drawn, close together; marks on request.
+/// Points along everything that is drawn, close together; with those of marks if `marks`.
 pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -115,7 +115,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]
     points
 }
 
-/// The names in rows as wide as the plotting area.
+/// The names in rows that are as wide as the plotting area.
 fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
     let mut rows: Vec<Vec<(Entry, f64)>> = Vec::new();
     let mut x = 0.0;

@@ -1,8 +1,8 @@
 //! Figures for print: described as plain data, drawn as SVG, PNG and PDF.
 //!
-//! A [`Figure`] holds [`Panel`]s in rows and columns; a panel holds two or three [`Axis`] and [`Layer`]s. What the same
-//! description looks like is decided here, once, for the command line, the window and the reports: type of 8 to 9 pt at
-//! the widths of journals, thin axes, colours of Okabe and Ito, dashes and markers that survive grey printing.
+//! A [`Figure`] holds [`Panel`]s in rows and columns; a panel holds two or three [`Axis`] and [`Layer`]s. How a description is drawn is
+//! decided here, once, for the command line, the window and the reports: type of 8 to 9 pt at the widths of journals, thin axes, colours of
+//! Okabe and Ito, and dashes and markers that can still be distinguished in grey print.
 //!
 //! ```
 //! use squeezefilm::export::figure::{self, Axis, Figure, Line, Panel, Style};
@@ -27,10 +27,10 @@
 //! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `render`, `files` |
 //! | sheets of paper with text, to write and sketch on | `sheet` |
 //!
-//! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
-//! places a map on nodes that are not uniform, and labels a tick 4.9999999999999995e-11; plotters has whole-pixel
-//! coordinates. Coordinates are in points; every panel carries the place and the range of its axes as attributes
-//! (`data-area`, `data-x`, `data-y`), so that a reader of the file can get back to the values.
+//! The SVG is written here because no library draws what a journal prints: kuva 0.6 does not align the axes of panels, cannot place a map
+//! on non-uniform nodes, and labels a tick 4.9999999999999995e-11; plotters has whole-pixel coordinates. Coordinates are in points. Every
+//! panel has the position and the range of its axes as attributes (`data-area`, `data-x`, `data-y`), from which a reader of the file can
+//! compute the values.
 
 mod axis;
 mod colour;

@@ -1,4 +1,4 @@
-//! Stand-ins for the functions that draw pixels and pages, in a program that is built without a renderer.
+//! Replacements for the functions that draw pixels and pages, in a program that is built without a renderer.
 
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};

@@ -21,16 +21,16 @@ use crate::ticks::Steps;
 
 /// Width of axes and ticks \[pt\].
 const THIN: f64 = 0.6;
-/// Markers on a line with more.
+/// Number of markers on a line with many points.
 const MARKERS: usize = 7;
-/// A name farther than this from its point has a line to it \[pt\].
+/// A name farther than this from its point is joined to it by a line \[pt\].
 const FAR: f64 = 8.0;
-/// The line ends this far from the point \[pt\].
+/// Distance of the end of that line from the point \[pt\].
 const RIM: f64 = 4.0;
-/// From the baseline to half the height of a digit, of the size.
+/// Distance from the baseline to half the height of a digit, relative to the size.
 const HALF_HEIGHT: f64 = 0.35;
 
-/// Draws the panel's pictures: they lie under everything else.
+/// Draws the panel's pictures, which are below everything else.
 pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Picture> {
     let Placed { rect, x, y, .. } = placed;
     let of = |layer: &Layer| match layer {
@@ -45,7 +45,7 @@ pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Picture> {
     pictures
 }
 
-/// Draws all but the pictures.
+/// Draws everything except the pictures.
 pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
     let on = On { placed, panel };
     svg.open(&on.attributes());
@@ -73,13 +73,13 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
     svg.close();
 }
 
-/// A name, where it is, and the line to what it names if that is not beside it.
+/// A name, its position, and the line to what it names if that is not beside it.
 #[cfg(feature = "gui")]
 pub(crate) type PlacedName = (String, [f64; 2], Option<[[f64; 2]; 2]>);
 
-/// The names of places, the upper left corner of each, and the line from the place to one that is farther away, where a figure has them, for
-/// another drawing of the panel: an area of this width and height \[pt\] with the axes between these ends, and words of the width and height
-/// that `words` tells.
+/// The names of places, with the upper left corner of each, and a line from the place to a name that is farther away. They are placed as in
+/// a figure, for another drawing of the panel: with an area of this width and height \[pt\], axes between these ends, and text sizes given
+/// by `words`.
 #[cfg(feature = "gui")]
 pub(crate) fn names(
     panel: &Panel,
@@ -100,7 +100,7 @@ pub(crate) fn names(
     names.map(|(name, at, place)| (name.text.clone(), [place.x, place.y], leader(at, &place))).collect()
 }
 
-/// The line from the rim of a point to its name, if that is not right beside it.
+/// The line from the rim of a point to its name, if the name is not right beside it.
 fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[[f64; 2]; 2]> {
     let near = [x.max(name.x).min(name.right()), y.max(name.y).min(name.bottom())];
     let share = RIM / distance([x, y], near);
@@ -168,7 +168,7 @@ impl On<'_> {
             if error == 0.0 {
                 continue;
             }
-            // What a logarithmic axis cannot show of a bar is below it.
+            // The part of an error bar that a logarithmic axis cannot show ends at the lower edge.
             let ends = [y + error, y - error].map(|y| {
                 let [px, py] = self.placed.at([*x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
@@ -176,7 +176,7 @@ impl On<'_> {
             for part in clipped_line(ends.into_iter(), rect) {
                 let (a, b) = (part[0], part[part.len() - 1]);
                 bars.push([a[0], a[1], b[0], b[1]]);
-                // Caps only where the bar ends inside.
+                // There are caps only where the bar ends inside the axes.
                 for (cap, end) in [(a, ends[0]), (b, ends[1])] {
                     if (cap[1] - end[1]).abs() < 1e-6 {
                         bars.push([cap[0] - 1.6, cap[1], cap[0] + 1.6, cap[1]]);
@@ -208,7 +208,7 @@ impl On<'_> {
         svg.close();
     }
 
-    /// Where a mark's words stand: along it, on the first side and end where nothing else is drawn.
+    /// The place of a mark's text: along the line, on the first side and at the first end where nothing else is drawn.
     fn place_of_words(&self, mark: &Mark, from: [f64; 2]) -> Rect {
         let area = &self.placed.rect;
         let (width, height) = (text::width(&mark.label, NOTE), NOTE);
@@ -229,7 +229,7 @@ impl On<'_> {
         self.freest(&places, |rect| covered(rect, &taken))
     }
 
-    /// The first place inside the axes where least is in the way.
+    /// The place inside the axes with the fewest obstacles; of several, the first.
     fn freest(&self, places: &[Rect], in_the_way: impl Fn(&Rect) -> usize) -> Rect {
         let area = &self.placed.rect;
         let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
@@ -237,7 +237,7 @@ impl On<'_> {
         freest.or(places.first()).copied().unwrap_or_default()
     }
 
-    /// Points all over what is drawn, the legend too; marks on request.
+    /// Points of everything that is drawn, including the legend; with those of marks if `marks`.
     fn taken(&self, marks: bool) -> Vec<[f64; 2]> {
         let mut taken = drawn(self.placed, self.panel, marks);
         taken.extend(self.placed.legend_box.iter().flat_map(Rect::points));
@@ -258,9 +258,9 @@ impl On<'_> {
         }
     }
 
-    /// The names of places, each with its own and where it is beside that: right and left first, then above and below, then at the corners,
-    /// then likewise farther away. No line to a name crosses another name if there is a way round it. `size`: width and height of
-    /// words.
+    /// The names of places, each with its place and its position beside that. Positions at the right and left are tried first, then above
+    /// and below, then at the corners, then the same farther away. No line to a name crosses another name if that can be avoided. `size`
+    /// gives width and height of a text.
     fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
         let area = &self.placed.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
@@ -295,7 +295,7 @@ impl On<'_> {
         let Grid { x, y, values } = &map.grid;
         let Some(error) = map.contours.filter(|_| plane::fits(x, y, values.len())) else { return };
         let (levels, step) = levels(values, error);
-        // Places first, so that lines are straight on paper on either kind of axis.
+        // Values are first converted to positions, so that lines are straight on paper on both kinds of axes.
         let px: Vec<f64> = x.iter().map(|x| self.placed.px(*x)).collect();
         let py: Vec<f64> = y.iter().map(|y| self.placed.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
@@ -383,7 +383,7 @@ fn named(class: &str, name: &str) -> String {
     format!(r#"class="{class}" data-name="{}""#, escaped(&text::plain(name)))
 }
 
-/// All of a few points; of many, some at equal lengths along the line, at other places on every curve.
+/// All points, if there are few; of many, some at equal distances along the line, at different places on each curve.
 fn sparse(points: &[[f64; 2]], curve: usize) -> Vec<[f64; 2]> {
     if points.len() <= MARKED {
         return points.to_vec();
@@ -419,7 +419,7 @@ fn upright_ticks(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) -> Vec<[f6
     strokes
 }
 
-/// The quantity beside an upright axis, turned.
+/// The label of a vertical axis, turned.
 fn upright_label(svg: &mut Svg, axis: &Ruler, rect: &Rect, side: f64) {
     let beyond = axis.reach() + GAP;
     let x = if side < 0.0 { rect.x - beyond - 0.2 * LABEL } else { rect.right() + beyond + 0.8 * LABEL };
@@ -462,7 +462,7 @@ fn levels(values: &[f64], error: f64) -> (Vec<f64>, f64) {
     (labelled, step)
 }
 
-/// Black or white, whichever shows on the map's colour of a value.
+/// Black or white, whichever is visible on the map's colour of a value.
 fn contrast(map: &Map, value: f64) -> Colour {
     let under = map.colours.at(map_range(map).fraction(value));
     if under.lightness() < 0.55 { Colour::WHITE } else { Colour::BLACK }
@@ -506,10 +506,10 @@ mod tests {
 
     #[test]
     fn no_contour_follows_what_is_error_alone() {
-        // α of a map whose half carries nothing, up to the solver's error.
+        // α of a map in which half of the points carry nothing, up to the solver's error.
         let (values, _) = levels(&[-1.1e-6, 2e-7, -3e-7, 0.98], 0.0);
         assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
-        // One that nowhere carries anything.
+        // A map in which no point carries anything.
         let noise = [-6.7e-9, 2.2e-9, 1e-9, -3e-9];
         assert!(levels(&noise, 1.25e-5).0.is_empty() && levels(&noise, 0.0).0.len() >= 4);
     }

@@ -1,4 +1,4 @@
-//! A panel's place on the paper, with its legend and colour bar, and the sizes that all who place and draw share.
+//! A panel's position on the paper, with its legend and colour bar, and the sizes that the layout and the drawing share.
 
 use super::axis::{Axis, Scale};
 use super::colour::Colour;
@@ -10,7 +10,7 @@ use super::svg::Rect;
 use super::text;
 use crate::digits::power_of_ten;
 
-/// Points in a millimetre.
+/// Points per millimetre.
 pub(super) const MM: f64 = 72.0 / 25.4;
 /// Sizes of type \[pt\].
 pub(super) const TITLE: f64 = 9.5;
@@ -19,9 +19,9 @@ pub(super) const LABEL: f64 = 8.5;
 pub(super) const TICK: f64 = 8.0;
 pub(super) const NOTE: f64 = 7.5;
 pub(super) const FOOT: f64 = 6.0;
-/// Height of a line, of its type's size.
+/// Height of a line, relative to the size of its type.
 pub(super) const LEADING: f64 = 1.25;
-/// Length of a major and of a minor tick.
+/// Lengths of a major and of a minor tick.
 pub(super) const MAJOR: f64 = 2.8;
 pub(super) const MINOR: f64 = 1.6;
 /// Gap between a tick and its label.
@@ -30,7 +30,7 @@ pub(super) const GAP: f64 = 2.2;
 pub(super) const BAR: f64 = 7.0;
 /// Length of the sample of a line.
 const SAMPLE: f64 = 17.0;
-/// Between a sample and its name.
+/// Distance between a sample and its name.
 pub(super) const SPACE: f64 = 3.5;
 
 /// The scale along an axis or a colour bar: range, ticks and label.
@@ -47,14 +47,14 @@ impl Ruler {
         Self { range, label: axis_label(&axis.label, &axis.unit, ticks.power), ticks }
     }
 
-    /// How far ticks and their labels reach out beside it when it is upright; the quantity is beyond them.
+    /// Distance that ticks and their labels extend beside a vertical axis; the quantity is written beyond them.
     pub(super) fn reach(&self) -> f64 {
         let labels = self.ticks.ticks.iter().filter_map(|tick| tick.label.as_deref());
         MAJOR + GAP + labels.map(|label| text::width(label, TICK)).fold(0.0, f64::max)
     }
 }
 
-/// A colour bar's place.
+/// The position of a colour bar.
 #[derive(Clone, Debug)]
 pub(super) struct Bar {
     pub(super) rect: Rect,
@@ -62,34 +62,34 @@ pub(super) struct Bar {
     pub(super) ruler: Ruler,
 }
 
-/// A panel's place.
+/// The position of a panel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Placed {
     pub(super) rect: Rect,
     pub(super) x: Ruler,
     pub(super) y: Ruler,
     pub(super) right: Option<Ruler>,
-    /// Whether labels stand below the x axis.
+    /// Whether there are labels below the x axis.
     pub(super) x_labels: bool,
     pub(super) bar: Option<Bar>,
     pub(super) legend: Vec<(Entry, [f64; 2])>,
-    /// Of a legend inside.
+    /// The box of a legend inside the axes.
     pub(super) legend_box: Option<Rect>,
     pub(super) title: [f64; 2],
 }
 
 impl Placed {
-    /// The axis of what is read on the left, or on the right if there is one.
+    /// The left vertical axis, or the right one if `right` and there is one.
     fn upright(&self, right: bool) -> &Scaled {
         &self.right.as_ref().filter(|_| right).unwrap_or(&self.y).range
     }
 
-    /// Where an x stands across the paper.
+    /// Position of an x value across the paper.
     pub(super) fn px(&self, x: f64) -> f64 {
         self.rect.x + self.x.range.fraction(x) * self.rect.width
     }
 
-    /// Where a y stands down the paper, read on the left, or on the right.
+    /// Position of a y value down the paper, on the left or right axis.
     pub(super) fn py(&self, y: f64, right: bool) -> f64 {
         self.rect.bottom() - self.upright(right).fraction(y) * self.rect.height
     }
@@ -115,7 +115,7 @@ pub(super) enum Sign {
     Point(Marker, Colour),
 }
 
-/// One name.
+/// An entry of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) sign: Sign,
@@ -123,7 +123,7 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// Width of its sign.
+    /// Width of its symbol.
     pub(super) fn sample(&self) -> f64 {
         match self.sign {
             Sign::Line(_) => SAMPLE,
@@ -132,7 +132,7 @@ impl Entry {
         }
     }
 
-    /// Width of sign and name.
+    /// Width of symbol and name.
     pub(super) fn width(&self) -> f64 {
         self.sample() + SPACE + text::width(&self.name, NOTE)
     }
@@ -149,7 +149,7 @@ fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
     }
 }
 
-/// Whether a panel is a map, whose axes end where it ends.
+/// Whether a panel contains a map; its axes then end where the map ends.
 pub(super) fn fills(panel: &Panel) -> bool {
     panel.layers.iter().any(|layer| matches!(layer, Layer::Map(_) | Layer::Categories(_)))
 }

@@ -6,18 +6,18 @@ use super::layers::{Categories, Grid, Map, Shading};
 use super::scale::Scaled;
 use super::svg::{Picture, Rect};
 
-/// Pixels of a point in print: 300 to the inch.
+/// Pixels per point in print: 300 per inch.
 pub const PRINT: f64 = 300.0 / 72.0;
-/// More pixels along a side than this are not drawn.
+/// Greatest number of pixels along a side.
 const MOST: f64 = 4000.0;
 
-/// Whether nodes and values fit, and the nodes ascend.
+/// Whether the numbers of nodes and values agree, and the nodes ascend.
 pub(super) fn fits(x: &[f64], y: &[f64], values: usize) -> bool {
     let ascends = |nodes: &[f64]| nodes.iter().all(|v| v.is_finite()) && nodes.windows(2).all(|w| w[0] < w[1]);
     !x.is_empty() && !y.is_empty() && x.len().checked_mul(y.len()) == Some(values) && ascends(x) && ascends(y)
 }
 
-/// The ends of what nodes cover: themselves, or with half a cell beyond either.
+/// The ends of the area that the nodes cover: the first and last node, or half a cell beyond them.
 pub(super) fn ends(nodes: &[f64], cells: bool, log: bool) -> Vec<f64> {
     let ([first, second, ..], [.., before, last]) = (nodes, nodes) else { return nodes.to_vec() };
     if !cells {
@@ -55,7 +55,7 @@ fn places(nodes: &[f64], axis: &Scaled, count: usize, shading: Shading, flipped:
     (0..count).map(place).collect()
 }
 
-/// Rows of pixels of a rectangle, `colour` asked for the places along x and y of each.
+/// Pixels of a rectangle, row by row; `colour` gives the colour at the positions along x and y of each.
 fn paint(
     rect: &Rect,
     axes: [(&[f64], &Scaled); 2],
@@ -78,7 +78,7 @@ fn paint(
     Picture { rect: *rect, pixels: Pixels { width, height, rgb } }
 }
 
-/// The picture of a map; none if its nodes and values do not fit.
+/// The picture of a map; `None` if its nodes and values do not agree.
 pub(super) fn map(map: &Map, rect: &Rect, x: &Scaled, y: &Scaled, range: &Scaled) -> Option<Picture> {
     let Grid { x: xs, y: ys, values } = &map.grid;
     if !fits(xs, ys, values.len()) {
@@ -98,7 +98,7 @@ pub(super) fn map(map: &Map, rect: &Rect, x: &Scaled, y: &Scaled, range: &Scaled
     }))
 }
 
-/// The picture of kinds; none if nodes and values do not fit.
+/// The picture of categories; `None` if nodes and values do not agree.
 pub(super) fn categories(kinds: &Categories, rect: &Rect, x: &Scaled, y: &Scaled) -> Option<Picture> {
     if !fits(&kinds.x, &kinds.y, kinds.values.len()) {
         return None;

@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use crate::solution::{Outcome, Solution};
 use serde::{Deserialize, Serialize};
 
-/// Where the numbers of a figure come from. What is empty is left out.
+/// Where the numbers of a figure come from. Empty fields are left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Provenance {
@@ -16,19 +16,19 @@ pub struct Provenance {
     pub version: String,
     /// `draft`, `standard`, …, or `paper mesh`.
     pub fidelity: String,
-    /// The estimated numerical error, in words with numbers.
+    /// The estimated numerical error, as a text.
     pub error: String,
     /// Anything else: `not converged`, the instant shown.
     pub note: String,
 }
 
 impl Provenance {
-    /// Of the scene of this name, by this program.
+    /// The provenance for the scene of this name, solved by this program.
     pub fn named(preset: &str) -> Self {
         Self { preset: preset.to_owned(), version: env!("CARGO_PKG_VERSION").to_owned(), ..Self::default() }
     }
 
-    /// Of one solve.
+    /// The provenance for one solve.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let error = match &solution.outcome {
             Outcome::Motor(result) => format!("α = {}", result.alpha),

@@ -1,4 +1,4 @@
-//! An SVG in pixels (resvg) and on a page (svg2pdf), with the bundled fonts.
+//! Converts an SVG to pixels (resvg) and to a page (svg2pdf), with the bundled fonts.
 
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::io::Write as _;
 use std::sync::{Arc, LazyLock};
 
-/// `drawing`, whose SVG without background and pictures is `svg`, in so many pixels across and down, `scale` of them to the point.
+/// Draws `drawing` in this many pixels across and down, with `scale` pixels per point. `svg` is its SVG without background and pictures.
 pub(super) fn pixels(
     drawing: &Drawing,
     svg: &str,
@@ -40,7 +40,7 @@ fn tree(svg: &str) -> Result<Tree, FigureError> {
     Tree::from_str(svg, &options()).map_err(|error| FigureError::Draw(error.to_string()))
 }
 
-/// Puts a picture where it belongs.
+/// Draws a picture at its position.
 fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
     let Rect { x, y, width, height } = picture.rect;
     let Pixels { width: columns, height: rows, rgb } = &picture.pixels;
@@ -54,7 +54,7 @@ fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
     pixmap.draw_pixmap(0, 0, stamp.as_ref(), &PixmapPaint::default(), place, None);
 }
 
-/// The bundled fonts, and no others: a figure is the same everywhere.
+/// Only the bundled fonts are used, so that a figure is the same everywhere.
 fn options() -> usvg::Options<'static> {
     static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
         let mut fonts = fontdb::Database::new();
@@ -66,7 +66,7 @@ fn options() -> usvg::Options<'static> {
     usvg::Options { fontdb: Arc::clone(&FONTS), font_family: "Liberation Sans".to_owned(), ..usvg::Options::default() }
 }
 
-/// Drawings as the pages of a PDF, each with its SVG without background and pictures, their text as text.
+/// Drawings as the pages of a PDF, each with its SVG without background and pictures. Text stays text.
 pub(super) fn pdf(pages: &[(Drawing, String)], facts: &[(&str, String)]) -> Result<Vec<u8>, FigureError> {
     let failed = |error: &dyn std::fmt::Display| FigureError::Draw(error.to_string());
     let mut next = Ref::new(1);

@@ -1,18 +1,18 @@
-//! From values to places along an axis, and the ticks of an axis: steps of 1, 2 and 5 when linear, decades when
-//! logarithmic.
+//! Converts values to positions along an axis, and computes the ticks of an axis: steps of 1, 2 and 5 on a linear axis, decades on a
+//! logarithmic one.
 
 use super::axis::{Range, Scale, extent};
 use crate::digits::{power_of_ten, short, signed};
 use crate::ticks::{Decimal, Steps, decades};
 
-/// Part of the data's span that is added at either end of an axis that shows curves.
+/// Share of the data's span that is added at both ends of an axis for curves.
 const MARGIN: f64 = 0.05;
-/// From here on, and below its inverse, ticks share a power of ten.
+/// From this value on, and below its inverse, ticks share a power of ten.
 const PLAIN: f64 = 1e4;
-/// Values may not be further from zero, so that their span is still a number.
+/// Greatest distance of values from zero, so that their span is finite.
 const FARTHEST: f64 = 1e300;
 
-/// A range of values spread over 0 to 1.
+/// A range of values, mapped to 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Scaled {
     pub(super) from: f64,
@@ -21,7 +21,7 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
-    /// The range for `values`, with a margin at either end if the axis is free to choose.
+    /// The range for `values`; with a margin at both ends if the axis may choose its range.
     pub(super) fn new(range: &Range, scale: Scale, values: impl Iterator<Item = f64>, margin: bool) -> Self {
         let shown = |value: &f64| value.is_finite() && (scale == Scale::Linear || *value > 0.0);
         if let Range::Fixed(a, b) = range
@@ -39,7 +39,7 @@ impl Scaled {
         if !margin || low >= high {
             return range;
         }
-        // Where zero was asked for and is an end, the axis stops.
+        // If zero was requested and is an end, the axis has no margin there.
         let extra = extent(extra.iter().copied().filter(shown));
         let stops = |end: f64| end == 0.0 && extra.contains(&0.0);
         let room = |end: f64, outwards: f64| if stops(end) { 0.0 } else { outwards * MARGIN };
@@ -51,7 +51,7 @@ impl Scaled {
         }
     }
 
-    /// From `from` to `to`, which may be equal: then somewhat round them.
+    /// From `from` to `to`; if they are equal, a range round them.
     fn widened(from: f64, to: f64, scale: Scale) -> Self {
         let clamp = |value: f64| value.clamp(-FARTHEST, FARTHEST);
         let (from, to) = (clamp(from), clamp(to));
@@ -59,7 +59,7 @@ impl Scaled {
             Scale::Log if to / from < 1.0 + 1e-9 => {
                 Self { from: (from / 2.0).max(f64::MIN_POSITIVE), to: (to * 2.0).max(4.0 * f64::MIN_POSITIVE), scale }
             }
-            // Ticks closer than this could not be told apart in double precision.
+            // Ticks closer than this could not be distinguished in double precision.
             Scale::Linear if to - from <= 1e-9 * from.abs().max(to.abs()) || to - from < 1e-290 => {
                 let size = from.abs().max(to.abs());
                 let half = if size < 1e-280 { 1.0 } else { 0.1 * size };
@@ -69,7 +69,7 @@ impl Scaled {
         }
     }
 
-    /// Where a value lies: 0 at the beginning, 1 at the end. Not a number for what a logarithmic axis cannot show.
+    /// Position of a value: 0 at the beginning, 1 at the end. NaN for a value that a logarithmic axis cannot show.
     pub(super) fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.from) / (self.to - self.from),
@@ -93,14 +93,14 @@ impl Scaled {
     }
 }
 
-/// A tick: major with a label, minor without.
+/// A tick; a major one has a label.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
     pub(super) at: f64,
     pub(super) label: Option<String>,
 }
 
-/// Ticks, and the power of ten that their labels are to be multiplied with.
+/// Ticks, and the power of ten by which their labels have to be multiplied.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ticks {
     pub(super) ticks: Vec<Tick>,
@@ -141,23 +141,23 @@ fn linear(range: &Scaled, most: usize, whole: bool) -> Ticks {
     Ticks { ticks, power }
 }
 
-/// The value without a power of ten, which alone may be too large or too small for a number.
+/// The value divided by a power of ten, which itself may be too large or too small for a number.
 fn without(value: f64, power: i32) -> f64 {
     value / 10f64.powi(power / 2) / 10f64.powi(power - power / 2)
 }
 
-/// A power of a thousand below `size`.
+/// The greatest power of a thousand that does not exceed `size`.
 fn thousands(size: f64) -> i32 {
     if size > 0.0 { (size.log10() / 3.0 + 1e-9).floor() as i32 * 3 } else { 0 }
 }
 
-/// Digits with a minus sign, and none before zero.
+/// Digits with a minus sign, but no minus sign before zero.
 fn fixed(value: f64, places: usize) -> String {
     signed(format!("{value:.places$}"))
 }
 
 fn logarithmic(range: &Scaled, most: usize) -> Ticks {
-    // Too short for a decade's labels: values as on a linear axis.
+    // The axis is too short for labels at decades, so it has round values as on a linear axis.
     let Some(numbers) = decades([range.from.log10(), range.to.log10()], most) else {
         let plain = Scaled { scale: Scale::Linear, ..*range };
         return Ticks::new(&plain, most.min(4), false);

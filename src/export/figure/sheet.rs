@@ -14,11 +14,11 @@ use serde::{Deserialize, Serialize};
 const PAGE: [f64; 2] = [595.28, 841.89];
 const MARGIN: f64 = 42.0;
 const COLUMNS: usize = 2;
-/// Between columns.
+/// Distance between the columns.
 const GUTTER: f64 = 22.0;
-/// Sizes of type \[pt\], the largest first; the last continues on a further page.
+/// Sizes of type \[pt\], the largest first. A sheet that does not fit with the smallest one continues on another page.
 const SIZES: [f64; 6] = [10.5, 9.8, 9.1, 8.4, 7.7, 7.0];
-/// Heights in sizes of type.
+/// Heights relative to the size of type.
 const LINE: f64 = 1.32;
 const RULED: f64 = 1.9;
 const AXES: f64 = 6.5;
@@ -37,13 +37,13 @@ pub enum Piece {
     Heading(String),
     /// A paragraph.
     Text(String),
-    /// A choice, with a box to tick, ticked or not.
+    /// A choice with a box, ticked or not.
     Choice(String, bool),
     /// A paragraph that stands out.
     Answer(String),
     /// Ruled lines to write on.
     Room(usize),
-    /// Empty axes to sketch in: what is along them.
+    /// Empty axes to sketch in, with the labels of both axes.
     Axes([String; 2]),
 }
 
@@ -66,7 +66,7 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
     render::pdf(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
-/// With indices and exponents of one character in braces, by which a figure knows them.
+/// Puts braces round indices and exponents of one character, as figures need them.
 fn with_braces(piece: &Piece) -> Piece {
     let braced = |text: &str| {
         let mut out = String::with_capacity(text.len());
@@ -89,7 +89,7 @@ fn with_braces(piece: &Piece) -> Piece {
     }
 }
 
-/// A sheet in type of this size: the body of each of its pages.
+/// A sheet in type of this size: the content of each of its pages.
 fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     filled(sheet, size).pages.into_iter().map(|page| page.body).collect()
 }
@@ -118,8 +118,8 @@ fn filled(sheet: &[Piece], size: f64) -> Setter {
     setter
 }
 
-/// The height \[pt\] of the first of these pieces and of what is not parted from it: a heading from what it is about, a paragraph from its choices, its
-/// axes or the room for what it asks.
+/// The height \[pt\] of the first of these pieces together with those that must not be separated from it: a heading stays with what
+/// follows, a paragraph with its choices, its axes or the room for the answer.
 fn together(pieces: &[Piece], size: f64) -> f64 {
     let [heading, paragraph, choice] = ABOVE;
     let words = |text: &str, indent: f64, scale: f64, above: f64| {
@@ -146,7 +146,7 @@ fn together(pieces: &[Piece], size: f64) -> f64 {
 struct Setter {
     pages: Vec<Svg>,
     column: usize,
-    /// Where the next piece begins.
+    /// The vertical position where the next piece begins.
     y: f64,
     size: f64,
 }
@@ -161,7 +161,7 @@ impl Setter {
         MARGIN + self.column as f64 * (Self::width() + GUTTER)
     }
 
-    /// Takes this height, in the next column if this one has not got it; where it begins.
+    /// Reserves this height, in the next column if this one does not have it. Returns where it begins.
     fn take(&mut self, height: f64) -> f64 {
         if self.y + height > PAGE[1] - MARGIN && self.y > MARGIN {
             self.y = MARGIN;
@@ -175,7 +175,7 @@ impl Setter {
         self.y - height
     }
 
-    /// Goes on in the next column if this height is not left in this one.
+    /// Moves to the next column if this one does not have this height left.
     fn keep(&mut self, height: f64) {
         let top = self.take(height);
         self.y = top;
@@ -187,7 +187,7 @@ impl Setter {
         }
     }
 
-    /// Words in lines, with room above.
+    /// Text in lines, with space above.
     fn words(&mut self, text: &str, indent: f64, scale: f64, colour: Colour, above: f64) {
         let size = scale * self.size;
         let lines = wrapped(text, size, Self::width() - indent);
@@ -201,7 +201,7 @@ impl Setter {
         });
     }
 
-    /// A box in front of the words that were just written.
+    /// A box in front of the text that was just written.
     fn tick(&mut self, text: &str, indent: f64, ticked: bool) {
         let size = self.size;
         let lines = wrapped(text, size, Self::width() - indent).len() as f64;
@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn what_is_kept_together_is_as_high_as_it_is_set() {
         let size = SIZES[1];
-        // Of every length, so that some lines break because of an indent.
+        // The texts have all lengths, so that some lines break because of an indent.
         for words in 1..60 {
             let text = || "seven ".repeat(words);
             let choice = || Piece::Choice(text(), false);
@@ -311,7 +311,7 @@ mod tests {
         assert!(moved);
     }
 
-    /// The numbers of this attribute, of all `tag`s of a page in order.
+    /// The values of this attribute of all elements `tag` of a page, in order.
     fn attributes(page: &str, tag: &str, name: &str) -> Vec<f64> {
         let begin = format!("<{tag} ");
         let tags = page.split(&begin).skip(1);
@@ -320,7 +320,7 @@ mod tests {
         tags.filter_map(value).collect()
     }
 
-    /// Where the text that begins with a word stands.
+    /// The position of the text that begins with this word.
     fn place(page: &str, word: &str) -> [f64; 2] {
         let until = &page[..page.find(&format!(">{word}")).unwrap()];
         ["x", "y"].map(|name| attributes(until, "text", name).pop().unwrap())
@@ -336,7 +336,7 @@ mod tests {
         assert!(x.len() > 8 && y.iter().all(|y| (MARGIN..MARGIN + 30.0 * size).contains(y)), "{y:?}");
         for i in 1..y.len() {
             let apart = y[i] - y[i - 1];
-            // Within a paragraph the lines are evenly apart; between two there is more.
+            // Within a paragraph the lines are evenly spaced; between two paragraphs there is more space.
             let same = sizes[i] == sizes[i - 1] && x[i] == x[i - 1];
             assert!(if same { (apart - LINE * sizes[i]).abs() < 2e-3 } else { apart > LINE * size }, "{y:?}");
         }

@@ -1,8 +1,8 @@
-//! How lines and points look.
+//! The style of lines and points.
 
 use super::colour::Colour;
 
-/// How a line looks.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Colour.
@@ -11,7 +11,7 @@ pub struct Style {
     pub width: f64,
     /// Dashes.
     pub dash: Dash,
-    /// Markers on the line: on every point of a few, on some of many.
+    /// Markers on the line: on every point if there are few, on some if there are many.
     pub marker: Option<Marker>,
 }
 
@@ -27,14 +27,14 @@ impl Style {
         Self { colour, ..Self::default() }
     }
 
-    /// With another width \[pt\].
+    /// Sets the width \[pt\].
     #[must_use]
     pub fn width(mut self, width: f64) -> Self {
         self.width = width;
         self
     }
 
-    /// With dashes.
+    /// Sets the dashes.
     #[must_use]
     pub fn dash(mut self, dash: Dash) -> Self {
         self.dash = dash;
@@ -46,7 +46,7 @@ impl Style {
         Self::solid(Colour::QUIET).width(0.6)
     }
 
-    /// The style of curve `index` of several: colour, dashes and marker all differ, so that they can be told apart in grey.
+    /// The style of curve `index` of several. Colour, dashes and marker all differ, so that the curves can be distinguished in grey print.
     pub fn nth(index: usize) -> Self {
         let shape = [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross];
         let hollow = (index / shape.len()) % 2 == 1;
@@ -54,7 +54,7 @@ impl Style {
         Self { marker: Some(marker), ..Self::unmarked(index) }
     }
 
-    /// As [`Self::nth`], without markers: of curves with many points.
+    /// As [`Self::nth`], without markers, for curves with many points.
     pub fn unmarked(index: usize) -> Self {
         let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
         Self::solid(Colour::CYCLE[index % Colour::CYCLE.len()]).dash(dash[index % dash.len()])
@@ -64,23 +64,23 @@ impl Style {
 /// Dashes of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
-    /// None.
+    /// A solid line.
     #[default]
     Solid,
-    /// Long.
+    /// Long dashes.
     Dashed,
     /// Dots.
     Dotted,
-    /// Long and dot in turn.
+    /// Long dashes and dots in turn.
     DashDot,
 }
 
-/// A point's sign.
+/// A marker on a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
     /// Shape.
     pub shape: Shape,
-    /// Only the outline, filled with white.
+    /// Whether only the outline is drawn, filled with white.
     pub hollow: bool,
     /// Diameter \[pt\].
     pub size: f64,

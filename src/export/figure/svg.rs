@@ -1,4 +1,4 @@
-//! An SVG as it grows: lines, areas, text and pictures, in points from the upper left corner.
+//! Builds an SVG: lines, areas, text and pictures, with coordinates in points from the upper left corner.
 
 use super::colour::Colour;
 use super::error::Pixels;
@@ -46,7 +46,7 @@ pub(super) struct Picture {
     pub(super) pixels: Pixels,
 }
 
-/// Where and how text stands.
+/// Position and style of text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Type {
     pub(super) size: f64,
@@ -69,7 +69,7 @@ pub(super) struct Svg {
     pub(super) body: String,
 }
 
-/// A coordinate to a thousandth of a point; what is not a number is nowhere near the figure.
+/// A coordinate to a thousandth of a point; NaN gives a position far from the figure.
 pub(super) fn coordinate(value: f64) -> String {
     let value = if value.is_finite() { value.clamp(-1e6, 1e6) } else { -1e6 };
     let text = format!("{value:.3}");
@@ -77,7 +77,7 @@ pub(super) fn coordinate(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text for HTML and XML; characters that neither may hold are replaced.
+/// Text for HTML and XML; characters that they do not allow are replaced.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -105,7 +105,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// Ends an element with how its line is drawn.
+    /// Writes the attributes of the line style, and ends the element.
     fn stroke(&mut self, style: &Style) {
         let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
         let _ = write!(self.body, r#" stroke="{}" stroke-width="{}""#, style.colour.hex(), coordinate(width));
@@ -155,7 +155,7 @@ impl Svg {
         self.body.push_str("/>\n");
     }
 
-    /// A rectangle with an outline, and a filling or none.
+    /// A rectangle with an outline, with or without a filling.
     pub(super) fn rect(&mut self, rect: &Rect, style: &Style, fill: Option<(Colour, f64)>) {
         let [x, y, w, h] = [rect.x, rect.y, rect.width.max(0.0), rect.height.max(0.0)].map(coordinate);
         let _ = write!(self.body, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}""#);
@@ -168,7 +168,7 @@ impl Svg {
         self.stroke(style);
     }
 
-    /// Ticks and the like: many short lines in one path.
+    /// Many short lines in one path, such as ticks.
     pub(super) fn segments(&mut self, segments: &[[f64; 4]], style: &Style) {
         if segments.is_empty() {
             return;
@@ -182,10 +182,10 @@ impl Svg {
         self.stroke(style);
     }
 
-    /// A marker's sign.
+    /// The shape of a marker.
     pub(super) fn marker(&mut self, [x, y]: [f64; 2], marker: &Marker, colour: Colour) {
         let r = (if marker.size.is_finite() { marker.size.clamp(0.5, 50.0) } else { 4.0 }) / 2.0;
-        // Equal areas look equally large.
+        // The shapes have equal areas, so that they look equally large.
         let shape: Vec<[f64; 2]> = match marker.shape {
             Shape::Circle => Vec::new(),
             Shape::Square => vec![[-0.89, -0.89], [0.89, -0.89], [0.89, 0.89], [-0.89, 0.89]],
@@ -213,7 +213,7 @@ impl Svg {
         self.stroke(&outline);
     }
 
-    /// Words whose baseline is at a point.
+    /// Text with its baseline at a point.
     pub(super) fn text(&mut self, [x, y]: [f64; 2], text: &str, style: &Type) {
         let pieces = pieces(text);
         if plain(text).trim().is_empty() {
@@ -224,8 +224,8 @@ impl Svg {
         if style.anchor != "start" {
             let _ = write!(self.body, r#" text-anchor="{}""#, style.anchor);
         }
-        // Where another font stands in for the first one, it is fitted into the place that was laid out. Readers of SVG do not agree on
-        // what that means for a text of several pieces.
+        // If another font replaces the first one, the text is fitted into the width that was laid out. This is not done for a text of
+        // several pieces, because readers of SVG interpret it differently.
         if pieces.len() == 1 {
             let place = coordinate(width(text, style.size));
             let _ = write!(self.body, r#" textLength="{place}" lengthAdjust="spacingAndGlyphs""#);
@@ -237,7 +237,7 @@ impl Svg {
             let _ = write!(self.body, r#" transform="rotate({} {cx} {cy})""#, coordinate(style.angle));
         }
         self.body.push('>');
-        // dy moves all that follows: every piece is told its distance from the one before.
+        // dy shifts all text that follows, so every piece gets its distance from the one before.
         let mut at = 0.0;
         for (script, piece) in pieces {
             let (shift, size) = match script {

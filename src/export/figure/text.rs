@@ -1,4 +1,4 @@
-//! Words of a figure: how wide they are in the bundled font, and raised and lowered parts.
+//! Text of a figure: its width in the bundled font, and its raised and lowered parts.
 
 use crate::platform::{dejavu, liberation};
 use std::sync::LazyLock;
@@ -6,10 +6,10 @@ use ttf_parser::Face;
 
 /// The fonts asked for in an SVG, best first.
 pub(super) const FAMILIES: &str = "Liberation Sans, Arial, Helvetica, DejaVu Sans, sans-serif";
-/// Size of raised and lowered text, of that round it.
+/// Size of raised and lowered text, relative to the text round it.
 pub(super) const SMALL: f64 = 0.72;
 
-/// How a piece of text stands.
+/// Whether a piece of text is on the baseline, raised or lowered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Script {
     Normal,
@@ -17,8 +17,8 @@ pub(super) enum Script {
     Lowered,
 }
 
-/// Text in pieces, each on one script: `^{…}`, `_{…}`, the raised and lowered characters of Unicode, the index of a symbol (`H_m`) and the
-/// exponent of a number (`10^-5`).
+/// Splits text into pieces that are on the baseline, raised or lowered: `^{…}`, `_{…}`, the raised and lowered characters of Unicode, the
+/// index of a symbol (`H_m`) and the exponent of a number (`10^-5`).
 pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
     let mut pieces: Vec<(Script, String)> = Vec::new();
     let mut push = |script: Script, c: char| match pieces.last_mut() {
@@ -52,7 +52,7 @@ pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
         }
         match shifted(c) {
             Some((script, plain)) => push(script, plain),
-            // Neither XML nor a font knows what to do with these.
+            // Neither XML nor fonts can show these characters.
             None if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => push(Script::Normal, ' '),
             None => push(Script::Normal, c),
         }
@@ -60,14 +60,14 @@ pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
     pieces
 }
 
-/// Characters of the exponent after a `^` that follows a digit; none elsewhere.
+/// Number of characters of the exponent after a `^` that follows a digit; otherwise 0.
 fn exponent(before: &[char], after: &[char]) -> usize {
     let sign = usize::from(matches!(after.first(), Some('-' | '−')));
     let digits = after[sign..].iter().take_while(|c| c.is_ascii_digit()).count();
     if digits > 0 && before.last().is_some_and(char::is_ascii_digit) { sign + digits } else { 0 }
 }
 
-/// Characters of the index after a `_` that follows a symbol of one letter; none in longer names.
+/// Number of characters of the index after a `_` that follows a symbol of one letter; 0 in longer names.
 fn index(before: &[char], after: &[char]) -> usize {
     let in_word = |c: &char| c.is_alphanumeric() && shifted(*c).is_none() || *c == '_';
     let symbol = match before {
@@ -93,7 +93,7 @@ pub(super) fn plain(text: &str) -> String {
     pieces(text).into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// Width \[pt\] of text of a size \[pt\].
+/// Width \[pt\] of a text at a size \[pt\].
 pub(super) fn width(text: &str, size: f64) -> f64 {
     pieces(text)
         .iter()
@@ -104,7 +104,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
         .sum()
 }
 
-/// Width of a character, in its size.
+/// Width of a character, relative to its size.
 fn advance(c: char) -> f64 {
     static FACES: LazyLock<Vec<Face<'static>>> =
         LazyLock::new(|| [liberation(), dejavu()].into_iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
@@ -115,7 +115,7 @@ fn advance(c: char) -> f64 {
     found.unwrap_or(0.6)
 }
 
-/// Text broken at spaces into lines no wider than `most` \[pt\], where words allow it.
+/// Text broken at spaces into lines no wider than `most` \[pt\], unless a word is wider.
 pub(super) fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -1,5 +1,5 @@
-//! Figures of several runs: curves laid over each other, maps side by side with one scale of colours. All are at the same
-//! phase of the cycle, and axes cover the whole cycle of every run.
+//! Figures of several runs: curves are overlaid, maps are side by side with one colour scale. All runs are at the same phase of the cycle,
+//! and the axes cover the whole cycle of every run.
 
 use super::motor::{all_teeth, crest_in_the_middle, one_tooth, pressure_span};
 use super::plate;
@@ -31,15 +31,15 @@ pub type MotorRun<'a> = DrawnRun<'a, Motor>;
 /// A plate's run.
 pub type PlateRun<'a> = DrawnRun<'a, Plate>;
 
-/// Whose numbers a caption is about, if there are several.
+/// The part of a caption that says whose numbers they are, if there are several runs.
 fn of_every<S>(runs: &[DrawnRun<'_, S>]) -> &'static str {
     if runs.len() > 1 { " of every run" } else { "" }
 }
 
-/// At most this many maps are moved.
+/// Greatest number of maps in an animation.
 const MOVING_MAPS: usize = 4;
 
-/// All figures of several motors, each with the name of its file; `performances`: of each run. No runs, no figures.
+/// All figures of several motors, each with its file name; `performances` are those of the runs. Empty without runs.
 pub fn motors(runs: &[MotorRun<'_>], performances: &[Performance]) -> Vec<(&'static str, Figure)> {
     let Some(first) = runs.first() else { return Vec::new() };
     let frame = crest_in_the_middle(first.recording);
@@ -58,19 +58,18 @@ fn nearest_frame(recording: &Recording, phase: f64) -> usize {
     (phase * recording.frames as f64).round() as usize % recording.frames.max(1)
 }
 
-/// How many frames moving pictures of these recordings have, at most `most`: if it can be, as many as divide every cycle
-/// evenly.
+/// Number of frames of an animation of these recordings, at most `most`: if possible, it divides every cycle evenly.
 pub fn common_frames<'a>(recordings: impl Iterator<Item = &'a Recording>, most: usize) -> usize {
     let mut steps: Vec<usize> = recordings.map(|recording| recording.frames).collect();
     steps.retain(|frames| *frames > 0);
     let Some(least) = steps.iter().copied().min() else { return 0 };
     let most = most.min(least).max(1);
     let even = (1..=most).rev().find(|count| steps.iter().all(|frames| frames.is_multiple_of(*count)));
-    // A few frames that fit are worse than many that nearly do.
+    // Few frames at exact time steps are worse than many at nearly exact ones.
     even.filter(|count| 2 * count >= most).unwrap_or(most)
 }
 
-/// The wave's x axis: in millimetres, or if the wavelengths differ in wavelengths. And what a metre is on it.
+/// The wave's x axis: in millimetres or, if the wavelengths differ, in wavelengths. Also the length of a metre on it.
 fn wave_axis(runs: &[MotorRun<'_>]) -> (Axis, impl Fn(&Recording) -> f64) {
     let first = runs.first().map_or(1.0, |run| run.recording.length);
     let alike = runs.iter().all(|run| (run.recording.length / first - 1.0).abs() < 1e-9);
@@ -155,7 +154,7 @@ pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
     stacked("loads over the cycle", [film, contact], caption)
 }
 
-/// Panels below each other, the first of which has the legend of all.
+/// Panels below each other; the legend of all is in the first.
 fn stacked<const N: usize>(title: &str, panels: [Panel; N], caption: String) -> Figure {
     let mut panels = panels.map(|panel| panel.legend(Legend::None));
     panels[0].legend = Legend::Above;
@@ -170,7 +169,7 @@ pub fn torques(runs: &[MotorRun<'_>], performances: &[Performance]) -> Figure {
     let panel = |title: &str, name: &str, unit: &str, value: fn(&OperatingPoint) -> f64| {
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
         let lines = runs.iter().zip(performances).map(|(run, found)| {
-            // What brakes the rotor is left out; at the end of what drives it the torque is zero but for rounding.
+            // Values where the rotor is braked are left out; at the end of the driven range the torque is zero except for rounding.
             let end = found.no_load_speed.map_or(f64::INFINITY, |speed| speed.value);
             let driven = found.curve.iter().filter(|point| point.speed <= end);
             let points = driven.map(|point| [speed(run, point.speed), value(point).max(0.0)]);
@@ -194,7 +193,7 @@ fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64
     (span, pressure_unit(span[1]))
 }
 
-/// The film's pressure under all teeth of every run, with one scale of colours.
+/// The film's pressure under all teeth of every run, with one colour scale.
 pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let (span, _) = common_pressure(runs.iter().map(|run| run.recording));
     let panels = runs.iter().map(|run| {
@@ -209,7 +208,7 @@ pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     Figure { panels: panels.collect(), width: Width::Page, caption, ..Figure::new(title) }
 }
 
-/// The film's pressure under the tooth in the middle of every run, with one scale of colours.
+/// The film's pressure under the middle tooth of every run, with one colour scale.
 pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let maps =
         runs.iter().map(|run| tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
@@ -227,12 +226,12 @@ pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     in_pairs("under the tooth in the middle", panels.collect(), caption)
 }
 
-/// Panels in rows of two over the width of a page.
+/// Panels in rows of two, as wide as a page.
 fn in_pairs(title: &str, panels: Vec<Panel>, caption: String) -> Figure {
     Figure { columns: panels.len().clamp(1, 2), panels, width: Width::Page, caption, ..Figure::new(title) }
 }
 
-/// Surfaces, pressures and maps at a phase of the cycle, for moving pictures.
+/// Surfaces, pressures and maps at a phase of the cycle, for animations.
 pub fn moving_motors(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let mut figure = waves(runs, phase);
     figure.panels[0].height = 30.0;
@@ -245,7 +244,7 @@ pub fn moving_motors(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     figure
 }
 
-/// All figures of several plates, each with the name of its file. No runs, no figures.
+/// All figures of several plates, each with its file name. Empty without runs.
 pub fn plates(runs: &[PlateRun<'_>]) -> Vec<(&'static str, Figure)> {
     if runs.is_empty() {
         return Vec::new();
@@ -253,7 +252,7 @@ pub fn plates(runs: &[PlateRun<'_>]) -> Vec<(&'static str, Figure)> {
     vec![("profiles", profiles(runs)), ("loads", plate_loads(runs)), ("loops", loops(runs)), ("maps", plate_maps(runs))]
 }
 
-/// The plates' x axis in lengths, or if all are round in radii, and what is one on it.
+/// The plates' x axis in lengths or, if all plates are round, in radii; also the length of the unit.
 fn plate_axis(runs: &[PlateRun<'_>]) -> (Axis, fn(&Plate) -> f64) {
     let round = runs.iter().filter(|run| run.scene.hole.is_some()).count();
     match round {
@@ -287,7 +286,7 @@ pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
     stacked("pressure along the plate", [wide, narrow], caption)
 }
 
-/// A load as mean gauge pressure: that of strips and of plates can be laid over each other.
+/// The load as a mean gauge pressure, so that strips and plates can be overlaid.
 fn mean_pressure(runs: &[PlateRun<'_>]) -> (String, f64) {
     let all = runs.iter().flat_map(|run| run.recording.film_load.iter().map(|load| (load / run.scene.area()).abs()));
     pressure_unit(span(all, 0.0)[1])
@@ -305,7 +304,7 @@ pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
     stacked("load over the cycle", [panel.layer(rest(0.0, "")).layers(lines)], caption)
 }
 
-/// Mean gauge pressure against the gap over its mean.
+/// Mean gauge pressure over the gap relative to its mean.
 pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
     let (unit, scale) = mean_pressure(runs);
     let lines = runs.iter().map(|run| {
@@ -322,7 +321,7 @@ pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
     stacked("pressure against gap", [panel.layer(rest(0.0, "")).layers(lines)], caption)
 }
 
-/// Pressure along every plate and over the cycle, with one scale of colours.
+/// Pressure along every plate and over the cycle, with one colour scale.
 pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let panels = runs.iter().map(|run| {
@@ -340,7 +339,7 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     in_pairs("pressure along the plate and over the cycle", panels.collect(), caption)
 }
 
-/// Profiles and loops at a phase of the cycle, for moving pictures.
+/// Profiles and loops at a phase of the cycle, for animations.
 pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
     let profile = profile_panel(runs, phase, "(a) pressure along the plate").legend(Legend::Above);
     let mut round = loops(runs).panels.remove(0).legend(Legend::None);

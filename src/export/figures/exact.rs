@@ -1,4 +1,4 @@
-//! A plate beside what is known exactly.
+//! A plate beside exact results.
 
 use super::plate::force;
 use super::series::{over_cycle, rest, span, with_margin};
@@ -10,12 +10,12 @@ use crate::recording::Recording;
 
 /// Points of a curve.
 const SAMPLES: usize = 121;
-/// A limit whose range is at most this many times that of the load is shown whole.
+/// A limit is shown whole if its range is at most this many times that of the load.
 const WHOLE: f64 = 2.0;
-/// Share of the cycle for which a limit has to be on the axes: less of it is a few lines up and down.
+/// Least share of the cycle in which a limit must be on the axes; otherwise it would be only a few steep lines.
 const LEAST_INSIDE: f64 = 0.3;
 
-/// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
+/// Spring and damping over the squeeze number, with the present solve as points, and the load over the cycle with its limits.
 pub fn exact(plate: &Plate, found: &ExactComparison, recording: &Recording) -> Figure {
     let caption = format!(
         "Spring and damping of the film, parts of the load in phase with the approach and with its speed over p_a · area · ε, for \
@@ -110,7 +110,7 @@ mod tests {
                 panic!("{:?}", panel.x.range)
             };
             assert!(*from <= 0.26 * present && 3.9 * present <= *to, "{from} {present} {to}");
-            // The incompressible film is far off where the gas is trapped, and the trapped gas where all of it leaves.
+            // The incompressible film is far from the solution where the gas is trapped, and the trapped gas where all of it leaves.
             let panel = cycle(plate, &found, &solution.recording);
             let lines =
                 panel.layers.iter().filter_map(|layer| if let Layer::Line(line) = layer { Some(line) } else { None });

@@ -34,7 +34,7 @@ use crate::problem::{Problem, Scenario};
 use crate::scene::show_text;
 use crate::solution::{Outcome, Solution};
 
-/// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept; `curves`: torque over
+/// All figures of a solve, each with its file name without extension. `history` is the rounds, if they were kept; `curves` is torque over
 /// speed, if it is known.
 pub fn of(
     problem: &Problem,
@@ -67,7 +67,7 @@ pub fn of(
         figures.push(("convergence", convergence(history)));
     }
     figures.extend(curves.map(|curves| ("torque", torque::torque(curves))));
-    // The scene's name above, and where the numbers come from below.
+    // The scene's name is above the figure, and the provenance below.
     for (_, figure) in &mut figures {
         figure.title = format!("{}: {}", show_text(&problem.name), figure.title);
         figure.provenance = Provenance::of(problem, solution);
@@ -75,9 +75,9 @@ pub fn of(
     figures
 }
 
-/// The change in every round of every grid, and what it had to fall below.
+/// The change in every round on every grid, and the tolerance.
 pub fn convergence(history: &[Progress]) -> Figure {
-    // A plate that floats was solved at many gaps.
+    // A plate that floats was solved at several gaps.
     let history = Progress::last_solve(history);
     let grids = Progress::grids(history).count();
     let mut tolerances: Vec<f64> = Vec::new();

@@ -13,10 +13,10 @@ use crate::problem::Motor;
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
 
-/// A groove narrower than this share of the pitch is none.
+/// A groove narrower than this share of the pitch counts as none.
 const NO_GROOVE: f64 = 1e-9;
 
-/// The frame at which the crest of the wave is on the tooth in the middle, as in the paper's figures.
+/// The frame at which the crest of the wave is on the middle tooth, as in the paper's figures.
 pub fn crest_in_the_middle(recording: &Recording) -> usize {
     let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
     // The crest is on tooth k when t/T + k/teeth is whole.
@@ -53,7 +53,7 @@ fn x_axis(recording: &Recording) -> Axis {
 pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let underside = |i: usize| recording.stator[i] + recording.film_thickness[i] - motor.spacing();
     let all = || 0..recording.stator.len().min(recording.film_thickness.len());
-    // A stator that does not move is drawn on the scale of the roughness.
+    // If the stator does not move, the scale is that of the roughness.
     let heights = all().flat_map(|i| [recording.stator[i], underside(i)]).chain([motor.spacing()]);
     let [low, high] = with_margin(span(heights, 0.0), 0.08);
     let (unit, scale) = prefixed(high.max(-low), "m");
@@ -70,7 +70,7 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
     let thick = Style::solid(Colour::CONTACT).width(2.4);
-    // Wherever in the cycle: the legend is the same at every instant.
+    // The legend includes contact if there is any during the cycle, so that it is the same at every instant.
     let touched = recording.contact.iter().any(|load| touches(*load));
     Panel::new("(a) surfaces", x_axis(recording), y)
         .layer(above)
@@ -81,7 +81,7 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
         .legend(Legend::Above)
 }
 
-/// An axis for line loads as pressures, and what a load is on it.
+/// An axis for line loads as pressures, and the factor from a line load to a value on it.
 fn pressure_axis<'a>(motor: &Motor, loads: impl Iterator<Item = &'a f64> + Clone) -> (Axis, f64) {
     let greatest = span(loads.clone().map(|load| (load / motor.contact_width).abs()), 0.0)[1];
     let (unit, scale) = pressure_unit(greatest);
@@ -90,7 +90,7 @@ fn pressure_axis<'a>(motor: &Motor, loads: impl Iterator<Item = &'a f64> + Clone
     (Axis::new("pressure", unit).fixed(low, high), scale)
 }
 
-/// A line load, `scale` times, as one curve for each tooth, with a pale area below.
+/// A line load, scaled by `scale`, as a curve with a pale area below for each tooth.
 fn area_and_curve(
     recording: &Recording,
     frame: usize,
@@ -157,7 +157,7 @@ pub(super) fn all_teeth(recording: &Recording, frame: usize, span: [f64; 2]) -> 
     let (unit, scale) = pressure_unit(span[1]);
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
-    // Of teeth without a groove between them, one ends where the next begins.
+    // Without grooves, each tooth ends where the next begins.
     let beyond = |x: &[f64], place: f64| x.last().is_none_or(|last| place > last + NO_GROOVE * recording.pitch * 1e3);
     for tooth in 0..recording.teeth {
         let plane = tooth_map(recording, tooth, frame);
@@ -184,7 +184,7 @@ pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
     span(recording.pressure.iter().copied(), recording.pressure.first().copied().unwrap_or(0.0))
 }
 
-/// Surfaces, pressures and the film's map at a frame, for moving pictures.
+/// Surfaces, pressures and the film's map at a frame, for animations.
 pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     let mut map = all_teeth(recording, frame, pressure_span(recording));
     map.title = "(c) air film from above".to_owned();
@@ -196,7 +196,7 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     Figure { panels, width: Width::Millimetres(130.0), share_x: true, ..Figure::default() }
 }
 
-/// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
+/// The film's pressure under the middle tooth, with contours. The unit comes with the factor from pascal.
 pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
     let grid = whole_plane(recording, &tooth_map(recording, recording.teeth / 2, frame), scale);
     let error = recording.max_pressure_error.get(frame).copied().unwrap_or(0.0);
@@ -204,7 +204,7 @@ pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit
     Panel::new("", Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm")).layer(map).height(38.0)
 }
 
-/// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
+/// The film's pressure under all teeth, and a larger map with contours of the middle tooth.
 pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     let span = pressure_span(recording);
     let mut all = all_teeth(recording, frame, span).height(14.0);

@@ -28,7 +28,8 @@ fn pressure_at_the_middle(plate: &Plate) -> &'static str {
     if plate.width.is_some() { "absolute pressure at y = 0" } else { "absolute pressure" }
 }
 
-/// Pressure along x at the y nearest to the middle, over both halves: a pascal is `scale`, and `place` is where a node \[m\] is drawn.
+/// Pressure along x at the y nearest to the middle, over both halves. `scale` converts from pascal, and `place` gives the position of a
+/// node \[m\].
 pub(super) fn along_the_middle(
     recording: &Recording,
     frame: usize,
@@ -48,7 +49,7 @@ fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
     (0..nx).filter_map(|i| recording.pressure.get((frame * nx + i) * ny + j).copied()).collect()
 }
 
-/// Pressure along the line in the middle and over the cycle: a pascal is `scale`, and `place` is where a node \[m\] is drawn.
+/// Pressure along the middle line and over the cycle. `scale` converts from pascal, and `place` gives the position of a node \[m\].
 pub(super) fn over_length_and_cycle(recording: &Recording, scale: f64, place: impl Fn(f64) -> f64) -> Grid {
     let x = mirrored(&recording.map_x, recording.half_length);
     let frames = recording.frames;
@@ -61,7 +62,7 @@ pub(super) fn over_length_and_cycle(recording: &Recording, scale: f64, place: im
     }
 }
 
-/// `N`, or of a strip `N/m`.
+/// `N`; for a strip `N/m`.
 pub(super) fn force(plate: &Plate) -> &'static str {
     if plate.is_strip() { "N/m" } else { "N" }
 }
@@ -83,7 +84,7 @@ pub fn loads(plate: &Plate, recording: &Recording) -> Figure {
         .caption("Load of the film above ambient, and the gap, over one cycle.")
 }
 
-/// Mean gauge pressure against the gap, once round the cycle.
+/// Mean gauge pressure over the gap for one cycle.
 pub fn pressure_gap_loop(plate: &Plate, recording: &Recording) -> Figure {
     Figure::new("pressure against gap").panel(loop_panel(plate, recording, 0, "t = 0")).caption(
         "Mean gauge pressure of the film against the gap, once round the cycle. The area of the loop is what \
@@ -107,7 +108,7 @@ fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) ->
         .layer(now)
 }
 
-/// Gap, pressure profile and loop at a frame, for moving pictures.
+/// Gap, pressure profile and loop at a frame, for animations.
 pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     let half = 0.5 * plate.length * 1e3;
     let highest = plate.mean_gap + plate.amplitude;
@@ -149,7 +150,7 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
     Figure { panels, columns: 2, width: Width::Millimetres(150.0), ..Figure::default() }
 }
 
-/// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
+/// Absolute pressure over the plate at the instant of its greatest value; for a strip, along it and over the cycle.
 pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     let (unit, scale) = pressure_unit(span(recording.pressure.iter().copied(), 0.0)[1]);
     let ny = recording.map_y.len();

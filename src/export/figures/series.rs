@@ -1,9 +1,9 @@
-//! Series, maps and nodes of a recording as what figures draw.
+//! Series, maps and nodes of a recording in the form that figures draw.
 
 use crate::export::figure::{Grid, Map, Mark, Range, Style, extent};
 use crate::recording::Recording;
 
-/// Least and greatest of the finite values and of another one.
+/// Least and greatest of the finite values and `including`.
 pub(super) fn span(values: impl Iterator<Item = f64>, including: f64) -> [f64; 2] {
     extent(values.filter(|value| value.is_finite()).chain([including]))
 }
@@ -31,7 +31,7 @@ pub(super) fn over_cycle<'a>(series: &'a [f64], scale: f64) -> impl Iterator<Ite
     (0..if count == 0 { 0 } else { count + 1 }).map(at)
 }
 
-/// A value at every node of every tooth at a frame, with gaps at the grooves; a metre is `metre` on the axis.
+/// A value at every node of every tooth at a frame, with gaps at the grooves. `metre` is the length of a metre on the axis.
 pub(super) fn along(recording: &Recording, frame: usize, metre: f64, value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     for tooth in 0..recording.teeth {
@@ -43,7 +43,7 @@ pub(super) fn along(recording: &Recording, frame: usize, metre: f64, value: impl
     points
 }
 
-/// As `along`, for a load: with a gap rather than a line at zero where a tooth does not touch.
+/// As `along`, for a load: where a tooth does not touch, there is a gap rather than a line at zero.
 pub(super) fn along_where_not_zero(
     recording: &Recording,
     frame: usize,
@@ -56,8 +56,8 @@ pub(super) fn along_where_not_zero(
     points
 }
 
-/// The pressure map of tooth `tooth` at a frame, `[ix][iy]` as stored: with lag symmetry that of the first tooth, when it
-/// was where this one is now, between frames if need be.
+/// The pressure map of tooth `tooth` at a frame, `[ix][iy]` as stored. If only the first tooth is stored, this is its map at the time when
+/// it was in the same state, interpolated between frames if necessary.
 pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Vec<f64> {
     let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
     let size = recording.map_x.len() * recording.map_y.len();
@@ -70,7 +70,7 @@ pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Ve
     }
 }
 
-/// A plane of pressures, stored `[ix][iy]`, over both halves \[mm\]; a pascal is `scale`.
+/// A plane of pressures, stored `[ix][iy]`, extended to both halves \[mm\]; `scale` converts from pascal.
 pub(super) fn whole_plane(recording: &Recording, plane: &[f64], scale: f64) -> Grid {
     let x = mirrored(&recording.map_x, recording.half_length);
     let y = mirrored(&recording.map_y, recording.half_width);
@@ -86,7 +86,7 @@ pub(super) fn pressure_map(grid: Grid, unit: &str, range: Range) -> Map {
     Map { label: "absolute pressure".to_owned(), unit: unit.to_owned(), grid, range, ..Map::default() }
 }
 
-/// Nodes over the whole width (or length) from those of one half, and for each the stored node it mirrors.
+/// Nodes over the whole width (or length) from those of one half, each with the index of the stored node.
 pub(in crate::export) fn mirrored(nodes: &[f64], half: bool) -> Vec<(f64, usize)> {
     let all = nodes.iter().copied().enumerate();
     let stored = all.clone().map(|(i, node)| (node, i));

@@ -5,7 +5,7 @@ use crate::export::figure::{Axis, Colour, Figure, Grid, Line, Map, Mark, Panel, 
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::Texture;
 
-/// Most points of a map that are drawn along a side.
+/// Greatest number of points of a map along a side.
 const DRAWN: usize = 200;
 
 /// The heights of a levelled face, and its autocorrelation.

@@ -5,15 +5,15 @@ use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
 use crate::solution::{OperatingPoint, Performance};
 
-/// Curves that stay below this share of what their axis would show are shown alone.
+/// If curves stay below this share of their axis, the axis is shortened to them.
 const LOW: f64 = 0.4;
 
-/// The end of an axis above what it shows.
+/// The end of an axis, a little above its highest value.
 fn top(highest: f64) -> f64 {
     if highest > 0.0 { 1.08 * highest } else { 1.0 }
 }
 
-/// The end of an axis that could go up to `whole`, but for curves that go up to `highest` alone.
+/// The end of an axis: `whole` or, if the curves reach only `highest`, a lower one.
 fn whole_or(whole: f64, highest: f64) -> f64 {
     if highest > 0.0 && highest < LOW * whole { top(highest) } else { whole }
 }
@@ -29,7 +29,7 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     let present = curves.rpm(wet.present.speed);
     let driven = [wet, dry].into_iter().filter_map(|found| found.no_load_speed);
     let driven = driven.map(|speed| curves.rpm(speed.value)).fold(0.0, f64::max);
-    // What brakes the rotor is below the axes.
+    // Where the rotor is braked, values are below the axes.
     let panel = |title: &str, y: Axis, highest: f64| {
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, whole_or(fastest, driven.max(present)));
         Panel::new(title, x, y.fixed(0.0, highest)).legend(Legend::Above).layer(rest(0.0, ""))

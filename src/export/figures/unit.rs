@@ -1,6 +1,6 @@
 //! A unit with the prefix that makes numbers easy to read.
 
-/// The prefixed unit for values up to `greatest`, and what a value is multiplied with.
+/// The unit with a prefix for values up to `greatest`, and the factor to it.
 pub(super) fn prefixed(greatest: f64, unit: &str) -> (String, f64) {
     let size = greatest.abs();
     let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
@@ -9,7 +9,7 @@ pub(super) fn prefixed(greatest: f64, unit: &str) -> (String, f64) {
     (format!("{prefix}{unit}"), 1.0 / factor)
 }
 
-/// The unit of pressures up to `greatest` \[Pa\], and what a pascal is in it: kilopascal, as in the window, unless they are far smaller.
+/// The unit for pressures up to `greatest` \[Pa\], and the factor from pascal: kilopascal, as in the window, unless they are much smaller.
 pub(super) fn pressure_unit(greatest: f64) -> (String, f64) {
     if greatest >= 1e3 { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
 }

@@ -1,4 +1,4 @@
-//! The paper's figures, computed anew.
+//! The paper's figures, computed again.
 
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction};
 use crate::estimate::Estimate;
@@ -11,7 +11,7 @@ use crate::problem::{RotorCompliance, Scenario};
 use crate::recording::Recording;
 use crate::solution::Solution;
 
-/// The number of a figure, and the figure; those that could not be solved are left out.
+/// The figures with their numbers; those that could not be solved are left out.
 pub fn figures(all: &Reproduction) -> Vec<(u32, Figure)> {
     let mut figures = Vec::new();
     if let Some(figure) = all.row("fundamental").and_then(|row| green(&row.both)) {
@@ -65,7 +65,7 @@ fn recording(solution: &Solution) -> Option<&Recording> {
     Some(&solution.recording).filter(|recording| recording.frames > 0)
 }
 
-/// Surfaces, contact pressure and film pressure at the crest in the middle, as the paper's figures, by both methods.
+/// Surfaces, contact pressure and film pressure with the crest in the middle, as in the paper's figures, by both methods.
 fn fields(both: &Both, title: &str) -> Option<Figure> {
     let Scenario::Motor(motor) = &both.problem.scenario else { return None };
     let solution = both.ours.as_ref().ok()?;

@@ -26,7 +26,7 @@ const LEFT_OUT: [&str; 3] = [
     "Fig. 5 shows surfaces measured with an optical profiler after hours of driving. They cannot be computed.",
 ];
 
-/// The report: one HTML file that needs nothing else. `animation`: a cycle of the fundamental case as GIF, if there is one.
+/// The report: one self-contained HTML file. `animation` is a cycle of the fundamental case as GIF, if there is one.
 pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) -> String {
     let mut page = Page::new(KICKER, TITLE, LEAD);
     let fundamental = all.row("fundamental");
@@ -116,7 +116,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     page.finish(&format!("squeezefilm {} · {}", env!("CARGO_PKG_VERSION"), effort(&all.settings, None)))
 }
 
-/// A number and its error on one line.
+/// Text with a number and its error that is kept on one line.
 fn glued(words: &str) -> String {
     words.replace(" ± ", "\u{a0}±\u{a0}")
 }
@@ -130,7 +130,7 @@ const SECTIONS: [(&str, &[u32]); 5] = [
     ("E. Effect of teeth geometry", &[11, 12]),
 ];
 
-/// `Share α: published 0.238, paper's algorithm 0.238 ± 0.011, converged 0.24586 ± 0.00023. `; of other figures nothing.
+/// `Share α: published 0.238, paper's algorithm 0.238 ± 0.011, converged 0.24586 ± 0.00023. `; empty for other figures.
 fn shares(all: &Reproduction, number: u32) -> String {
     let found = FIELDS.iter().find(|(figure, _, _)| *figure == number).and_then(|(_, preset, _)| all.row(preset));
     let Some(row) = found else { return String::new() };

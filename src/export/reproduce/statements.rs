@@ -1,14 +1,14 @@
-//! Statements of the paper's text, beside the numbers computed for them.
+//! Statements of the paper's text, beside the computed numbers.
 
 use crate::analysis::reproduce::{Both, Reproduction};
 use crate::digits::significant;
 use crate::solution::MotorResult;
 use serde::Serialize;
 
-/// One statement of the paper's text, with the numbers it stands on.
+/// One statement of the paper's text, with the numbers that support it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Statement {
-    /// The statement, in the paper's words or nearly.
+    /// The statement, in the paper's words or close to them.
     pub says: &'static str,
     /// The paper's own numbers for it.
     pub published: String,

@@ -1,4 +1,4 @@
-//! Numbers and words as the window writes them.
+//! Numbers and words as the window shows them.
 
 use crate::digits::{raised, rounded, signed};
 use crate::estimate::Estimate;
@@ -15,7 +15,8 @@ pub fn number(value: f64) -> String {
     signed(format!("{value:.decimals$}"))
 }
 
-/// The ends of a range, in as many digits as tell them apart: 99.96 and 100.02 are both 100 to three. The same twice, if they are to four.
+/// The ends of a range, with enough digits to tell them apart: with three digits, 99.96 and 100.02 are both 100. If four digits are not
+/// enough, both texts are equal.
 pub fn ends(range: [f64; 2]) -> [String; 2] {
     let written = range.map(number);
     let span = range[1] - range[0];
@@ -26,7 +27,7 @@ pub fn ends(range: [f64; 2]) -> [String; 2] {
     range.map(|value| signed(format!("{value:.decimals$}")))
 }
 
-/// Length of a range over its greater end below which three digits of its ends say too little of it.
+/// Ratio of a range's length to its greater end below which three digits are not enough for its ends.
 const NARROW: f64 = 0.02;
 
 /// "×9000", to two digits.
@@ -39,7 +40,7 @@ pub fn times(factor: f64) -> String {
     format!("×{rounded:.decimals$}")
 }
 
-/// A value with its error, an exponent raised. What is far below its error is 0.
+/// A value with its error, with the exponent as a superscript. A value far below its error is shown as 0.
 pub fn uncertain(found: Estimate) -> String {
     let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
     raised(&Estimate { value, ..found }.to_string())
@@ -64,7 +65,7 @@ pub fn thousands(value: f64) -> String {
     groups.join("\u{202f}")
 }
 
-/// A time that is left, in whole seconds or minutes.
+/// The remaining time, in whole seconds or minutes.
 pub fn rough(seconds: f64) -> String {
     if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
 }
@@ -79,7 +80,7 @@ pub fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
     }
 }
 
-/// A value to the digit that its error leaves known, at most three decimals.
+/// A value rounded to the last digit that its error leaves known, with at most three decimals.
 pub fn with_known_digits(value: f64, error: f64) -> String {
     let decimals = if error > 0.0 { (-error.log10().floor()).clamp(0.0, 3.0) } else { 3.0 };
     let least = 10f64.powf(-decimals);

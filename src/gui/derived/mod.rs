@@ -1,4 +1,4 @@
-//! Data for drawing, derived from runs and scenes: scales, curves, samples, texts. No egui in here, and no state.
+//! Data for drawing, derived from runs and scenes: scales, curves, samples, texts. This module does not use egui and has no state.
 
 pub mod format;
 pub mod ring;

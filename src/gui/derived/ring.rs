@@ -1,4 +1,4 @@
-//! The ring as a whole: the unrolled wave rolled up, as faces seen from one side.
+//! The whole ring: the waves of the unrolled view, rolled up and drawn as faces seen from one side.
 //!
 //! Lengths are in contact radii. The angle θ of a place is 2π x/(waves · λ), x from the middle of the first wave; heights are exaggerated as in
 //! the unrolled view, and the rotor is lifted off. Seen from the angle `azimuth` round the axis and `elevation` above the ring's plane, a place at (r, θ, z) is
@@ -9,8 +9,8 @@
 //! near   z sin elevation + r cos(θ − azimuth) cos elevation
 //! ```
 //!
-//! Faces that are turned away are left out, and the others are in the order in which they are painted: far ones first. Between
-//! stator and rotor lies a plane, so that all of one comes before all of the other.
+//! Faces that are turned away are left out. The others are painted from back to front. A plane separates stator and rotor, so all faces of
+//! one come before all faces of the other.
 
 use crate::problem::Motor;
 use crate::recording::Recording;
@@ -23,7 +23,7 @@ const STRIPS: usize = 4;
 const MOST_TEETH: usize = 280;
 /// Stations round the ring if there are more.
 const STATIONS: usize = 740;
-/// Radii between which the ring is drawn, in contact radii: its own width is not known, and that of the contact is too small to be seen.
+/// Radii between which the ring is drawn, in contact radii: the width of the ring is not known, and the contact is too narrow to be seen.
 const INNER: f64 = 0.89;
 const OUTER: f64 = 1.11;
 /// The rotor is lifted off by this many contact radii.
@@ -88,7 +88,7 @@ pub struct Face {
     near: f64,
 }
 
-/// A place along one wavelength where the ring is cut across.
+/// A cross-section of the ring at one place along a wavelength.
 #[derive(Clone, Copy, Debug)]
 struct Station {
     /// x \[m\].
@@ -109,7 +109,7 @@ pub struct Ring<'a> {
     pub recording: &'a Recording,
     /// The instant, in frames.
     pub place: f64,
-    /// Whole cycles before this one.
+    /// Whole cycles completed before this one.
     pub cycles: f64,
     /// The lines at that instant.
     pub lines: &'a Lines,
@@ -126,12 +126,12 @@ pub struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    /// Greatest distance of anything from the middle, in contact radii: how much room is needed, from wherever it is seen.
+    /// Greatest distance of any point from the middle, in contact radii: the space needed from any direction of view.
     pub fn reach(&self) -> f64 {
         OUTER.hypot(0.5 * self.tall())
     }
 
-    /// Contact radii for a metre of height.
+    /// Contact radii per metre of height.
     fn scale(&self) -> f64 {
         self.exaggeration / self.motor.contact_radius
     }
@@ -175,7 +175,7 @@ impl Ring<'_> {
             }
             stations.push(foot(middle + reach));
         }
-        // Half a groove at the end and half of one before the start make one: the wave repeats.
+        // Half a groove at the end and half a groove at the start make one groove, because the wave repeats.
         if let Some(first) = stations.first().copied() {
             stations.push(Station { x: first.x + recording.length, ..first });
         }
@@ -198,7 +198,7 @@ impl Ring<'_> {
         places.into_iter().filter_map(station).collect()
     }
 
-    /// The top of `tooth` at `xi` from its middle.
+    /// The top of `tooth` at the distance `xi` from its middle.
     fn top(&self, tooth: usize, xi: f64) -> Option<Station> {
         let recording = self.recording;
         let at = sample::locate(&recording.x, xi)?;
@@ -287,7 +287,7 @@ impl<'a> Slab<'a> {
         let (side, front) = (angle - self.seen.azimuth).sin_cos();
         let (sin, cos) = self.seen.elevation.sin_cos();
         let seen = |(r, z): (f64, f64)| [r * side, z * cos - r * front * sin, z * sin + r * front * cos];
-        // Light falls from above, over the left shoulder; a wall has what falls on it.
+        // Light falls from above, over the left shoulder; the brightness of a wall depends on its angle to the light.
         let light = 0.62 + 0.22 * (0.825 * front - 0.565 * side);
         Cut { corners: [(INNER, low), (OUTER, low), (INNER, high), (OUTER, high)].map(seen), light }
     }
@@ -404,7 +404,7 @@ mod tests {
     #[test]
     fn heights_have_the_factor_of_the_unrolled_view() {
         with_ring(7, 9, |ring| {
-            // From the side nothing but heights is seen, and the rotor is lifted off what is below it.
+            // Seen from the side, only heights show, and the rotor is lifted off the stator.
             let faces = ring.faces(from(0.0, 1e-6));
             let ends = |part: fn(&Part) -> bool| {
                 let up = faces.iter().filter(|face| part(&face.part)).flat_map(|face| face.corners.map(|at| at[1]));
@@ -442,7 +442,7 @@ mod tests {
         });
     }
 
-    /// Sixty times a second without a graphics card: so much can be painted, and no more.
+    /// The ring is drawn sixty times a second without a graphics card, so the number of faces is limited.
     #[test]
     fn work_is_bounded_for_any_number_of_teeth() {
         for (waves, teeth, most) in

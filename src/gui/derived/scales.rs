@@ -8,7 +8,7 @@ use crate::recording::Recording;
 #[derive(Debug, Default)]
 pub struct Curve {
     values: Vec<f64>,
-    /// Whether it is not periodic: the last value then holds to the end of the cycle.
+    /// Whether the curve is not periodic; the last value then holds to the end of the cycle.
     once: bool,
 }
 
@@ -18,7 +18,7 @@ impl Curve {
         Self { values: values.collect(), once: recording.transient }
     }
 
-    /// The value at a phase; any number of cycles away if the cycle repeats.
+    /// The value at a phase; for a periodic curve the phase may be any number of cycles away.
     pub fn at(&self, phase: f64) -> f64 {
         let count = self.values.len();
         if count == 0 {
@@ -66,7 +66,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// The ranges that hold both cycles.
+    /// The ranges that cover both cycles.
     pub fn and(self, other: Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
         Self {
@@ -125,7 +125,7 @@ impl Scales {
         }
     }
 
-    /// Curves of a tooth, and by how much of a cycle they are ahead. `None` without a recording.
+    /// The curves of a tooth, and their phase lead in cycles. `None` without a recording.
     pub fn tooth(&self, tooth: usize) -> Option<(&ToothCurves, f64)> {
         if self.lag > 0.0 {
             return Some((self.teeth.first()?, self.lag * tooth as f64));
@@ -139,7 +139,7 @@ impl Scales {
 pub struct RunCurves {
     /// Ranges, and the curves of each tooth.
     pub scales: Scales,
-    /// Film load \[N\]; of a plate over its area \[Pa\].
+    /// Film load \[N\]; for a plate, film load over its area \[Pa\].
     pub film: Curve,
     /// Contact load \[N\].
     pub contact: Curve,
@@ -173,7 +173,7 @@ pub fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
-/// The range with this share of its length more at either end.
+/// The range, extended at both ends by this share of its length.
 pub fn with_margin([low, high]: [f64; 2], share: f64) -> [f64; 2] {
     let margin = share * (high - low);
     [low - margin, high + margin]

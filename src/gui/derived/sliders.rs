@@ -7,10 +7,11 @@ use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene};
 const LOG_RATIO: f64 = 50.0;
 /// Significant digits that a slider sets.
 const SLIDER_DIGITS: usize = 4;
-/// Distance that a slider keeps from an end that is itself not allowed, relative.
+/// Relative distance of a slider from an end of the range that is itself not allowed.
 const OPEN_END: f64 = 1e-3;
 
-/// The range of a slider: the part worth one, within what the other keys leave. And whether it is logarithmic.
+/// The range of a slider: the useful part of the parameter's range, within the limits that the other keys leave. Also whether it is
+/// logarithmic.
 pub fn slider_range(scene: &Scene, parameter: &Parameter) -> (Range, bool) {
     let allowed = scene.range(parameter.key).unwrap_or(Range::new(0.0, 1.0));
     let (wanted, logarithmic) = match parameter.kind {
@@ -52,7 +53,7 @@ mod tests {
                     let value =
                         if matches!(parameter.kind, ParameterKind::Whole { .. }) { value.round() } else { value };
                     changed.set_value(parameter.key, Value::Number(value)).unwrap();
-                    // The keys that narrow these two are free to leave too little for them, which is then refused.
+                    // The keys that limit these two may leave too small a range for them, which is then refused.
                     if ["stator.tooth_width_mm", "plate.amplitude_um"].contains(&parameter.key) {
                         changed.check().unwrap();
                     }

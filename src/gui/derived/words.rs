@@ -6,7 +6,7 @@ use crate::scene::{PARAMETERS, Parameter, Scene, Value};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Plain words for the names of choices that say too little themselves, by key and name.
+/// Plain words for the names of choices that are not clear by themselves, by key and name.
 const CHOICES: &[(&str, &str, &str)] = &[
     ("rotor.model", "beam", "Beam on a foundation"),
     ("rotor.model", "section", "Beam of a rectangular section"),
@@ -29,7 +29,7 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("surface.model", "minimum-spacing", "A hard stop"),
     ("surface.contact_law", "greenwood-williamson", "Greenwood and Williamson"),
     ("surface.contact_law", "greenwood-tripp", "Greenwood and Tripp"),
-    ("surface.flow_factors", "none", "As between smooth ones"),
+    ("surface.flow_factors", "none", "As for smooth faces"),
     ("surface.flow_factors", "patir-cheng", "Patir and Cheng"),
     ("numerics.wedge", "on", "Solved"),
     ("numerics.wedge", "off", "Left out"),
@@ -37,7 +37,7 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("numerics.time", "trapped", "None, gas trapped"),
 ];
 
-/// Name in a scene of the choice that leaves a parameter to the plan.
+/// Name in a scene of the choice that lets the plan decide.
 pub const AUTO_NAME: &str = "auto";
 
 /// The name of a parameter: its own, or its key in words with a capital letter.
@@ -47,7 +47,7 @@ pub fn label(parameter: &Parameter) -> &'static str {
     parameter.name.or_else(|| WORDS.get(parameter.key).map(String::as_str)).unwrap_or(parameter.key)
 }
 
-/// The name of a parameter beside those of `scene`: a ring has two radii.
+/// The name of a parameter in the context of `scene`: a ring has two radii.
 pub fn label_in(scene: &Scene, parameter: &Parameter) -> &'static str {
     let ring = || scene.get("plate.shape") == Some(Value::Text("ring".to_owned()));
     if parameter.key == "plate.radius_mm" && ring() { "Outer radius" } else { label(parameter) }
@@ -97,7 +97,7 @@ pub fn shown(key: &str, value: &Value) -> String {
     }
 }
 
-/// As [`choice`]; if it is left to the plan, also the choice of the `plan`: "Auto: left out".
+/// As [`choice`]; for an automatic choice, also what the `plan` has decided: "Auto: left out".
 pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     let found = plan.iter().find(|decision| decision.key() == Some(key));
     match found {

@@ -29,7 +29,7 @@ impl Running {
         let Progress { level, levels, iteration, residual, tolerance, .. } = self.round;
         let fidelity = self.fidelity;
         if level + 1 == levels && residual <= tolerance {
-            // Of a rotor that floats, or nearly, this takes longer than all grids.
+            // For a rotor that floats, or nearly floats, this takes longer than the solves on all grids.
             return format!("solving {fidelity}, looking for other states");
         }
         format!("solving {fidelity}, grid {} of {levels}, round {iteration}", level + 1)

@@ -7,7 +7,7 @@ use crate::job::work::Work;
 #[derive(Debug)]
 pub struct Background<M, R> {
     task: Option<BackgroundTask<M, R>>,
-    /// Whether the last one was told to end.
+    /// Whether the last task was cancelled.
     pub cancelled: bool,
     /// Why the last one failed, if it did.
     pub failure: Option<String>,
@@ -53,7 +53,7 @@ impl<M: Send + 'static, R: Send + 'static> Background<M, R> {
         news
     }
 
-    /// As [`Self::news`], but keeps an error in `failure`: the messages, and the result if there is one.
+    /// As [`Self::news`], but an error is kept in `failure`. Returns the messages, and the result if there is one.
     pub(super) fn found(&mut self) -> (Vec<M>, Option<R>) {
         let News { messages, end } = self.news();
         let found = end.and_then(|end| {

@@ -17,7 +17,7 @@ pub enum Export {
     Animation,
     /// A report of the run on screen.
     Report,
-    /// All that `compare --out` writes of the pinned runs.
+    /// All files of the pinned runs that `compare --out` writes.
     Comparison,
     /// A report of the pinned runs.
     ComparisonReport,
@@ -25,17 +25,17 @@ pub enum Export {
     SweepTable,
     /// The sweep as a figure.
     SweepFigure,
-    /// All that `sweep --out` writes.
+    /// All files that `sweep --out` writes.
     Sweep,
     /// The measured trade-off as a table.
     TradeoffTable,
     /// The measured trade-off as a figure.
     TradeoffFigure,
-    /// All that `sensitivity --out` writes.
+    /// All files that `sensitivity --out` writes.
     Sensitivity,
-    /// All that `fit --out` writes.
+    /// All files that `fit --out` writes.
     Fit,
-    /// All that `startup --out` writes.
+    /// All files that `startup --out` writes.
     Startup,
     /// The answers given in lessons.
     Answers,
@@ -75,11 +75,11 @@ impl Export {
             Self::Animation => ("Animation…", "cycle.gif", Some(("Animation", &["gif", "mp4", "png", "apng"])),
                 "One cycle as moving pictures: a GIF, an animated PNG with all colours, or an MP4 video"),
             Self::Report => ("Report as HTML…", "report.html", REPORT,
-                "One HTML file with the numbers and figures of this run; it opens without a network"),
+                "One HTML file with the numbers and figures of this run, which can be opened offline"),
             Self::Comparison => ("Comparison, into a folder…", "comparison", None,
-                "The report, tables, overlaid figures and one cycle in phase of the pinned runs"),
+                "The report, tables, overlaid figures and the animated cycle of the pinned runs"),
             Self::ComparisonReport => ("Comparison as HTML…", "report.html", REPORT,
-                "One HTML file with what differs between the pinned runs; it opens without a network"),
+                "One HTML file with the differences between the pinned runs, which can be opened offline"),
             Self::SweepTable => ("Sweep as table…", "sweep.csv", TABLE, "A row for each point, with every result and its error"),
             Self::SweepFigure => ("Sweep as figure…", "sweep.svg", FIGURE, "The sweep as it is drawn here, with the published points"),
             Self::Sweep => ("Sweep, into a folder…", "sweep", None, "The scene, the table as CSV and JSON, and the figure of the sweep"),
@@ -89,11 +89,11 @@ impl Export {
             Self::Sensitivity => ("Sensitivities, into a folder…", "sensitivity", None,
                 "Derivatives and uncertainties as CSV and JSON, charts of each result, the random scenes, the scene"),
             Self::Fit => ("Fit, into a folder…", "fit", None,
-                "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"),
+                "The values found as a preset, measured and computed values as CSV and JSON, and figures; for an optimum, the lines through it"),
             Self::Startup => ("Start-up, into a folder…", "startup", None,
                 "Every cycle of the start-up as CSV and JSON, a figure, and the scene"),
             Self::Answers => ("Save my answers…", "answers.csv", Some(("Record", &["csv", "jsonl"])),
-                "What you answered and did in lessons, to hand in: nothing leaves this computer by itself"),
+                "Your answers and tasks in the lessons, to hand in; the program itself sends nothing"),
         };
         Described { entry, file_name, filter, about }
     }
@@ -104,11 +104,11 @@ impl Export {
     }
 }
 
-/// `path` of a `kind` of file with one of `extensions`, the first if it has none.
+/// Completes `path`, a file of this `kind`: if it has no extension, it gets the first of `extensions`.
 ///
 /// # Errors
-/// If its folder is not there, its extension is that of something else, or there is a file already under the completed name, which
-/// nobody has agreed to replace.
+/// If the folder does not exist, if the extension belongs to another kind of file, or if a file with the completed name exists, which the
+/// user has not agreed to replace.
 pub fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         return Err(format!("{}: there is no folder {}", path.display(), folder.display()));
@@ -183,12 +183,12 @@ impl Purpose {
         }
     }
 
-    /// Whether something is written, and not read.
+    /// Whether a file is written rather than read.
     pub fn writes(&self) -> bool {
         matches!(self, Self::Save(_) | Self::Picture(_) | Self::Export(_))
     }
 
-    /// Whether both are dialogs for the same kind of thing: there is never more than one of them.
+    /// Whether both dialogs ask for the same kind of thing; at most one of these is open at a time.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Export(one), Self::Export(other)) => one == other,
@@ -204,7 +204,7 @@ pub enum Answer {
     Path(PathBuf),
     /// The dialog was closed.
     Cancelled,
-    /// There was no dialog: the path has to be typed.
+    /// No dialog could be shown: the path has to be typed.
     NoDialog,
 }
 

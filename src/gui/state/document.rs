@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Number of edits that can be undone.
 const HISTORY: usize = 500;
-/// Edits are solved up to this fidelity, unless another is asked for.
+/// Edits are solved up to this fidelity, unless the user chooses another.
 const TARGET: Fidelity = Fidelity::Fine;
 
 /// The scene to open next, or the end of the window; unsaved changes to the present scene would be lost.
@@ -14,18 +14,18 @@ const TARGET: Fidelity = Fidelity::Fine;
 pub enum Next {
     /// A built-in preset.
     Preset(&'static str),
-    /// A scene that is there already: that of a file or a link, a motor made of answers, or the one that the window is to open.
+    /// A scene that is already loaded: from a file or a link, a motor made from answers, or the scene that the window is to open.
     Given(Box<Document>),
     /// The window closes.
     Quit,
 }
 
-/// Whether both scenes are solved alike: the same motor or plate, with the same numerics.
+/// Whether both scenes give the same solve: the same motor or plate, with the same numerics.
 pub fn solved_alike(one: &Scene, other: &Scene) -> bool {
     one.same_model(other) && one.numerics() == other.numerics()
 }
 
-/// `path` in full, so that it means the same in another folder.
+/// The absolute form of `path`, which means the same in any working folder.
 pub fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
@@ -37,13 +37,13 @@ pub struct Document {
     target: Fidelity,
     saved: Scene,
     path: Option<PathBuf>,
-    /// Whether neither a file nor a preset has it: then it counts as unsaved as it is.
+    /// Whether the scene is in no file and no preset: then it counts as unsaved even without edits.
     new: bool,
     undo: Vec<(Scene, Fidelity)>,
     redo: Vec<(Scene, Fidelity)>,
-    /// The parameter that a pointer is dragging: its edits are one.
+    /// The parameter that the pointer is dragging; its edits count as one.
     dragging: Option<&'static str>,
-    /// Whether a lesson has set it up to try things on: it is never saved, and nothing is lost with it.
+    /// Whether a lesson has set the scene up for the student to experiment with: it is never saved, and nothing is lost with it.
     pub practice: bool,
 }
 
@@ -62,7 +62,7 @@ impl Document {
         Self { saved, scene, target: TARGET, path, new: false, undo, redo, dragging: None, practice: false }
     }
 
-    /// A scene to try things on: it never counts as unsaved.
+    /// A scene to experiment with: it never counts as unsaved.
     pub fn practice(scene: Scene) -> Self {
         Self { practice: true, ..Self::opened(scene, None) }
     }
@@ -72,17 +72,17 @@ impl Document {
         Self { target, ..self }
     }
 
-    /// A scene that outlived its window: unsaved if it differs from what its file or preset says, or is `new` and has neither.
+    /// A scene of the last window. It is unsaved if it differs from its file or preset, or if it is `new` and has neither.
     pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>, new: bool) -> Self {
         Self { saved, new, ..Self::opened(scene, path) }
     }
 
-    /// A scene that nothing has yet, so that it counts as unsaved.
+    /// A scene that is in no file and no preset, so that it counts as unsaved.
     pub fn made(scene: Scene) -> Self {
         Self { new: true, ..Self::opened(scene, None) }
     }
 
-    /// What is left of it without unsaved changes; a motor with defaults if nothing has it.
+    /// The document without its unsaved changes; a motor with defaults if it is in no file and no preset.
     pub fn discarded(&self) -> Self {
         let saved = if self.new { Scene::motor() } else { self.saved.clone() };
         Self::opened(saved, self.path.clone()).with_target(self.target)
@@ -101,7 +101,7 @@ impl Document {
         &self.scene
     }
 
-    /// The last fidelity that an edit is solved at: part of the history, not of the file.
+    /// The highest fidelity that edits are solved at. It is part of the history, not of the file.
     pub fn target(&self) -> Fidelity {
         self.target
     }
@@ -116,13 +116,13 @@ impl Document {
         self.path.as_deref()
     }
 
-    /// Whether its file holds something else now than what was read from it, or saved to it, last.
+    /// Whether the content of the file has changed since it was last read or saved here.
     pub fn is_changed_elsewhere(&self) -> bool {
         let other = |path: &Path| Scene::load(path).map_or(true, |scene| presets::disclaimed(scene) != self.saved);
         self.path().filter(|path| path.exists()).is_some_and(other)
     }
 
-    /// Whether neither a file nor a preset has it.
+    /// Whether the scene is in no file and no preset.
     pub fn is_new(&self) -> bool {
         self.new
     }
@@ -138,7 +138,7 @@ impl Document {
         format!("{}{mark}", show_text(&self.scene.title(&self.saved)))
     }
 
-    /// The scene with the title and the description that tell what was changed since it was saved.
+    /// The scene with a title and a description that name the changes since it was saved.
     pub fn titled(&self) -> Scene {
         let mut scene = self.scene.clone();
         scene.retitle(&self.saved);
@@ -159,7 +159,7 @@ impl Document {
         }
     }
 
-    /// Replaces the scene by that of a step of a lesson: its parameters are reset to what they are in it.
+    /// Replaces the scene by that of a lesson's step; resetting a parameter gives its value in that scene.
     pub fn practise(&mut self, scene: Scene) {
         self.change(scene.clone(), self.target);
         self.saved = scene;
@@ -170,12 +170,12 @@ impl Document {
         self.dragging.is_some()
     }
 
-    /// The pointer has let go of what it dragged: the next edit is another one.
+    /// The pointer has released the parameter that it dragged: the next edit is a new one.
     pub fn end_drag(&mut self) {
         self.dragging = None;
     }
 
-    /// Replaces the scene and what it is solved up to: one edit. Whether anything changed.
+    /// Replaces the scene and its highest fidelity, as one edit. Returns whether anything has changed.
     pub fn change(&mut self, next: Scene, target: Fidelity) -> bool {
         let changed = next != self.scene || target != self.target;
         if changed {
@@ -198,14 +198,14 @@ impl Document {
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
         let Some((scene, target)) = self.undo.pop() else { return false };
-        // If it was saved in between as another one than the preset that it was made from, an edited one of before no longer claims to be that
-        // preset either.
+        // If the document has been saved under another name since, it is no longer the preset that it was made from. The older scene then
+        // must not claim to be that preset either.
         let scene = if scene.about == self.saved.about { scene } else { presets::disclaimed(scene) };
         self.redo.push((std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target)));
         true
     }
 
-    /// Makes the last undone edit again; whether there was one.
+    /// Redoes the edit that was undone last. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         std::mem::swap(&mut self.undo, &mut self.redo);
         let made = self.undo();
@@ -223,8 +223,8 @@ impl Document {
         !self.redo.is_empty()
     }
 
-    /// Saves to `path` (a temporary name, then renamed). A preset that was changed no longer claims to be what it was, and its name and
-    /// description say nothing that the next change makes wrong.
+    /// Saves to `path`, by way of a temporary file that is renamed. A preset that was changed no longer keeps its name and description, and
+    /// the new ones stay true when it is changed again.
     ///
     /// # Errors
     /// If the file cannot be written; nothing changes then.
@@ -379,7 +379,7 @@ mod tests {
             says_so(document.scene());
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
-        // What was edited before it was saved is not the preset either; what was not, is.
+        // Edits made before the scene was saved do not make it the preset either; an unedited scene stays the preset.
         let mut document = Document::fundamental().unwrap();
         for spacing in ["150", "140"] {
             document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);

@@ -1,4 +1,4 @@
-//! A plate that was dropped on its vibration: of which scene, its way so far, and how it ended.
+//! A plate that was dropped on its vibration: its scene, its motion so far, and the outcome.
 
 use super::background::Background;
 use super::document::solved_alike;
@@ -13,15 +13,15 @@ use crate::solution::Status;
 /// A drop, under way or ended.
 #[derive(Debug)]
 pub struct Dropped {
-    /// The task; its messages are the cycles, its result is how it ended.
+    /// The task: its messages are the cycles, its result is the outcome.
     pub work: Background<Cycle, Fall>,
     /// The scene that was dropped, and its problem.
     pub posed: Posed,
-    /// Grids and steps are those of this fidelity.
+    /// The fidelity of its grids and steps.
     pub fidelity: Fidelity,
     /// The plate at the end of each cycle so far; the first is the beginning.
     pub cycles: Vec<Cycle>,
-    /// How it ended.
+    /// The outcome.
     pub ended: Option<Result<Fall, String>>,
 }
 
@@ -31,7 +31,7 @@ impl Dropped {
         Self { work: task.into(), posed, fidelity, cycles: Vec::new(), ended: None }
     }
 
-    /// Takes progress and results since the last call; cancels the task if `scene` is another one.
+    /// Takes progress and results since the last call; cancels the task if `scene` differs from the scene that was dropped.
     pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         self.cycles.extend(messages);
@@ -45,7 +45,7 @@ impl Dropped {
         }
     }
 
-    /// Whether `scene` is another one than was dropped.
+    /// Whether `scene` differs from the scene that was dropped.
     pub fn stale(&self, scene: &Scene) -> bool {
         !solved_alike(&self.posed.scene, scene)
     }

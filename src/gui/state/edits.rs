@@ -18,7 +18,7 @@ impl Change {
     /// `scene` with `key` changed.
     ///
     /// # Errors
-    /// If the value is not allowed, or not together with the other keys.
+    /// If the value is not allowed, by itself or in combination with the other keys.
     pub fn applied(&self, scene: &Scene, key: &str) -> Result<Scene, String> {
         let mut next = scene.clone();
         let number = Parameter::find(key).filter(|parameter| parameter.range().is_some());
@@ -35,7 +35,7 @@ impl Change {
     }
 }
 
-/// Edits that were rejected, by key, and why: shown at the parameter until it is corrected, or until the reason is gone.
+/// Rejected edits by key, with the reason: shown at the parameter until it is corrected, or until the reason no longer holds.
 #[derive(Clone, Debug, Default)]
 pub struct RejectedEdits(BTreeMap<&'static str, (Change, String)>);
 
@@ -68,8 +68,8 @@ impl RejectedEdits {
         self.0.clear();
     }
 
-    /// Checks the rejected edits again after a change of the scene: drops those that it would accept now, and renews the reasons of the others.
-    /// An array is dropped in any case: it was made of what the scene was before.
+    /// Checks the rejected edits again after a change of the scene: drops those that it would accept now, and updates the reasons of the
+    /// others. An edit of an array is always dropped, because it was based on the previous scene.
     pub fn review(&mut self, scene: &Scene) {
         self.0.retain(|key, (change, message)| match change.applied(scene, key) {
             Ok(_) => false,

@@ -13,7 +13,7 @@ use std::time::Duration;
 pub struct RunningExport {
     /// The kind of export.
     pub export: Export,
-    /// The task; its messages count the pictures of an animation that are drawn.
+    /// The task; its messages give the number of pictures of an animation that are drawn.
     pub work: BackgroundOf<Files>,
     /// When it began.
     pub started: Instant,
@@ -61,7 +61,7 @@ impl ExportState {
         let running = self.running.as_mut()?;
         let News { messages, end } = running.work.news();
         for (drawn, all) in messages {
-            // Several threads count: the last to tell need not have counted last.
+            // Several threads draw: the last message need not have the highest count.
             running.drawn = (drawn.max(running.drawn.0), all);
         }
         let end = end?;

@@ -1,4 +1,4 @@
-//! A measured face as the window has it: read and judged in the background, and shown below the rotor.
+//! A measured face in the window: read and analysed in the background, and shown below the rotor.
 
 use super::background::BackgroundOf;
 use super::dialogs::Purpose;
@@ -19,7 +19,7 @@ pub struct Face {
     pub name: String,
     /// The heights.
     pub map: HeightMap,
-    /// Two faces like it.
+    /// The statistics of a pair of faces like this one.
     pub pair: Pair,
     /// Its statistics.
     pub texture: Texture,
@@ -29,7 +29,7 @@ pub struct Face {
 const SPACING: &str = "film.min_spacing_nm";
 
 impl Face {
-    /// The roughness of two faces like this one: those keys that `scene` has, with their values.
+    /// The roughness of a pair of faces like this one: those of its keys that `scene` has, with their values.
     pub fn roughness(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
         let spacing = (SPACING, rounded(self.pair.min_spacing * 1e9, 4));
         keys_of(&self.pair).into_iter().chain([spacing]).filter(|(key, _)| scene.get(key).is_some()).collect()
@@ -41,19 +41,20 @@ impl Face {
 pub struct FaceState {
     /// The task that reads a file.
     pub work: BackgroundOf<FaceWork>,
-    /// That file, and what it was asked for.
+    /// That file, and the purpose for which it was opened.
     asked: Option<(Purpose, PathBuf)>,
     /// The face.
     pub found: Option<Arc<Face>>,
 }
 
 impl FaceState {
-    /// `task` reads the file at this path, as `purpose` asks.
+    /// Starts to track `task`, which reads the file at this path for `purpose`.
     pub fn begin(&mut self, purpose: Purpose, path: PathBuf, task: TaskOf<FaceWork>) {
         (self.work, self.asked) = (task.into(), Some((purpose, path)));
     }
 
-    /// Takes a face that was read since the last call; returns the file that could not be, what it was asked for, and why.
+    /// Takes a face that was read since the last call. Returns the file that could not be read, the purpose for which it was opened, and
+    /// the reason.
     pub fn drain(&mut self) -> Option<(Purpose, PathBuf, String)> {
         let end = self.work.news().end?;
         let (purpose, path) = self.asked.take()?;

@@ -27,7 +27,8 @@ pub enum Sought {
     Least,
 }
 
-/// Which scene is open, whatever was edited in it: how many were opened so far, and the lesson and its step that has set up another one.
+/// Which scene is open, whatever edits were made to it: the number of scenes opened so far, and the lesson and step that have set up
+/// another one.
 pub type Opened = (u64, Option<(usize, usize)>);
 
 /// The form, as typed.
@@ -48,7 +49,7 @@ pub struct FitForm {
 pub struct FitState {
     /// The table.
     pub measured: Option<Arc<Measured>>,
-    /// What was open when it was read.
+    /// The scene that was open when the table was read.
     over: Opened,
     /// The form, as typed.
     pub form: FitForm,
@@ -62,16 +63,16 @@ pub struct FitState {
     pub goal_fault: Option<String>,
     /// The search; its messages carry the number of points tried and the best value so far.
     pub work: BackgroundOf<FitWork>,
-    /// The scene that it searches for.
+    /// The scene for which the search runs.
     asked: Option<Scene>,
     /// Number of points tried, and the least χ² or the best value so far.
     pub told: Option<(usize, f64)>,
-    /// The result, and the scene that it was searched for.
+    /// The result, and the scene for which it was computed.
     pub found: Option<(Scene, Arc<FitResult>)>,
 }
 
 impl FitForm {
-    /// The limits on other numbers. A comma with a digit behind it is that of a decimal.
+    /// The limits on other numbers. A comma followed by a digit is a decimal comma.
     fn limits(&self) -> Result<Vec<Limit>, String> {
         let mut limits: Vec<String> = Vec::new();
         for piece in self.limits.split(',') {
@@ -92,7 +93,7 @@ impl FitForm {
     }
 }
 
-/// Whether a key can be chosen between two bounds.
+/// Whether this key can be chosen between two bounds.
 pub fn chooses(scene: &Scene, parameter: &Parameter) -> bool {
     matches!(parameter.kind, ParameterKind::Number { .. })
         && parameter.table() != "numerics"
@@ -101,14 +102,14 @@ pub fn chooses(scene: &Scene, parameter: &Parameter) -> bool {
 }
 
 impl FitState {
-    /// Takes a table of measurements, read while the scene `over` was open, in place of the one there was.
+    /// Replaces the table by `measured`, which was read while the scene `over` was open.
     pub fn load(&mut self, measured: Measured, over: Opened) {
         (self.measured, self.over) = (Some(Arc::new(measured)), over);
         (self.work.failure, self.told) = (None, None);
     }
 
-    /// The torques of the table that were measured on the scene as it is, which is `opened`: speed \[rpm\] and torque \[N m\]; and how many
-    /// others there are, measured with other values of some keys, or read while another scene was open.
+    /// The torques of the table that were measured on the present scene, which is `opened`: speed \[rpm\] and torque \[N m\]. Also the
+    /// number of the other torques, which were measured with other values of some keys, or read while another scene was open.
     pub fn torques(&self, opened: Opened) -> (Vec<[f64; 2]>, usize) {
         let (mut torques, mut others) = (Vec::new(), 0);
         let Some(measured) = &self.measured else { return (torques, others) };
@@ -152,7 +153,7 @@ impl FitState {
         (self.form, self.judged) = (form, None);
     }
 
-    /// The optimum that is sought; `None` if a fit is.
+    /// The optimum that is sought; `None` for a fit.
     ///
     /// # Errors
     /// If a limit cannot be read, or the goal does not fit the scene.
@@ -163,7 +164,7 @@ impl FitState {
         Goal::new(scene, name, *sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
     }
 
-    /// Whether the form asks for something else than the last result.
+    /// Whether the form now asks for something other than the last result.
     pub fn asks_for_another(&self) -> bool {
         let FitForm { sought, quantity, .. } = &self.form;
         self.found.as_ref().is_some_and(|(_, found)| match &**found {
@@ -188,7 +189,7 @@ impl FitState {
         self.form.axes.iter().map(|axis| bounds(scene, axis)).collect()
     }
 
-    /// `task` searches for `scene`.
+    /// Starts to track `task`, a search for `scene`.
     pub fn begin(&mut self, scene: Scene, task: TaskOf<FitWork>) {
         (self.work, self.asked, self.told) = (task.into(), Some(scene), None);
     }
@@ -202,7 +203,7 @@ impl FitState {
         }
     }
 
-    /// Whether `scene` is another one than was fitted: neither that nor the one that came out.
+    /// Whether `scene` differs both from the scene that was fitted and from the fitted scene.
     pub fn stale(&self, scene: &Scene) -> bool {
         let found = self.found.as_ref();
         found.is_some_and(|(asked, found)| !solved_alike(asked, scene) && !solved_alike(found.scene(), scene))

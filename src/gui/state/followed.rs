@@ -26,7 +26,7 @@ impl<K, T> Default for Followed<K, T> {
 }
 
 impl<K: Clone, T: Send + 'static> Followed<K, T> {
-    /// Follows `of`, whose result `task` computes. The previous result stays until then.
+    /// Computes the result for `of` by `task`. The previous result stays until then.
     pub fn follow(&mut self, of: K, task: Option<BackgroundTask<(), T>>) {
         self.asked = Some(of);
         task.into_iter().for_each(|task| self.work = task.into());
@@ -56,12 +56,12 @@ impl<K: Clone, T: Send + 'static> Followed<K, T> {
 pub type TorqueState = Followed<Arc<SolvedScene>, TorqueCurves>;
 
 impl TorqueState {
-    /// Whether the curves of `run` are still to be computed.
+    /// Whether the curves of `run` have not been computed yet.
     pub fn lacks(&self, run: &SolvedScene) -> bool {
         !self.asked.as_ref().is_some_and(|asked| same(asked, run)) && matches!(run.problem.scenario, Scenario::Motor(_))
     }
 
-    /// Curves of the scene of `run`, at least at standard fidelity or, if lower, at that of `run`.
+    /// The curves for the scene of `run`, computed at least at standard fidelity, or at the fidelity of `run` if that is lower.
     pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
         let good = run.fidelity.min(Fidelity::Standard);
         let (_, found) = self.known.as_ref().filter(|(of, _)| of.number == run.number && of.fidelity >= good)?;
@@ -82,7 +82,8 @@ fn same(a: &SolvedScene, b: &SolvedScene) -> bool {
 pub type RotorState = Followed<(RotorCompliance, Wave), RotorCurves>;
 
 impl RotorState {
-    /// Whether the rotor of `motor` is still to be computed, and nothing else is at work: while a dimension is dragged, one after the other.
+    /// Whether the rotor of `motor` has still to be computed and no computation is running: while a dimension is dragged, rotors are
+    /// computed one after the other.
     pub fn lacks(&self, motor: &Motor) -> bool {
         !self.work.running() && !self.asked.as_ref().is_some_and(|asked| is_of(asked, motor))
     }

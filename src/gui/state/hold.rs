@@ -30,12 +30,12 @@ pub struct HoldState {
     pub target: f64,
     /// `Some` if the plate was let go; whether the face below it vibrates.
     pub free: Option<bool>,
-    /// The film now, whatever is shown of it.
+    /// The present film, even while a recorded one is shown.
     pub now: Arc<Snapshot>,
     trail: VecDeque<Arc<Snapshot>>,
-    /// Time of the recorded film that is shown \[s\], while the plate is paused; `None` shows the plate itself.
+    /// Time of the recorded film on screen \[s\], while the plate is paused; `None` if the present film is shown.
     recorded: Option<f64>,
-    /// Whether the animation runs: of the plate itself, or of the recorded film.
+    /// Whether the animation runs: either the plate moves, or the recorded film is replayed.
     pub playing: bool,
     /// Least and greatest pressure since it was reset \[Pa\].
     pub pressure_range: [f64; 2],
@@ -44,7 +44,7 @@ pub struct HoldState {
 }
 
 impl HoldState {
-    /// The `plate` of `scene` in hand, at rest, whose film `job` marches; `first`: its first snapshot.
+    /// A held plate at rest: the `plate` of `scene`, whose film `job` marches; `first` is its first snapshot.
     pub fn new((job, first): (HeldPlate, Snapshot), scene: Scene, plate: Plate) -> Self {
         let now = Arc::new(first);
         let trail = VecDeque::from([Arc::clone(&now)]);
@@ -76,7 +76,7 @@ impl HoldState {
         }
         let time = |snapshot: &Arc<Snapshot>| snapshot.reading.time;
         if taken.front().zip(self.trail.back()).is_some_and(|(first, last)| time(first) < time(last)) {
-            // What was still on its way when it was put to rest counts no more.
+            // Snapshots that were on their way when the film was put to rest no longer count.
             self.clear();
         }
         self.pressure_range = span(now.pressure.iter().copied().chain(self.pressure_range));
@@ -102,7 +102,7 @@ impl HoldState {
         self.force_range = [0.0; 2];
     }
 
-    /// Lets the leak time take this many seconds.
+    /// Sets how many seconds the leak time takes on screen.
     pub fn set_seconds(&mut self, seconds: f64) {
         self.seconds = seconds.clamp(*SECONDS.start(), *SECONDS.end());
         self.job.slow(self.slowed());
@@ -115,7 +115,7 @@ impl HoldState {
         self.job.move_to(self.target);
     }
 
-    /// Lets go: a plate under a load falls, or floats on the vibration; any other goes back to its mean gap.
+    /// Lets go of the plate: under a load it falls, or floats on the vibration; without a load it returns to its mean gap.
     pub fn let_go(&mut self, vibrates: bool) {
         if self.plate.load.is_none() {
             return self.move_to(self.plate.mean_gap);
@@ -124,19 +124,19 @@ impl HoldState {
         self.job.let_go(vibrates);
     }
 
-    /// Pauses or resumes the animation: of the plate itself, or of the recorded film.
+    /// Pauses or resumes the animation: the motion of the plate, or the replay of the recorded film.
     pub fn toggle_play(&mut self) {
         self.show(self.recorded, !self.playing);
     }
 
-    /// Plays what the charts hold once more, from its beginning or from where that was paused, in slow motion; at its end the plate is paused.
+    /// Replays what the charts hold in slow motion, from the beginning or from where the replay was paused; at the end the plate is paused.
     pub fn replay(&mut self) {
         if let Some(first) = self.trail.front() {
             self.show(Some(first.reading.time), true);
         }
     }
 
-    /// Shows the recorded film at this share of what the charts hold; at its end the plate itself, paused.
+    /// Shows the recorded film at this share of what the charts hold; at their end, the present film, paused.
     pub fn seek(&mut self, share: f64) {
         self.show_recorded((share * self.trail.len().saturating_sub(1) as f64).round() as usize);
     }
@@ -160,7 +160,7 @@ impl HoldState {
         }
     }
 
-    /// Advances the replay by `elapsed` \[s\] of the clock. Returns whether it moves.
+    /// Advances the replay by `elapsed` \[s\] of the clock. Returns whether anything moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
         let (Some(time), true) = (self.recorded, self.playing) else { return false };
         let on = time + elapsed / self.slowed();
@@ -177,7 +177,7 @@ impl HoldState {
         self.recorded.map_or(newest, place)
     }
 
-    /// Whether `scene` has another plate.
+    /// Whether `scene` has a different plate.
     pub fn stale(&self, scene: &Scene) -> bool {
         !self.scene.same_model(scene)
     }
@@ -214,7 +214,7 @@ impl HoldState {
         WINDOW / self.slowed()
     }
 
-    /// Seconds for a second of the film.
+    /// Seconds on screen for one second of the film.
     pub fn slowed(&self) -> f64 {
         slowed(&self.plate, self.seconds)
     }

@@ -8,7 +8,7 @@ use crate::lessons::live::{Live, Readings};
 use crate::problem::Scenario;
 use std::sync::Arc;
 
-/// A held plate this near to its mean gap has not been moved, relative.
+/// Relative distance from the mean gap below which a held plate has not been moved.
 const AT_REST: f64 = 0.01;
 
 /// The parts of the window that the check of a task reads.
@@ -20,11 +20,11 @@ pub struct OnScreen<'a> {
     pub torque: &'a TorqueState,
     /// The start-up.
     pub startup: Option<&'a StartupState>,
-    /// The plate in the hand.
+    /// The held plate.
     pub hold: Option<&'a HoldState>,
 }
 
-/// Numbers that are read off the tabs.
+/// Numbers that are read from the tabs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OffTabs {
     /// Readings when the step began.
@@ -36,7 +36,7 @@ pub struct OffTabs {
 }
 
 impl OffTabs {
-    /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
+    /// Reads from the tabs what they show of `run`, and for a start-up and a held plate also the values at the beginning.
     pub fn read(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
         if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
             let (plate, now) = (&hold.plate, hold.now.reading);
@@ -45,7 +45,7 @@ impl OffTabs {
             self.start.read_held(rest.0, rest.1);
             if self.rested {
                 self.now.read_held(now.gap, now.mean_pressure);
-                // Between two redraws it may have been higher.
+                // It may have been higher between two redraws.
                 self.now.set(Live::HeldPeak, hold.highest_mean_pressure() * 1e-3);
             } else {
                 self.now.read_held(rest.0, rest.1);

@@ -1,4 +1,4 @@
-//! The lesson that is followed, how far the others were, the tour and the glossary.
+//! The running lesson, the progress in the others, the tour and the glossary.
 //!
 //! While a lesson runs, the student's own scene is set aside with its history, and brought back when the lesson ends.
 
@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
-/// How long Enter is ignored after a key has answered an observation, so that the reply can be read.
+/// How long Enter is ignored after an observation was answered by key, so that the reply can be read.
 const UNREAD: Duration = Duration::from_secs(1);
 /// Parts of the window that lessons can highlight.
 pub const PLACES: &[&str] = &[
@@ -56,16 +56,16 @@ pub struct LessonState {
     pub lessons: Vec<Lesson>,
     /// Faults of lessons that could not be read.
     pub faults: Vec<LessonError>,
-    /// Folders that lessons were read from, in full: they can be read again.
+    /// Folders that lessons were read from, as absolute paths, so that they can be read again.
     pub folders: Vec<PathBuf>,
-    /// The lesson that is followed.
+    /// The running lesson.
     pub running: Option<RunningLesson>,
     progress: BTreeMap<String, Progress>,
     /// The stop of the tour.
     pub tour: Option<usize>,
     /// Search text of the glossary; `None` while it is closed.
     pub glossary: Option<String>,
-    /// Whether highlighted parameters are scrolled to in this frame, and their group opened.
+    /// Whether to scroll to the highlighted parameters in this frame, and to open their group.
     pub reveal: bool,
     /// Widget to get the keyboard focus once it is drawn: a parameter, a part of the window, or [`NUMBER`].
     pub enter: Option<String>,
@@ -81,7 +81,7 @@ impl LessonState {
     /// Takes the progress that was stored ([`Self::progress_text`]).
     ///
     /// # Errors
-    /// If it cannot be read: then there is none.
+    /// If it cannot be read; then there is no progress.
     pub fn restore(&mut self, text: &str) -> Result<(), serde_json::Error> {
         self.progress = serde_json::from_str(text)?;
         Ok(())
@@ -104,8 +104,8 @@ impl LessonState {
         self.running.as_ref().map_or(document, |running| &running.student)
     }
 
-    /// Adds the lessons of a folder; what cannot be read is in the faults. A lesson of a name that is there replaces it. Whether
-    /// the lesson that is followed was replaced by another text.
+    /// Adds the lessons of a folder; errors go to the faults. A lesson replaces an earlier one of the same name. Returns whether the
+    /// running lesson was replaced by another text.
     pub fn load(&mut self, folder: &Path) -> bool {
         let folder = absolute(folder);
         let (lessons, faults) = window_names(|known| lessons::load(&folder, known));
@@ -127,7 +127,7 @@ impl LessonState {
         replaced
     }
 
-    /// Reads all folders again. Whether the lesson that is followed was replaced by another text.
+    /// Reads all folders again. Returns whether the running lesson was replaced by another text.
     pub fn reload(&mut self) -> bool {
         let (mut replaced, mut faults) = (false, Vec::new());
         for folder in self.folders.clone() {
@@ -140,7 +140,7 @@ impl LessonState {
 
     /// Progress and answers of all lessons, as text.
     pub fn progress_text(&self) -> String {
-        // Names and plain data: this cannot fail.
+        // Names and plain data always convert to JSON.
         serde_json::to_string(&self.all_progress()).unwrap_or_default()
     }
 
@@ -148,7 +148,7 @@ impl LessonState {
         self.progress.clone().into_iter().chain(self.present()).collect()
     }
 
-    /// Progress in the lesson that is followed.
+    /// Progress in the running lesson.
     fn present(&self) -> Option<(String, Progress)> {
         let running = self.running.as_ref()?;
         let lesson = self.lessons.get(running.lesson)?;
@@ -166,7 +166,7 @@ impl LessonState {
         begun.flat_map(|(lesson, progress)| record::of(lesson, &progress.work)).collect()
     }
 
-    /// Stamps the answers and tasks of the present lesson that are newly done with `now` \[s since 1970, UTC\].
+    /// Stamps the answers and tasks of the running lesson that have just been done with `now` \[s since 1970, UTC\].
     pub fn note_times(&mut self, now: u64) {
         self.running.iter_mut().flat_map(|running| &mut running.work).for_each(|work| work.note_times(now));
     }
@@ -184,7 +184,7 @@ impl LessonState {
         self.running.as_ref().and_then(value).map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
-    /// Whether the quoted numbers are from another run than that of `scene`.
+    /// Whether the quoted numbers are from a run of another scene than `scene`.
     pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
         let (Some(running), Some((_, step))) = (&self.running, self.step()) else { return false };
         readings(step.told()).any(|reading| {
@@ -207,14 +207,14 @@ impl LessonState {
         Some(running.work.get(running.step)?.stage(step))
     }
 
-    /// Whether the step on screen asks for a number, and none was given, or one that was refused.
+    /// Whether the step on screen asks for a number, and either none was given or the number was refused.
     pub fn lacks_number(&self) -> bool {
         let (Some((_, step)), Some(running)) = (self.step(), &self.running) else { return false };
         let asked = step.question.as_ref().is_some_and(|question| matches!(question.answer, Answer::Number { .. }));
         asked && running.work.get(running.step).is_some_and(|work| work.prediction.is_none() || work.refused)
     }
 
-    /// The run that a step began with, to be compared with the one on screen: while something is done to another scene.
+    /// The run that the step began with, to be drawn beside the one on screen while the student changes the scene.
     pub fn compared(&self, scene: &Scene) -> Option<&Arc<SolvedScene>> {
         let running = self.running.as_ref()?;
         let (_, step) = self.step()?;
@@ -222,19 +222,19 @@ impl LessonState {
         start.run.as_ref().filter(|_| step.task.is_some() && start.scene != *scene)
     }
 
-    /// Whether a key answered an observation so shortly before `now` that the reply cannot have been read yet.
+    /// Whether an observation was answered by key so shortly before `now` that the reply cannot have been read yet.
     pub fn has_just_answered(&self, now: Instant) -> bool {
         let answered = self.running.as_ref().and_then(|running| running.answered);
         answered.is_some_and(|answered| now.saturating_duration_since(answered) < UNREAD)
     }
 
-    /// The lesson after the one that is followed.
+    /// The lesson after the running one.
     pub fn following(&self) -> Option<usize> {
         let next = self.running.as_ref()?.lesson + 1;
         (next < self.lessons.len()).then_some(next)
     }
 
-    /// Shows a stop of the tour; none, and one after the last, ends it.
+    /// Shows a stop of the tour; `None`, or a stop after the last, ends the tour.
     pub fn show_tour(&mut self, stop: Option<usize>, view: &mut View) {
         self.tour = stop.filter(|stop| *stop < STOPS.len());
         if self.tour.is_some() {
@@ -242,7 +242,7 @@ impl LessonState {
         }
     }
 
-    /// Begins a lesson, by its place in the list, at a step or where it was left; whether there is such a lesson.
+    /// Begins a lesson, by its index, at a step or at the step where it was left. Returns whether there is such a lesson.
     pub fn open(&mut self, lesson: usize, step: Option<usize>, document: &mut Document, view: &mut View) -> bool {
         self.leave(document, view);
         let Some(chosen) = self.lessons.get(lesson) else { return false };
@@ -272,7 +272,7 @@ impl LessonState {
         true
     }
 
-    /// Begins the lesson that is followed once more, with nothing answered; whether there is one.
+    /// Begins the running lesson again, without answers. Returns whether there is one.
     pub fn again(&mut self, document: &mut Document, view: &mut View) -> bool {
         let Some(running) = &mut self.running else { return false };
         running.work.fill(StepWork::default());
@@ -280,7 +280,8 @@ impl LessonState {
         self.open(lesson, Some(0), document, view)
     }
 
-    /// Goes `by` steps on or back; the recap comes after the last, then the lesson ends. Returns whether the scene has to be solved anew.
+    /// Goes `by` steps forward or back; after the last step comes the recap, and then the lesson ends. Returns whether the scene has to be
+    /// solved again.
     pub fn turn(&mut self, by: isize, document: &mut Document, view: &mut View) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
@@ -295,21 +296,21 @@ impl LessonState {
         running.all_results = false;
         let done = running.work.get(to).is_some_and(|work| work.fulfilled);
         let again = by < 0 || done || lesson.steps.get(to).is_some_and(|step| step.sets);
-        // A step that sets no scene goes on with what did the task of the one before.
+        // A step that sets no scene continues with the scene that fulfilled the previous task.
         let kept = running.kept.take().filter(|_| !again);
         let brought = kept.is_some_and(|scene| document.change(scene, document.target()));
         self.keep();
         self.set_up(document, view, again) || brought
     }
 
-    /// Sets up the view of the present step and, if `scene`, its scene; that of a task that is done follows ([`Self::done_before`]). Returns
-    /// whether the scene has to be solved anew.
+    /// Sets up the view of the present step and, if `scene`, its scene; the scene of a task that is done follows later
+    /// ([`Self::done_before`]). Returns whether the scene has to be solved again.
     pub fn set_up(&mut self, document: &mut Document, view: &mut View, scene: bool) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
         let Some(step) = lesson.steps.get(running.step) else { return false };
         view.tab = tab_at(lesson, running.step).unwrap_or(view.tab);
-        // What is highlighted is to be seen, and the lesson stands where the results are.
+        // Highlighted parameters have to be visible, and the lesson takes the place of the results.
         view.parameters |= !step.light.is_empty();
         view.results = true;
         running.all_results = false;
@@ -325,8 +326,8 @@ impl LessonState {
         changed
     }
 
-    /// The scene that did the task of the step on screen, which was set up once more, as soon as the run that it is compared with is there;
-    /// none if something else has been changed by then.
+    /// The scene that fulfilled the task of the step on screen, which was set up again: returned once the run that it is compared with is
+    /// there. `None` if something else has been changed by then.
     pub fn done_before(&mut self, document: &Document) -> Option<Scene> {
         let running = self.running.as_mut().filter(|running| running.kept.is_some())?;
         let (start, lesson) = (&running.start, self.lessons.get(running.lesson)?);
@@ -340,7 +341,7 @@ impl LessonState {
         running.kept.take_if(|_| known)
     }
 
-    /// Makes the changes that fulfil the task; whether the scene has to be solved anew.
+    /// Makes the changes that fulfil the task. Returns whether the scene has to be solved again.
     pub fn show_me(&mut self, document: &mut Document) -> bool {
         if let Some((_, work)) = self.step_and_work() {
             work.shown |= !work.fulfilled;
@@ -361,7 +362,7 @@ impl LessonState {
         self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(Tab::named) == Some(tab))
     }
 
-    /// Ends the lesson; whether there was one.
+    /// Ends the lesson. Returns whether one was running.
     pub fn leave(&mut self, document: &mut Document, view: &mut View) -> bool {
         self.keep();
         let Some(running) = self.running.take() else { return false };
@@ -392,7 +393,7 @@ impl LessonState {
         let Some(running) = &mut self.running else { return false };
         self.reveal = running.reveal > 0;
         running.reveal = running.reveal.saturating_sub(1);
-        // Once its group has opened.
+        // This waits until the group has opened.
         if running.reveal == 0 && std::mem::take(&mut running.enter) {
             self.enter = marked;
         }
@@ -408,7 +409,7 @@ fn tab_at(lesson: &Lesson, step: usize) -> Option<Tab> {
     lesson.steps.iter().take(step + 1).rev().find_map(|step| Tab::named(step.tab.as_deref()?))
 }
 
-/// Calls `read` with what lessons may name in the window.
+/// Calls `read` with the names of the window that lessons may use.
 pub fn window_names<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let labels = |plate| -> Vec<&str> {
         Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()

@@ -1,8 +1,8 @@
-//! The fragment of an address, after the `#`: a scene, as a built-in preset and its changes, with the tab that is shown, or a step of a
-//! lesson. `#fundamental&film.min_spacing_nm=100&tab=torque`, `#lesson=3&step=4`.
+//! The part of an address after the `#`: a scene, as a built-in preset with changes, and the tab to show; or a step of a lesson.
+//! `#fundamental&film.min_spacing_nm=100&tab=torque`, `#lesson=3&step=4`.
 //!
-//! The keys are those of `--set`, and so are their values, but for `%`, `&`, `#` and what an address cannot hold, which are written as
-//! `%` and two digits. A link names no file.
+//! Keys and values are those of `--set`, except that `%`, `&`, `#` and characters that an address cannot hold are written as `%` and two
+//! digits. A link contains no file names.
 
 use super::document::Document;
 use super::view::Tab;
@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 pub enum Link {
     /// A scene.
     Scene {
-        /// A built-in preset, or a scene that nothing else has: the preset with the changes applied.
+        /// A built-in preset, or a preset with the changes applied, which then is in no file and counts as unsaved.
         document: Box<Document>,
         /// The tab to show; `None` keeps the present one.
         tab: Option<Tab>,
@@ -31,7 +31,7 @@ pub enum Link {
 }
 
 impl Link {
-    /// Whether `text` is a link, of this or any other address, rather than a preset or a path.
+    /// Whether `text` is a link to any address, rather than a preset or a path.
     pub fn is_link(text: &str) -> bool {
         text.starts_with('#') || text.contains("://") && text.contains('#')
     }
@@ -39,7 +39,7 @@ impl Link {
     /// Reads an address, or what follows its `#`.
     ///
     /// # Errors
-    /// Words that name the part that is wrong, and what is allowed.
+    /// A message that names the wrong part, and what is allowed.
     pub fn read(address: &str) -> Result<Self, String> {
         let text = address.split_once('#').map_or(address, |(_, text)| text);
         let mut parts = text.split('&').map(|part| percent_decode_str(part).decode_utf8_lossy().into_owned());
@@ -80,7 +80,7 @@ impl Link {
         Ok(Self::Scene { document: Box::new(document), tab })
     }
 
-    /// A link to `scene`, based on the built-in preset that it differs from in the fewest keys.
+    /// A link to `scene`, based on the built-in preset with the fewest different keys.
     pub fn to(scene: &Scene, tab: Tab) -> String {
         let built_in = BUILT_IN.iter().filter_map(|preset| Some((preset.name, preset.scene().ok()?)));
         let alike = built_in.filter(|(_, original)| original.scene() == scene.scene());
@@ -88,7 +88,7 @@ impl Link {
         let Some((name, original)) = nearest else { return "#".to_owned() };
         let mut text = format!("#{name}");
         for parameter in scene.changed(&original) {
-            // A key that the scene has not follows from others or is taken away.
+            // A key that the scene does not have either follows from other keys or is removed.
             let none = || parameter.absent.map(|_| "none".to_owned());
             if let Some(value) = scene.given_text(parameter).or_else(none) {
                 let _ = write!(text, "&{}={}", parameter.key, utf8_percent_encode(&value, CODED));
@@ -120,7 +120,7 @@ const CODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_'
 mod tests {
     use super::*;
 
-    /// The scene of a link, which is unsaved if it is none of the presets, and the tab.
+    /// The scene of a link, which is unsaved if it differs from all presets, and the tab.
     fn read(text: &str) -> (Scene, Option<Tab>) {
         match Link::read(text).unwrap() {
             Link::Scene { document, tab } => {

@@ -1,4 +1,4 @@
-//! All that the window knows: plain data, and how each part of it changes. Nothing is drawn here, and no work is started.
+//! Everything that the window knows, as plain data, and how each part changes. Nothing is drawn here, and no work is started.
 
 pub mod activity;
 pub mod background;

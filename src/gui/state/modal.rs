@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// A modal.
 #[derive(Clone, Debug)]
 pub enum Modal {
-    /// Something went wrong; nothing changed.
+    /// Something went wrong, and nothing was changed.
     Error(String),
     /// Unsaved changes of this scene.
     Unsaved {
@@ -17,7 +17,7 @@ pub enum Modal {
         /// The action that would lose them.
         next: Next,
     },
-    /// The scene's file, to be saved to and then to go on to this, holds something else now.
+    /// The file of the scene was changed by another program since it was opened or saved here. After saving, this follows.
     ChangedElsewhere(PathBuf, Option<Next>),
     /// Descriptions of work that closing the window would end.
     Unfinished(Vec<String>),
@@ -32,7 +32,8 @@ pub enum Modal {
 /// A prompt for a path.
 #[derive(Clone, Debug)]
 pub struct PathPrompt {
-    /// Purposes that the path may be used for, the first on Enter; one alone if it stands in for a file dialog that could not be shown.
+    /// The purposes that the path may be used for; Enter chooses the first. There is only one if the prompt replaces a file dialog that
+    /// could not be shown.
     pub purposes: Vec<Purpose>,
     /// The text typed so far.
     pub path: String,

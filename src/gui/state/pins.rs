@@ -1,5 +1,5 @@
-//! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them. Their scenes
-//! outlive the window, and are solved again.
+//! The pinned runs, for comparison: their names, their colours, and the numbers of all of them. The scenes of the pins are kept for the
+//! next window, which solves them again.
 
 use crate::analysis::compare::{ComparedRun, LONGEST_LABEL, ParameterRow, ResultRow, parameters, results, unique};
 use crate::digits::rounded;
@@ -21,7 +21,7 @@ pub enum Page {
     Numbers,
 }
 
-/// One pinned run, beside its entry in [`Pins::runs`].
+/// A pinned run; its solution is in [`Pins::runs`].
 #[derive(Debug)]
 pub struct Pin {
     /// Identifier, never used for another pin.
@@ -32,7 +32,7 @@ pub struct Pin {
     pub curves: RunCurves,
 }
 
-/// A pin that is being solved, or will be: a preset, or one of the last window.
+/// A pin that is being solved or waits to be solved: a preset, or a pin of the last window.
 #[derive(Debug)]
 pub struct Waiting {
     /// Identifier, kept by the pin.
@@ -41,13 +41,13 @@ pub struct Waiting {
     pub name: String,
     scene: Scene,
     fidelity: Fidelity,
-    /// Index of the colour that it had; `None` if it is new.
+    /// Index of the colour that it had before; `None` for a new pin.
     slot: Option<usize>,
-    /// The solve; `None` until its turn comes.
+    /// The solve; `None` while the pin waits.
     task: Option<TaskOf<PinWork>>,
 }
 
-/// A pin as it outlives the window.
+/// A pin as it is kept for the next window.
 #[derive(Debug, Serialize, Deserialize)]
 struct Stored {
     label: String,
@@ -65,7 +65,7 @@ impl Stored {
     }
 }
 
-/// Outcome of a request, to be shown.
+/// Outcome of a request, to be shown to the user.
 #[derive(Debug)]
 pub enum Note {
     /// A remark; nothing failed.
@@ -85,12 +85,12 @@ pub struct Pins {
     pub results: Vec<ResultRow>,
     /// Their parameters.
     pub parameters: Vec<ParameterRow>,
-    /// Pins that are being solved, or wait for it.
+    /// Pins that are being solved, or wait to be solved.
     pub waiting: Vec<Waiting>,
     next: u64,
     /// The page that is shown.
     pub page: Page,
-    /// Whether parameters are listed that do not differ.
+    /// Whether parameters that do not differ are listed, too.
     pub all_parameters: bool,
     /// Outcome of the last request, if it would not be visible otherwise.
     pub note: Option<Note>,
@@ -114,13 +114,13 @@ impl Pins {
         self.next
     }
 
-    /// Pins `run`; one that is there already, solved the same way, is not pinned twice.
+    /// Pins `run`, unless the same run is pinned already.
     pub fn add(&mut self, run: ComparedRun) {
         let id = self.number();
         self.insert(id, None, run);
     }
 
-    /// Pins `run` under its own number, in the order of the numbers. `stored`: what it was called, and its colour.
+    /// Pins `run` under its number, in the order of the numbers. `stored` is its earlier name and colour.
     fn insert(&mut self, id: u64, stored: Option<(String, usize)>, mut run: ComparedRun) {
         let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
         if let Some(twin) = twin {
@@ -165,7 +165,7 @@ impl Pins {
         unique(&named.unwrap_or_else(|| run.label.clone()), taken)
     }
 
-    /// Waits for `task`, which solves this scene.
+    /// Adds a pin that waits for `task`, which solves this scene.
     pub fn wait(&mut self, scene: Scene, fidelity: Fidelity, task: TaskOf<PinWork>) {
         let id = self.number();
         self.note = None;
@@ -189,7 +189,7 @@ impl Pins {
         serde_json::to_string(&all).unwrap_or_default()
     }
 
-    /// The pins of [`Self::stored`], which wait until they are solved; what cannot be read of them is left out, and said.
+    /// Restores the pins of [`Self::stored`], which wait until they are solved. Pins that cannot be read are left out and reported.
     ///
     /// # Errors
     /// The faults of the pins that could not be read.
@@ -208,7 +208,7 @@ impl Pins {
         if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
     }
 
-    /// The next that is to be solved, if no other is under way.
+    /// The next pin to be solved, if no other is being solved.
     pub fn turn(&self) -> Option<(u64, &Scene, Fidelity)> {
         if self.waiting.iter().any(|waiting| waiting.task.is_some()) {
             return None;
@@ -216,7 +216,7 @@ impl Pins {
         self.waiting.first().map(|waiting| (waiting.id, &waiting.scene, waiting.fidelity))
     }
 
-    /// `task` solves the one whose turn it is.
+    /// Starts to track `task`, which solves this pin.
     pub fn begin(&mut self, id: u64, task: TaskOf<PinWork>) {
         if let Some(waiting) = self.waiting.iter_mut().find(|waiting| waiting.id == id) {
             waiting.task = Some(task);
@@ -244,7 +244,7 @@ impl Pins {
         }
     }
 
-    /// Renames a pin; a name that another pin has is numbered.
+    /// Renames a pin; if another pin has that name, a number is added.
     pub fn rename(&mut self, id: u64, name: &str) {
         if let Some(i) = self.place(id) {
             let label = unique(name, |label| self.runs.iter().enumerate().any(|(j, run)| j != i && run.label == label));
@@ -252,7 +252,7 @@ impl Pins {
         }
     }
 
-    /// Removes a pin; cancels one that is being solved, or will be. [`Self::bring_back`] undoes it.
+    /// Removes a pin, or cancels its solve. [`Self::bring_back`] undoes it.
     pub fn remove(&mut self, id: u64) {
         self.take(|pin| pin == id);
     }
@@ -262,7 +262,7 @@ impl Pins {
         self.take(|_| true);
     }
 
-    /// Takes away the pins whose numbers `goes`.
+    /// Removes the pins whose number fulfils `goes`.
     fn take(&mut self, goes: impl Fn(u64) -> bool) {
         let mut removed = Self::default();
         for (pin, run) in std::mem::take(&mut self.pins).into_iter().zip(std::mem::take(&mut self.runs)) {
@@ -290,7 +290,7 @@ impl Pins {
         self.removed.as_ref().map_or(0, |removed| removed.pins.len() + removed.waiting.len())
     }
 
-    /// Brings back what was removed last, at its place; those that were being solved wait for their turn again.
+    /// Restores the pins that were removed last, in their places; those that were being solved wait again.
     pub fn bring_back(&mut self) {
         let Some(removed) = self.removed.take() else { return };
         let Self { pins, runs, waiting, .. } = *removed;
@@ -314,11 +314,11 @@ pub fn fidelity(run: &ComparedRun) -> &str {
 
 /// Digits of values in the name of a pin.
 const DIGITS: usize = 6;
-/// Fewest characters that are left of the name of a scene.
+/// Least number of characters that the name of a scene is cut to.
 const SHORTEST_NAME: usize = 16;
 
-/// The name of a scene with the one or two keys that tell it apart from another. What it does not have is not named; where there is no room for
-/// all, it is the name that is cut.
+/// The name of a scene with the one or two keys that distinguish it from another. A key that the scene does not have is left out. If the
+/// text is too long, the name is cut.
 pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let rows = parameters(&[other, scene]);
     let differing = rows.iter().filter(|row| row.differs()).filter_map(|row| {
@@ -329,13 +329,13 @@ pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
     let differing: Vec<String> = differing.collect();
     (1..=2).contains(&differing.len()).then(|| {
         let differing = differing.join(", ");
-        // Of the name, without the comma, the space and the "…".
+        // Without the comma, the space and the "…".
         let room = LONGEST_LABEL.saturating_sub(differing.chars().count() + 3).max(SHORTEST_NAME);
         format!("{}, {differing}", show_up_to(room, &scene.name))
     })
 }
 
-/// A run of the window as one to be compared.
+/// A run of the window in the form for comparisons.
 pub fn to_compare(run: &crate::job::SolvedScene) -> ComparedRun {
     ComparedRun {
         label: run.scene.name.clone(),

@@ -1,4 +1,4 @@
-//! The lesson that is followed: its step, what was done, and the run that the step began with.
+//! The running lesson: its step, the student's work, and the run that the step began with.
 
 use super::document::Document;
 use super::lesson_tabs::{OffTabs, OnScreen};
@@ -16,7 +16,7 @@ use crate::scene::Scene;
 use crate::solution::Status;
 use std::sync::Arc;
 
-/// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
+/// Number of frames in which the window scrolls to a highlighted parameter: its group takes some frames to open.
 pub(super) const REVEALED: u8 = 16;
 
 /// The run that a step compares with.
@@ -53,21 +53,21 @@ pub struct RunningLesson {
     pub(super) before: (Tab, bool, bool),
     /// Scene and run that the step began with.
     pub start: StartingPoint,
-    /// The scene that did the task of a step that is set up once more: it is brought back when the run that it is compared with is there.
+    /// The scene that fulfilled the task of a step that was set up again. It is restored when the run that it is compared with is there.
     pub(super) kept: Option<Scene>,
     /// The newest run of the present scene; none is known while there is no run.
     pub newest: Numbers,
     /// Numbers read off the tabs.
     pub tabs: OffTabs,
     pub(super) reveal: u8,
-    /// Whether the marked widget, or the field for an answer, is to take the keyboard.
+    /// Whether the marked widget, or the field for an answer, is to get the keyboard focus.
     pub(super) enter: bool,
     /// When a key last answered an observation: the reply has to be read before Enter leads on.
     pub answered: Option<Instant>,
 }
 
 impl RunningLesson {
-    /// Lets the marked widget, or the field for an answer, take the keyboard.
+    /// Gives the keyboard focus to the marked widget, or to the field for an answer.
     pub fn enter_marked(&mut self) {
         (self.enter, self.reveal) = (true, REVEALED);
     }
@@ -95,7 +95,7 @@ impl RunningLesson {
         (self.newest, self.tabs.now) = (Numbers::default(), Readings::default());
         let scene = document.scene();
         let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
-            // What was said of another scene says nothing about this one.
+            // A verdict on another scene does not hold for this one.
             if let Some(work) = self.work.get_mut(self.step) {
                 (work.unmet, work.too_far) = (None, false);
             }
@@ -115,7 +115,7 @@ impl RunningLesson {
         let Some((step, task)) = lesson.steps.get(self.step).and_then(|step| Some((step, step.task.as_ref()?))) else {
             return;
         };
-        // A draft is good enough to look at, not to judge by; and a value counts when the pointer has let go of it.
+        // A draft is not accurate enough for a verdict, and a value counts only when the pointer has released the slider.
         let ready = run.fidelity >= document.target().min(Fidelity::Standard) && !document.is_dragging();
         let [now, before] = self.ran(scene);
         let unmet = task.check.unmet(now, before);
@@ -131,7 +131,7 @@ impl RunningLesson {
             (work.too_far, work.unmet) = (unmet.is_none() && beyond, unmet);
             work.fulfilled |= does;
         }
-        // What the text quotes follows what is on screen, as long as that does the task too. (A plate in the hand has moved on.)
+        // The quoted numbers follow the run on screen, as long as it fulfils the task too. (A held plate has moved on.)
         if does && work.fulfilled && (open || !task.check.live().any(Live::is_done_by_hand)) {
             (work.readings, work.changes) = (told, step.changes(scene));
         }

@@ -22,13 +22,13 @@ pub struct SensitivityState {
     share: f64,
     /// Results and derivatives.
     pub found: Option<Arc<Sensitivity>>,
-    /// Typed uncertainties by key, none empty, each with the reason if it is refused.
+    /// Typed uncertainties by key, none of them empty, each with the reason if it was refused.
     typed: BTreeMap<&'static str, (String, Option<String>)>,
-    /// The uncertainties that make sense; none may be among them. `None` before anything was found.
+    /// The valid uncertainties; there may be none. `None` before anything was computed.
     pub uncertainties: Option<Uncertainties>,
     /// Results of random scenes with these uncertainties.
     pub carlo: Option<MonteCarlo>,
-    /// Results of random scenes with uncertainties that were changed since, and these.
+    /// Results of random scenes with earlier uncertainties, and these uncertainties.
     pub earlier: Option<(MonteCarlo, Uncertainties)>,
     /// Index of the result that is shown.
     pub output: usize,
@@ -47,7 +47,7 @@ impl SensitivityState {
         (self.share, self.derivatives, self.drawing) = (0.0, task.into(), Background::default());
     }
 
-    /// `task` solves random scenes.
+    /// Starts to track `task`, which solves random scenes.
     pub fn begin_drawing(&mut self, task: TaskOf<Draws>) {
         (self.share, self.derivatives.failure, self.drawing) = (0.0, None, task.into());
     }
@@ -66,7 +66,7 @@ impl SensitivityState {
         self.share = shares.into_iter().chain(drawn).last().unwrap_or(self.share);
     }
 
-    /// Why nothing came of the last work.
+    /// Why the last work gave no result.
     pub fn failure(&self) -> Option<&String> {
         self.derivatives.failure.as_ref().or(self.drawing.failure.as_ref())
     }
@@ -82,7 +82,7 @@ impl SensitivityState {
         (self.derivatives.running() || self.drawing.running()).then_some(self.share)
     }
 
-    /// Whether the results are of another scene than this.
+    /// Whether the results belong to another scene than this.
     pub fn stale(&self, scene: &Scene) -> bool {
         self.found.as_ref().is_some_and(|found| !solved_alike(found.scene(), scene))
     }
@@ -98,7 +98,7 @@ impl SensitivityState {
         self.judge();
     }
 
-    /// The random scenes that are shown, with their uncertainties, and whether these are earlier ones.
+    /// The random scenes on screen, with their uncertainties, and whether these are earlier ones.
     pub fn drawn(&self) -> Option<(&MonteCarlo, &Uncertainties, bool)> {
         let present = self.carlo.as_ref().zip(self.uncertainties.as_ref()).map(|(carlo, by)| (carlo, by, false));
         present.or_else(|| self.earlier.as_ref().map(|(carlo, by)| (carlo, by, true)))
@@ -120,7 +120,7 @@ impl SensitivityState {
         shown.filter_map(|(_, (_, refused))| refused.as_deref())
     }
 
-    /// Finds out which of the typed uncertainties make sense for the scene that was solved.
+    /// Determines which of the typed uncertainties are valid for the scene that was solved.
     fn judge(&mut self) {
         let Some(found) = &self.found else { return };
         let mut given: Vec<(&str, Uncertainty)> = Vec::new();

@@ -1,4 +1,4 @@
-//! A start-up as the window has it: of which scene, every cycle's numbers, the recordings that are kept, and the cycle looked at.
+//! A start-up in the window: its scene, the numbers of every cycle, the recordings that are kept, and the cycle on screen.
 
 use super::background::Background;
 use super::document::solved_alike;
@@ -18,15 +18,16 @@ use std::sync::Arc;
 
 /// Memory that recordings may take \[bytes\], together.
 const MOST_BYTES: usize = 64 << 20;
-/// Runs from here on are cycles of a start-up: no number of the solver's.
+/// Runs with numbers from here on are cycles of a start-up; the solver never uses such numbers.
 const FIRST_NUMBER: u64 = 1 << 40;
 
-/// Keeps the `run` of cycle `number`. Of more than `most` bytes stay the first, the newest, and those between that show most of the way.
+/// Keeps the `run` of cycle `number`. If all recordings take more than `most` bytes, the first, the newest, and those between that show
+/// most of the change are kept.
 fn keep(runs: &mut BTreeMap<usize, Arc<SolvedScene>>, number: usize, run: Arc<SolvedScene>, most: usize) {
     runs.insert(number, run);
     while runs.len() > 1 && runs.values().map(|run| bytes(&run.solution.recording)).sum::<usize>() > most {
         let numbers: Vec<usize> = runs.keys().copied().collect();
-        // What changes, changes less and less: the one whose neighbours are the nearest in proportion.
+        // Changes become smaller and smaller with time: the recording whose neighbours are nearest in proportion is removed.
         let ratio = |three: &[usize]| three[2] as f64 / three[0] as f64;
         let least = numbers.windows(3).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
         runs.remove(&least.map_or(numbers[0], |three| three[1]));
@@ -44,25 +45,25 @@ fn bytes(recording: &Recording) -> usize {
 /// A start-up, under way or ended.
 #[derive(Debug)]
 pub struct StartupState {
-    /// The task; its messages are the cycles, its result is how it ended.
+    /// The task: its messages are the cycles, its result is the outcome.
     pub work: Background<Cycle, Startup>,
     /// The scene that was started, and its problem.
     pub posed: Posed,
-    /// Grids and steps are those of this fidelity.
+    /// The fidelity of its grids and steps.
     pub fidelity: Fidelity,
     /// Its number in this window.
     pub count: u64,
     /// All cycles, in order.
     pub points: Vec<CycleRow>,
-    /// Likewise, without fields.
+    /// All cycles without their fields, in order.
     pub cycles: Vec<Cycle>,
     /// Runs that are kept, by the number of their cycle.
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
     pub ranges: Option<Ranges>,
-    /// How it ended.
+    /// The outcome.
     pub ended: Option<Result<Startup, String>>,
-    /// Number of the cycle looked at; 0 before the first.
+    /// Number of the cycle on screen; 0 before the first.
     pub chosen: usize,
     /// Whether the newest cycle is looked at.
     pub follows_newest: bool,
@@ -86,7 +87,7 @@ impl StartupState {
         }
     }
 
-    /// Takes progress and results since the last call; cancels the task if `scene` is another one.
+    /// Takes progress and results since the last call; cancels the task if `scene` differs from the scene that was started.
     pub fn drain(&mut self, scene: &Scene) {
         let News { messages, end } = self.work.news();
         messages.into_iter().for_each(|cycle| self.take(cycle));
@@ -111,7 +112,7 @@ impl StartupState {
         if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;
         } else {
-            // What was looked at may no longer be kept.
+            // The cycle on screen may no longer be kept.
             self.choose(self.chosen);
         }
     }
@@ -136,7 +137,7 @@ impl StartupState {
         }
     }
 
-    /// The cycle looked at has been shown to its end: goes on to the next one that is kept, if there is one.
+    /// The cycle on screen has been shown to its end: goes on to the next one that is kept, if there is one.
     pub fn next_cycle(&mut self) {
         if let Some((next, _)) = self.kept.range(self.chosen + 1..).next() {
             self.chosen = *next;
@@ -153,13 +154,13 @@ impl StartupState {
         self.kept.get(&self.chosen)
     }
 
-    /// Whether `scene` is another one than was started.
+    /// Whether `scene` differs from the scene that was started.
     pub fn stale(&self, scene: &Scene) -> bool {
         !solved_alike(&self.posed.scene, scene)
     }
 }
 
-/// A cycle as the views want it: as a solve of its own.
+/// A cycle in the form that the views draw: as a solve.
 fn as_solved(number: u64, posed: Posed, fidelity: Fidelity, outcome: Outcome, recording: Recording) -> SolvedScene {
     let solution = Solution {
         status: Status::Converged,
@@ -196,7 +197,7 @@ mod tests {
         let numbers: Vec<usize> = kept.keys().copied().collect();
         assert_eq!(numbers.len(), 10);
         assert!(numbers.starts_with(&[1, 2, 3]) && numbers.ends_with(&[100]), "{numbers:?}");
-        // One that is too large by itself is still the newest.
+        // A recording that is too large by itself is kept, because it is the newest.
         keep(&mut kept, 101, run(5000), 8000);
         assert_eq!(kept.keys().copied().collect::<Vec<_>>(), [101]);
     }

@@ -14,19 +14,19 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
 
-/// Default keys along x and y, in order of preference; the first that a scene has is taken, or else any that it has.
+/// Default keys along x and y, in order of preference. The first that the scene has is taken; if it has none of them, any key of the scene.
 const FIRST: [&[&str]; 2] = [
     &["plate.frequency_khz", "film.min_spacing_nm", "surface.rms_nm"],
     &["plate.mean_gap_um", "motor.load_per_wave_n", "motor.load_n", "plate.amplitude_um"],
 ];
-/// Points of a line, and along each side of a map.
+/// Default number of points of a line, and along each side of a map.
 const LINE: usize = 25;
 const SIDE: usize = 12;
-/// A default range reaches from a part of the present value to this many times the value.
+/// A default logarithmic range extends from the present value divided by this factor to the value times it.
 const REACH: f64 = 4.0;
 /// Significant digits of its ends.
 const DIGITS: usize = 2;
-/// An end that the scene refuses comes nearer to the present value in this many steps.
+/// An end that the scene refuses is moved towards the present value in this many steps.
 const STEPS: u32 = 24;
 
 /// A varied parameter and its values, as typed.
@@ -51,7 +51,7 @@ impl AxisForm {
         let Some(parameter) = Parameter::find(key) else { return form };
         let (slider, log) = slider_range(scene, parameter);
         let present = scene.get(key).or(parameter.usual()).and_then(|value| value.as_number()).unwrap_or_default();
-        // What is beyond the slider is still allowed.
+        // Values beyond the range of the slider are allowed.
         let range = if present == 0.0 { slider } else { scene.range(key).unwrap_or(slider) };
         let wanted = if log {
             [present / REACH, present * REACH]
@@ -93,7 +93,7 @@ impl AxisForm {
     }
 }
 
-/// The nearest to `end` on the way from `present` that a scene can have, in few digits.
+/// The value nearest to `end` between `present` and `end` that the scene accepts, rounded to few digits.
 fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range: Range) -> f64 {
     let fits = |value: f64| {
         let mut next = scene.clone();
@@ -112,7 +112,7 @@ fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range:
 /// The form of the sweep tab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// Along x and, for a map, along y, which is kept while it is not asked for.
+    /// Along x and, for a map, along y. The axis along y is kept while it is not used.
     pub axes: [AxisForm; 2],
     /// Whether a second parameter is varied.
     pub second: bool,
@@ -137,14 +137,14 @@ impl Form {
         &self.axes[..if self.second { 2 } else { 1 }]
     }
 
-    /// Default number of values of another parameter.
+    /// Default number of values along an axis.
     pub fn usual_count(&self) -> usize {
         if self.second { SIDE } else { LINE }
     }
 
-    /// Whether a second parameter is varied from now on.
+    /// Sets whether a second parameter is varied.
     pub fn set_second(&mut self, second: bool) {
-        // A map as fine along x as a line would take its time.
+        // A map with as many points along x as a line would take too long.
         let usual = [LINE.to_string(), SIDE.to_string()];
         let [old, new] = if second { [&usual[0], &usual[1]] } else { [&usual[1], &usual[0]] };
         if self.axes[0].count == *old {
@@ -154,7 +154,7 @@ impl Form {
     }
 }
 
-/// Whether a scene has a number of this key that can be varied.
+/// Whether the scene has a number of this key that can be varied.
 pub fn varies(scene: &Scene, key: &str) -> bool {
     candidates(scene).any(|parameter| parameter.key == key)
 }
@@ -171,7 +171,7 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
 pub struct Swept {
     /// The sweep.
     pub sweep: Arc<Sweep>,
-    /// The rows there are, in the order of the points.
+    /// The rows that are solved, in the order of the points.
     pub rows: Vec<SweepRow>,
     /// Published points of Table I in its plane.
     pub published: Vec<Published>,
@@ -179,7 +179,7 @@ pub struct Swept {
     pub number: u64,
     /// Whether it is running.
     pub running: bool,
-    /// Why it ended before it was done, if it was not cancelled.
+    /// Why it ended too early, if it was not cancelled.
     pub failure: Option<String>,
     started: Instant,
     /// Number of rows when it was begun or continued.
@@ -197,7 +197,7 @@ impl Swept {
         self.rows.len() as f64 / self.sweep.len().max(1) as f64
     }
 
-    /// When it was begun or continued, and the share that was done since.
+    /// When it was begun or continued, and the share that has been done since.
     pub fn since(&self) -> (Instant, f64) {
         (self.started, self.rows.len().saturating_sub(self.before) as f64 / self.sweep.len().max(1) as f64)
     }
@@ -230,7 +230,7 @@ impl Swept {
 pub struct SweepState {
     /// The form; `None` until a scene was shown.
     pub form: Option<Form>,
-    /// The form for the other kind of scene, to come back to.
+    /// The form for the other kind of scene, kept for a later return to it.
     before: Option<Form>,
     /// The scene that the form was checked with; none once the form has changed.
     checked: Option<Scene>,
@@ -240,7 +240,7 @@ pub struct SweepState {
     task: Option<(TaskOf<SweepWork>, Instant)>,
     /// The newest sweep that was begun.
     pub swept: Option<Swept>,
-    /// Why the last sweep that was asked for could not begin.
+    /// Why the last requested sweep could not begin.
     pub refusal: Option<String>,
 }
 
@@ -250,7 +250,7 @@ impl SweepState {
         self.task.is_some() && self.swept.as_ref().is_none_or(|swept| !swept.running)
     }
 
-    /// The quantity to draw: the chosen one or a default, `among` those that there are.
+    /// The quantity to draw, one of `among`: the chosen one, or a default.
     pub fn quantity(&self, among: &[Quantity]) -> Quantity {
         let mut wanted = self.quantity.into_iter().chain(Quantity::HEADLINES);
         wanted.find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
@@ -320,7 +320,7 @@ impl SweepState {
                 }
             }
         }
-        // Once for all that came in: the rows of a large map are better not moved for each of them.
+        // All rows that have arrived are merged at once, because moving the rows of a large map for each of them takes long.
         if came_in {
             self.swept.iter_mut().for_each(|swept| swept.rows.sort_by_key(|row| row.point));
         }
@@ -338,7 +338,7 @@ impl SweepState {
         }
     }
 
-    /// Asks it to end.
+    /// Cancels the sweep.
     pub fn cancel(&self) {
         if let Some((task, _)) = &self.task {
             task.cancel();
@@ -425,7 +425,7 @@ mod tests {
         let form = sweeps.form.as_ref().unwrap();
         assert!(form.axes[0].key == "plate.frequency_khz" && form.second, "{form:?}");
         assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
-        // Back at a motor, what was asked for of one is there again.
+        // Back at a motor, its own form is there again.
         sweeps.review(&motor);
         assert_eq!(sweeps.form.as_ref().unwrap().axes[0].from, "50");
     }
@@ -435,7 +435,7 @@ mod tests {
         let scene = presets::find("fundamental").unwrap();
         let mut sweeps = SweepState::default();
         sweeps.review(&scene);
-        // What a check would replace.
+        // This text would be replaced by a check.
         let seen = vec![Some("checked before".to_owned())];
         sweeps.faults.clone_from(&seen);
         sweeps.draw(Quantity::FilmLoad);

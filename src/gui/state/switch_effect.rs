@@ -6,10 +6,10 @@ use crate::job::SolvedScene;
 use crate::plan::Decision;
 use crate::solution::Outcome;
 
-/// Change below which nothing is said about its sign, relative.
+/// Relative change below which its sign is not shown.
 const NOTHING: f64 = 1e-12;
 
-/// α at one fidelity, and what was decided for it.
+/// α at one fidelity, and the decisions that were made for it.
 #[derive(Clone, Debug, PartialEq)]
 struct Sample {
     fidelity: Fidelity,
@@ -29,20 +29,20 @@ pub struct SwitchEffect {
     pub before: f64,
     /// α after.
     pub after: f64,
-    /// The stated numerical errors of both, together, absolute.
+    /// The sum of the stated numerical errors of both results, absolute.
     pub errors: f64,
     /// Relative bound of the change, as stated by the plan; 0 is exact.
     pub bound: f64,
 }
 
 impl SwitchEffect {
-    /// The change, relative to what it was.
+    /// The change of α, relative to its value before.
     pub fn relative(&self) -> f64 {
         let change = (self.after - self.before) / self.before.abs().max(f64::MIN_POSITIVE);
         if change.abs() < NOTHING { 0.0 } else { change }
     }
 
-    /// Whether it is within the bound and the numerical errors.
+    /// Whether the change is within the bound and the numerical errors.
     pub fn held(&self) -> bool {
         (self.after - self.before).abs() <= self.bound * self.before.abs() + self.errors
     }
@@ -56,23 +56,23 @@ pub struct SwitchHistory {
 }
 
 impl SwitchHistory {
-    /// Forgets all results: the scene has changed by something else than a switch.
+    /// Forgets all results, because the scene was changed by something other than a switch.
     pub fn edited(&mut self) {
         self.present.clear();
         self.switched = None;
     }
 
-    /// Nothing but the model's `key` has been switched.
+    /// Notes that only the model's `key` was switched.
     pub fn switched(&mut self, key: &'static str) {
         let before = std::mem::take(&mut self.present);
         match &self.switched {
-            // Switched on before there was a result: what is compared with stays.
+            // If the key is switched again before there is a result, the results for comparison stay the same.
             Some((same, _)) if *same == key && before.is_empty() => {}
             _ => self.switched = Some((key, before)),
         }
     }
 
-    /// There is a result of the present scene.
+    /// Adds a result of the present scene.
     pub fn solved(&mut self, run: &SolvedScene) {
         let Outcome::Motor(result) = run.solution.outcome else { return };
         self.present.retain(|sample| sample.fidelity != run.fidelity);
@@ -90,7 +90,7 @@ impl SwitchHistory {
         let same = |sample: &&Sample| before.iter().any(|old| old.fidelity == sample.fidelity);
         let after = self.present.iter().filter(same).max_by_key(|sample| sample.fidelity)?;
         let before = before.iter().find(|old| old.fidelity == after.fidelity)?;
-        // Each states what it leaves out; between two reductions both count.
+        // Each states the effect of what it leaves out; between two reductions both effects count.
         let effect = |sample: &Sample| {
             let decided = sample.decisions.iter().find(|decision| decision.key() == Some(*key));
             decided.map_or(0.0, |decision| decision.effect)

@@ -1,4 +1,4 @@
-//! The tour of the first start: four stops, each a part of the window and a few words about it.
+//! The tour at the first start: four stops, each a part of the window with a short text.
 
 /// A stop.
 #[derive(Clone, Copy, Debug)]

@@ -10,7 +10,7 @@ use crate::problem::Numerics;
 use crate::scene::Scene;
 use crate::solve::{Method, Settings};
 
-/// Name of the window's own setting, if it is none of the others.
+/// Name of the window's present setting, if it is none of the listed ones.
 const PRESENT: &str = "present setting";
 
 /// A measurement, under way or ended.
@@ -43,21 +43,21 @@ impl TradeoffState {
         found.into_iter().for_each(|runs| self.tradeoff = Tradeoff::of(&runs));
     }
 
-    /// Whether `scene` is another one than was measured. Its grid does not matter: each setting brings its own.
+    /// Whether `scene` differs from the scene that was measured. Its grid does not matter, because each setting has its own.
     pub fn stale(&self, scene: &Scene) -> bool {
         !self.scene.same_model(scene) || without_grid(&self.scene.numerics()) != without_grid(&scene.numerics())
     }
 }
 
-/// Whether the window solves with just this setting: `target`, and a scene's `numerics`.
+/// Whether the window solves with exactly this setting: `target`, and a scene's `numerics`.
 pub fn is_present(candidate: &Candidate, target: Fidelity, numerics: Numerics) -> bool {
-    // The window never uses the nodes of the paper's contact.
+    // The window never uses the contact nodes of the paper's method.
     let ours = |numerics: Numerics| Numerics { contact_nodes: None, ..numerics };
     let settings = candidate.settings;
     settings.method == Method::Auto && settings.fidelity == target && ours(candidate.numerics) == ours(numerics)
 }
 
-/// Adds the present setting to what is measured, if it is not there.
+/// Adds the present setting to the settings to be measured, if it is not among them.
 pub fn with_present(candidates: &mut Vec<Candidate>, target: Fidelity, numerics: Numerics) {
     if !candidates.iter().any(|candidate| is_present(candidate, target, numerics)) {
         let settings = Settings { fidelity: target, ..Settings::default() };

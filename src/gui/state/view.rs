@@ -50,23 +50,23 @@ impl Tab {
         if self == Self::Torque && plate { "Exact" } else { name }
     }
 
-    /// The tab of this name, as lessons and links have it: its label, in small letters or capitals.
+    /// The tab of this name, as lessons and links write it: its label, in upper or lower case.
     pub fn named(name: &str) -> Option<Self> {
         let is = |tab: &Self| [true, false].iter().any(|plate| tab.label(*plate).eq_ignore_ascii_case(name));
         Self::ALL.iter().map(|(tab, _)| *tab).find(is)
     }
 
-    /// Whether there is something to see in it: only a plate can be held, and only a motor has a rotor.
+    /// Whether the tab has content for this kind of scene: only a plate can be held, and only a motor has a rotor.
     pub fn is_of(self, plate: bool) -> bool {
         self != if plate { Self::Rotor } else { Self::Hold }
     }
 
-    /// Whether it has a label: a plate has no rotor, but where a motor is shown, the tab to hold a plate offers one.
+    /// Whether the tab is listed: for a plate there is no rotor tab, but for a motor the tab Hold offers to open a plate.
     pub fn is_listed(self, plate: bool) -> bool {
         self != Self::Rotor || !plate
     }
 
-    /// Whether something moves in it.
+    /// Whether the tab has an animation.
     pub fn moves(self) -> bool {
         matches!(self, Self::Motion | Self::Compare | Self::Startup | Self::Hold)
     }
@@ -77,13 +77,13 @@ impl Tab {
 pub struct View {
     /// The tab that is shown.
     pub tab: Tab,
-    /// Error that is asked for in the trade-off, a share of the value.
+    /// Accuracy target of the trade-off, as a share of the value.
     pub accuracy: f64,
-    /// Time that is asked for in the trade-off \[s\].
+    /// Time target of the trade-off \[s\].
     pub budget: f64,
     /// Phase of the cycle shown, 0 ≤ phase < 1.
     pub phase: f64,
-    /// Whole cycles played so far, for the turning of the rotor.
+    /// Whole cycles played so far, from which the rotation of the rotor follows.
     pub cycles: f64,
     /// Whether the animation runs.
     pub playing: bool,
@@ -95,11 +95,11 @@ pub struct View {
     pub parameters: bool,
     /// Whether the results are shown.
     pub results: bool,
-    /// x under the pointer in any view \[m\], read out by all of them.
+    /// x under the pointer in any view \[m\]; all views show their values there.
     pub cursor_x: Option<f64>,
     /// Direction that the ring is seen from.
     pub orbit: Orbit,
-    /// Number of scenes opened so far: panels scroll to the top for each.
+    /// Number of scenes opened so far; the panels scroll to the top when it changes.
     pub opened: u64,
 }
 
@@ -123,11 +123,11 @@ impl Default for View {
     }
 }
 
-/// Part of a frame that is rounding.
+/// Share of a frame that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
 impl View {
-    /// The present instant in frames, 0 ≤ place < frames: whole on a recorded frame, between two of them otherwise.
+    /// The present instant in frames, 0 ≤ place < frames: whole at a recorded frame, otherwise between two frames.
     pub fn place(&self, recording: &Recording) -> f64 {
         let frames = recording.frames.max(1) as f64;
         let place = self.phase.rem_euclid(1.0) * frames;

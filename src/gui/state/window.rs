@@ -33,16 +33,16 @@ use std::time::Duration;
 
 const RECENT: usize = 10;
 
-/// All that is drawn, and all that commands change.
+/// Everything that is drawn, and that commands change.
 #[derive(Debug, Default)]
 pub struct State {
     /// The scene being edited.
     pub document: Document,
     /// The problem that the scene poses, checked and in SI units; `None` if it is refused.
     pub problem: Option<Problem>,
-    /// The most time that a solve may take, if that is limited: then the best so far is shown.
+    /// The time limit of a solve, if there is one; after it, the best result so far is shown.
     pub budget: Option<Duration>,
-    /// Edits that the scene did not take.
+    /// Edits that were rejected.
     pub rejected: RejectedEdits,
     /// The run on screen.
     pub run: Option<Arc<SolvedScene>>,
@@ -78,7 +78,7 @@ pub struct State {
     pub dropped: Option<Dropped>,
     /// The plate that is held, once its tab was shown.
     pub hold: Option<HoldState>,
-    /// Purpose and path of the last file that could not be opened or saved, for the next prompt.
+    /// Purpose and path of the last file that could not be opened or saved, to be suggested in the next prompt.
     pub failed_path: Option<(Purpose, String)>,
     /// Answers from which a new motor was last made.
     pub new_motor: Answers,
@@ -86,7 +86,7 @@ pub struct State {
     pub making: Background<(), Scene>,
     /// The modal dialog, if one is open.
     pub modal: Option<Modal>,
-    /// The dialog that an error is shown over: it is open again once the error is closed.
+    /// The dialog below an error message; it is open again when the error is closed.
     pub covered: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
     pub shortcuts: bool,
@@ -96,7 +96,7 @@ pub struct State {
     pub dark: bool,
     /// Whether text is as large as a lecture room needs it.
     pub lecture: bool,
-    /// Whether the window is about to close, with nothing left to ask.
+    /// Whether the window is about to close, with no question left to answer.
     pub quitting: bool,
 }
 
@@ -135,12 +135,12 @@ impl State {
         self.fit.torques(self.opened())
     }
 
-    /// A motor that was made of answers since the last time, or why it was not.
+    /// A motor that was made from the answers since the last call, or why it could not be made.
     pub fn made(&mut self) -> Option<Result<Scene, String>> {
         self.making.news().end?.transpose()
     }
 
-    /// The plate in the hand, while it is what moves in the middle.
+    /// The held plate, if it is what is animated in the present tab.
     pub fn held(&mut self) -> Option<&mut HoldState> {
         self.hold.as_mut().filter(|_| self.view.tab == Tab::Hold)
     }
@@ -150,7 +150,7 @@ impl State {
         let pinned = || self.pins.runs.iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
         let recording = match self.view.tab {
             Tab::Motion => self.run.as_ref().map(|run| &run.solution.recording),
-            // A plate that is dropped has charts over its whole fall.
+            // The charts of a plate that is dropped show its whole fall.
             Tab::Startup if self.document.scene().floats() => None,
             Tab::Startup => self.startup.as_ref().and_then(StartupState::run).map(|run| &run.solution.recording),
             Tab::Compare if self.pins.page == Page::Fields => pinned(),
@@ -159,19 +159,19 @@ impl State {
         recording.filter(|recording| recording.frames > 0)
     }
 
-    /// The shortest and the longest period of what moves with `recording` \[s\]: pinned runs need not have the same.
+    /// The shortest and the longest period of the runs that are animated with `recording` \[s\]: the periods of pinned runs may differ.
     pub fn periods(&self, recording: &Recording) -> [f64; 2] {
         let pinned = self.pins.runs.iter().filter(|_| self.view.tab == Tab::Compare);
         let periods = pinned.filter_map(|run| Some(run.solved.as_ref().ok()?.recording.period));
         periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
     }
 
-    /// Whether `run` is of another scene than the present one.
+    /// Whether `run` belongs to another scene than the present one.
     pub fn stale(&self, run: &SolvedScene) -> bool {
         !solved_alike(&run.scene, self.document.scene())
     }
 
-    /// Whether the newest scene is still without a result, and without a reason why.
+    /// Whether the present scene has no result yet, and no reason for a missing one.
     pub fn awaits_result(&self) -> bool {
         self.run.as_ref().is_none_or(|run| run.number < self.activity.number) && self.activity.failure.is_none()
     }
@@ -191,7 +191,7 @@ impl State {
         }
     }
 
-    /// Whether there is what `export` writes.
+    /// Whether the data that `export` writes are there.
     pub fn can_export(&self, export: Export) -> bool {
         match export {
             Export::Data | Export::Figures | Export::Fields | Export::Report => self.run.is_some(),
@@ -213,12 +213,12 @@ impl State {
         }
     }
 
-    /// Work that was asked for and would be lost if the window closed now, in words.
+    /// Descriptions of running work that would be lost if the window closed now.
     pub fn unfinished(&self) -> Vec<String> {
         let export = self.exports.running.as_ref().map(|running| format!("An export: {}", running.export.title()));
         let swept = self.sweep.swept.as_ref().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
-        let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
+        let building = self.sweep.building().then(|| "A sweep: its points are being built".to_owned());
         let fit = self.fit.work.running().then(|| "A fit".to_owned());
         let measured = self.tradeoff.as_ref().is_some_and(|measured| measured.work.running());
         let tradeoff = measured.then(|| "A measurement of the trade-off".to_owned());
@@ -226,7 +226,7 @@ impl State {
         export.into_iter().chain(sweep).chain(building).chain(fit).chain(tradeoff).chain(sensitivity).collect()
     }
 
-    /// The file that is suggested for `purpose`; empty if it is one that is there already.
+    /// The suggested file name for `purpose`; empty for a file that exists already.
     pub fn suggested_path(&self, purpose: &Purpose) -> String {
         match (purpose, self.document.path()) {
             (Purpose::Save(_), Some(path)) => path.display().to_string(),

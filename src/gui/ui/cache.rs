@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 const MADE: &str = "squeezefilm, made";
 
-/// Result of `make`, kept under `name` until `key` changes.
+/// The result of `make`, cached under `name` until `key` changes.
 pub fn once<K: PartialEq + Send + Sync + 'static, T: Send + Sync + 'static>(
     ui: &Ui,
     name: &str,

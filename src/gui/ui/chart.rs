@@ -1,4 +1,4 @@
-//! Charts of the tabs: a panel as figures describe it, with its axes, names and legend.
+//! Charts of the tabs: a panel as in exported figures, with its axes, names and legend.
 
 use super::glossary::{self, Explained};
 use super::hint::{Hint, text_width};
@@ -12,33 +12,34 @@ use egui_plot::{
     AxisHints, GridInput, GridMark, HoverPosition, LineStyle, MarkerShape, Plot, PlotResponse, PlotTransform, PlotUi,
 };
 
-/// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
+/// Width of the column of numbers at the left of a chart, in heights of the text. All charts have the same, so that charts below each other
+/// are aligned.
 const NUMBERS: f32 = 3.6;
-/// A number at the left at most every so many heights of the text.
+/// Least distance between numbers at the left axis, in heights of the text.
 const NUMBER_EVERY: f32 = 2.6;
-/// A number below at most every so many.
+/// Least distance between numbers at the axis below, in heights of the text.
 const COLUMN_EVERY: f32 = 4.5;
-/// Share of an axis within which a zero is in the corner.
+/// Share of an axis within which a zero counts as in the corner.
 const CORNER: f64 = 0.02;
 /// Width of a line of a tab.
 const WIDTH: f32 = 2.0;
-/// Significant digits of a value of a logarithmic axis, or of one that is pointed at.
+/// Significant digits of a value on a logarithmic axis, or under the pointer.
 const DIGITS: usize = 4;
-/// Values of a logarithmic axis up to this many decades from 1 are written out.
+/// Values on a logarithmic axis up to this many decades from 1 are written without a power of ten.
 const PLAIN_DECADES: f64 = 3.5;
-/// Pixels of a point of a figure.
+/// Pixels on screen for one point of a figure.
 const POINT: f32 = 1.8;
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
-/// A chart of a tab, over its whole width, whose axes are explained on hover: a panel as figures describe it, in the colours of the window.
-/// Points that have a name tell their values; other values are read below it.
+/// A chart over the whole width of a tab: a panel as in exported figures, in the colours of the window. Its axes are explained on hover,
+/// and points that have a name show their values on hover.
 pub(super) struct Chart<'n> {
     /// Unique name, also read by screen readers.
     pub(super) name: &'n str,
     /// Its height, with the axis below.
     pub(super) height: f32,
-    /// Axes, and what is drawn, but for maps. Axes have these ranges until they are zoomed.
+    /// Axes, and all layers except maps. The axes have the ranges of the panel until they are zoomed.
     pub(super) panel: &'n Panel,
     /// Glossary terms of the axis below, if it has one, and of the axis at the left.
     pub(super) words: (Option<&'n str>, &'n str),
@@ -49,7 +50,7 @@ impl<'n> Chart<'n> {
         self.show_with(ui, |plot| plot);
     }
 
-    /// As [`Self::show`], with changes to the plot; the x that is pointed at.
+    /// As [`Self::show`], with changes to the plot. Returns the x under the pointer.
     pub(super) fn show_with(self, ui: &mut egui::Ui, change: impl FnOnce(Plot<'n>) -> Plot<'n>) -> Option<f64> {
         self.show_over(ui, change, |_| ()).inner
     }
@@ -69,7 +70,7 @@ impl<'n> Chart<'n> {
         let columns = f64::from((whole.width() / (COLUMN_EVERY * em)).max(1.0));
         let ends = ends(panel);
         let bounds = [ends[0].map(|end| x.scale.place(end)), ends[1].map(|end| y.scale.place(end))];
-        // One zero is enough for both axes.
+        // If both axes have a zero in the corner, one of the two is enough.
         let zeros = ends[0][0] == 0.0 && ends[1][0] == 0.0;
         let named = y.names.iter().map(|(_, name)| text_width(ui, name) + 0.8 * em).fold(NUMBERS * em, f32::max);
         let below = if x.unit.is_empty() { x.label.clone() } else { format!("{}, {}", x.label, x.unit) };
@@ -123,7 +124,7 @@ fn axis_marks(axis: &Axis, input: &GridInput, most: f64) -> Vec<GridMark> {
         Scale::Log => log_marks([from, to], most),
         Scale::Linear if least.is_finite() && least > 0.0 => {
             let found = marks(Steps::apart([from, to], least));
-            // One number beside the corner, where zero may be left out, has no scale.
+            // One number beside the corner, where zero may be left out, does not show a scale.
             let corner = from + CORNER * (to - from);
             let alone = !axis.whole && found.iter().filter(|mark| mark.value > corner).count() < 2;
             if alone { marks(Steps::several([from, to], corner, most.max(2.0) as usize, 2.0 * most)) } else { found }
@@ -185,14 +186,14 @@ fn draw(plot: &mut PlotUi<'_>, panel: &Panel, layer: &Layer, visuals: &Visuals) 
     }
 }
 
-/// Curves and areas are interrupted by what is not a number on its axis.
+/// Curves and areas are interrupted where a value is not a number on its axis.
 fn pieces<const N: usize>(points: impl Iterator<Item = [f64; N]>) -> Vec<Vec<[f64; N]>> {
     let points: Vec<[f64; N]> = points.collect();
     let pieces = points.split(|point| !point.iter().all(|part| part.is_finite()));
     pieces.filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
 
-/// Names of places, where figures have them.
+/// Draws the names of points at the places where exported figures have them.
 fn names(ui: &egui::Ui, panel: &Panel, at: &PlotTransform) {
     let (frame, bounds, colour) = (*at.frame(), at.bounds(), ui.visuals().text_color());
     let painter = ui.painter_at(frame);
@@ -233,12 +234,12 @@ fn shape(shape: Shape) -> MarkerShape {
     }
 }
 
-/// A title above a chart, with its unit, which the glossary explains under `word`.
+/// A title above a chart, with its unit; the glossary explains it under `word`.
 pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
     ui.add(egui::Label::new(RichText::new(text).strong()).wrap()).explained_here(ui, word);
 }
 
-/// The names of what panels draw, each once, which the glossary knows.
+/// A legend: the name of each layer of the panels, once, with its glossary term.
 pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
     let mut entries: Vec<(&str, Colour, &Layer)> = Vec::new();
     for layer in panels.iter().flat_map(|panel| &panel.layers) {
@@ -262,7 +263,7 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
             let galley = ui.painter().layout_no_wrap(name.to_owned(), font.clone(), text);
             let em = galley.size().y;
             let indent = (SAMPLE + 0.35) * em;
-            // An entry is a whole that goes to the next line.
+            // An entry is not broken between lines.
             let size = vec2(indent + galley.size().x + 0.5 * em, em);
             let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
             response.called(egui::Role::Label, name).explained_here(ui, name);
@@ -271,7 +272,7 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
             match layer {
                 Layer::Line(figure::Line { style, .. }) | Layer::Mark(Mark { style, .. }) => {
                     let ends = [left, left + vec2(SAMPLE * em, 0.0)];
-                    // A solid one is one dash.
+                    // A solid line is drawn as one dash.
                     let dash = match dashes(style.dash) {
                         LineStyle::Solid => LineStyle::Dashed { length: 1e6 },
                         dash => dash,
@@ -307,7 +308,8 @@ pub(super) fn legend(ui: &mut egui::Ui, panels: &[&Panel]) {
     });
 }
 
-/// Marks of an axis of log₁₀ at round numbers, about `most`: equal steps, where the logarithm has them, if there are few powers of ten.
+/// Marks of an axis of log₁₀ at round numbers, about `most`. If there are few powers of ten, they have equal steps where the logarithm has
+/// such numbers.
 fn log_marks(range: [f64; 2], most: f64) -> Vec<GridMark> {
     let found: Vec<f64> = match decades(range, most as usize) {
         Some(numbers) => {
@@ -318,7 +320,7 @@ fn log_marks(range: [f64; 2], most: f64) -> Vec<GridMark> {
             steps.values().filter(|value| *value > 0.0).map(f64::log10).collect()
         }
     };
-    // A step is what is free beside a mark.
+    // The step of a mark is the free space beside it.
     let gap = |pair: &[f64]| (pair[1] - pair[0]).abs();
     let free = |i: usize| found[i.saturating_sub(1)..(i + 2).min(found.len())].windows(2).map(gap).fold(1.0, f64::min);
     found.iter().enumerate().map(|(i, value)| GridMark { value: *value, step_size: free(i) }).collect()
@@ -376,7 +378,7 @@ mod tests {
             assert!(rects[..i].iter().all(|other| !other.intersects(*rect)), "{names:?}");
             let point = egui::pos2(150.0 * x as f32, 150.0 - 75.0 * y as f32);
             assert!(rect.distance_to_pos(point) < 25.0, "{names:?}");
-            // One that is farther from its point than the others has a line to it.
+            // A name that is farther from its point than the others has a line to it.
             assert_eq!(names[i].2.is_some(), rect.distance_to_pos(point) > 8.0, "{names:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! The context that every drawing function is given.
+//! The context that every drawing function receives.
 
 use super::highlight;
 use super::hint::Hint;
@@ -33,17 +33,17 @@ impl<'a> DrawContext<'a> {
         Self { state, colours: palette(state.dark), now, commands, pointed_x: Cell::default() }
     }
 
-    /// Asks for `command`, which is carried out when all is drawn.
+    /// Requests `command`, which is carried out after drawing.
     pub fn push(&self, command: impl Into<Command>) {
         self.commands.borrow_mut().push(command.into());
     }
 
-    /// The pointer is at this x of a view \[m\].
+    /// Requests that the pointer is at this x of a view \[m\].
     pub fn point_at(&self, x: f64) {
         self.pointed_x.set(Some(x));
     }
 
-    /// All commands, including one if the pointer has moved to another x.
+    /// All commands, with one more if the pointer has moved to another x.
     pub fn into_commands(self) -> Vec<Command> {
         let mut commands = self.commands.into_inner();
         let pointed = self.pointed_x.get();
@@ -53,7 +53,7 @@ impl<'a> DrawContext<'a> {
         commands
     }
 
-    /// Text over as many lines as it takes.
+    /// Text, wrapped.
     pub fn say(&self, ui: &mut Ui, text: impl Into<String>, colour: Color32) {
         ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
     }
@@ -65,13 +65,13 @@ impl<'a> DrawContext<'a> {
 
     /// The warnings of a computation, a paragraph each.
     pub fn warn(&self, ui: &mut Ui, warnings: &[String]) {
-        // One that begins with a key keeps it as it is written.
+        // A warning that begins with a key keeps the key as it is written.
         let begins_with_key = |text: &str| text.split(' ').next().is_some_and(|word| word.contains('.'));
         let text = |text: &String| if begins_with_key(text) { text.clone() } else { capitalised(text) };
         self.alarm(ui, warnings.iter().map(|warning| raised(&text(warning))));
     }
 
-    /// Secondary text over as many lines as it takes.
+    /// Secondary text, wrapped.
     pub fn note(&self, ui: &mut Ui, text: impl Into<String>) {
         self.say(ui, text, self.colours.quiet);
     }
@@ -85,32 +85,32 @@ impl<'a> DrawContext<'a> {
         }
     }
 
-    /// Asks for `command` if `response` was clicked.
+    /// Requests `command` if `response` was clicked.
     pub fn on_click(&self, response: &Response, command: impl Into<Command>) {
         if response.clicked() {
             self.push(command);
         }
     }
 
-    /// Asks for `command` if what `response` is of was changed.
+    /// Requests `command` if the widget of `response` was changed.
     pub fn on_change(&self, response: &Response, command: impl Into<Command>) {
         if response.changed() {
             self.push(command);
         }
     }
 
-    /// A button that asks for `command`; `about` is told on hover.
+    /// A button that requests `command`; `about` is shown on hover.
     pub fn button(&self, ui: &mut Ui, text: &str, about: impl Into<String>, command: impl Into<Command>) {
         self.on_click(&ui.button(text).hint(about), command);
     }
 
-    /// As [`Self::button`], small, and called `name` by screen readers.
+    /// As [`Self::button`], but small, and with the name `name` for screen readers.
     pub fn small_button(&self, ui: &mut Ui, (text, about): (&str, &str), name: &str, command: impl Into<Command>) {
         self.on_click(&ui.small_button(text).hint(about).accessible_name(name), command);
     }
 
-    /// A progress bar: the share done, 0 to 1, with words, and the time that is left if the rest goes as the share that was done `since` a
-    /// moment.
+    /// A progress bar: the share done, 0 to 1, with words, and the remaining time. It assumes that the work goes on as fast as it has gone
+    /// `since` a moment and the share that was done then.
     pub fn progress(&self, ui: &mut Ui, width: f32, share: f64, words: &str, since: Option<(Instant, f64)>) {
         let since = since.filter(|(_, done)| *done > 0.0 && share < 1.0);
         let left = since.map_or_else(String::new, |(start, done)| {
@@ -118,17 +118,17 @@ impl<'a> DrawContext<'a> {
             format!(", {} left", rough(spent * (1.0 - share) / done))
         });
         ui.add(egui::ProgressBar::new(share as f32).desired_width(width).text(format!("{words}{left}")));
-        // What is left grows less even while nothing new is told.
+        // The remaining time counts down even while there is no new progress.
         ui.ctx().request_repaint_after(Duration::from_secs(1));
     }
 
-    /// Shows a note if `run` is not of the present scene. Returns whether it is not.
+    /// Shows a note if `run` belongs to another scene than the present one. Returns whether it does.
     pub fn say_if_stale(&self, ui: &mut Ui, run: &SolvedScene) -> bool {
         let stale = self.state.stale(run);
         if stale && self.state.activity.failure.is_some() {
-            self.alarm(ui, ["Of the scene before this edit; the present one has no result"]);
+            self.alarm(ui, ["Result of the scene before this edit; the present scene has none"]);
         } else if stale {
-            self.note(ui, "Of the scene before this edit");
+            self.note(ui, "Result of the scene before this edit");
         }
         stale
     }

@@ -1,4 +1,4 @@
-//! The choice of a fidelity: one of the four names, or an accuracy that is typed; and of the time that a solve may take.
+//! The choice of a fidelity, one of four names or a typed accuracy, and of the time limit of a solve.
 
 use super::context::DrawContext;
 use super::glossary::Explained;
@@ -12,7 +12,7 @@ use eframe::egui::{ComboBox, Id, Key, PopupCloseBehavior, Response, TextEdit, To
 const FIELD: f32 = 72.0;
 const LIST: f32 = 190.0;
 
-/// The fields of a list, by what follows its own name.
+/// The fields of a list; each identifier is appended to that of the list.
 const ACCURACY: &str = "accuracy";
 const BUDGET: &str = "budget";
 
@@ -21,15 +21,15 @@ pub fn choose(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext
     list(ui, (id, None), present.to_string(), |ui| fidelities(ui, id, present, cx))
 }
 
-/// As [`choose`], of all that is solved from now on, with a field for the most time that a solve may take.
+/// As [`choose`], for all later solves, with a field for the time limit of a solve.
 pub fn choose_target(ui: &mut Ui, present: Fidelity, width: f32, cx: &DrawContext<'_>) -> (Response, Option<Fidelity>) {
     const ID: &str = "target";
     let budget = cx.state.budget.map(|budget| format!("{budget:?}"));
     let shown = budget.as_ref().map_or_else(|| present.to_string(), |budget| format!("{present}, within {budget}"));
     list(ui, (ID, Some(width)), shown, |ui| {
         let chosen = fidelities(ui, ID, present, cx);
-        let hint = "The most time that a solve may take, such as 20ms or 1.5s: then the best so far is shown. \
-                    Empty for as long as it takes";
+        let hint = "The longest time that a solve may take, such as 20ms or 1.5s; after it, the best result so far is shown. \
+                    Leave it empty for no limit";
         let read = |text: &str| if text.trim().is_empty() { Ok(None) } else { parse_duration(text).map(Some) };
         let field = Field { label: "in at most", name: "Time for a solve", example: "any time", hint };
         if let Some(budget) = field.show(ui, (ID, BUDGET), budget.unwrap_or_default(), read, cx) {
@@ -39,7 +39,7 @@ pub fn choose_target(ui: &mut Ui, present: Fidelity, width: f32, cx: &DrawContex
     })
 }
 
-/// The combo box, and the choice made in its list. Text typed there is forgotten when it closes.
+/// The combo box. Returns the choice made in its list. Text typed there is dropped when the list closes.
 fn list(
     ui: &mut Ui,
     (id, width): (&'static str, Option<f32>),
@@ -82,10 +82,10 @@ fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext
     chosen.or(typed.map(Fidelity::to)).filter(|fidelity| *fidelity != present)
 }
 
-/// Text of a field, and why it was refused, if it was.
+/// Text of a field, with the reason if it was refused.
 type Typed = (String, Option<String>);
 
-/// A field whose text is taken when it is left.
+/// A field whose text is committed when the field loses the focus.
 struct Field {
     label: &'static str,
     name: &'static str,
@@ -94,7 +94,7 @@ struct Field {
 }
 
 impl Field {
-    /// The value typed in place of `present`, once it is read; text that cannot be read stays, with the reason beside it.
+    /// The value that was typed to replace `present`, once it can be read; other text stays, with the reason beside it.
     fn show<T>(
         &self,
         ui: &mut Ui,

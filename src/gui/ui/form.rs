@@ -1,4 +1,4 @@
-//! Parts of forms: a field, a list to choose from, and a parameter with two values between which it is varied or chosen.
+//! Parts of forms: a field, a list, and a row with a parameter and the two ends of its range.
 
 use super::context::DrawContext;
 use super::hint::Hint;
@@ -11,19 +11,19 @@ use eframe::egui::{Button, ComboBox, Key, Response, RichText, Role, TextEdit, Te
 /// Width of the list of parameters, in heights of the text.
 const PARAMETERS: f32 = 11.0;
 
-/// A field for a line of text, called `name`, which says `empty` while there is none. The width is in heights of the text.
+/// A field for a line of text with the name `name`; `empty` is its placeholder. The width is in heights of the text.
 pub(super) fn field(ui: &mut Ui, (name, about): (&str, &str), (text, empty): (&mut String, &'static str), width: f32) {
     let width = width * ui.text_style_height(&TextStyle::Body);
     let response = ui.add(TextEdit::singleline(text).desired_width(width).hint_text(empty));
     response.called(Role::TextInput, name).hint(about);
 }
 
-/// Shows the `entries` of a list, and returns its box. It closes when Enter or the space bar takes an entry, as it does after a click; then the
-/// box has the keyboard again.
+/// Shows the `entries` of a list, and returns its box. The list closes when Enter or the space bar chooses an entry, as it does after a
+/// click; then the box gets the keyboard focus again.
 pub(super) fn show_list(ui: &mut Ui, list: ComboBox<'_>, entries: impl FnOnce(&mut Ui)) -> Response {
     let shown = list.show_ui(ui, |ui| {
         entries(ui);
-        // The key that opens the list is pressed on its box, which is in another layer.
+        // The key that opens the list is pressed while the box has the focus; the box is in another layer.
         let pressed = ui.input(|input| [Key::Enter, Key::Space].iter().any(|key| input.key_pressed(*key)));
         let focused = ui.memory(|memory| memory.focused()).filter(|_| pressed);
         let focused = focused.and_then(|id| ui.ctx().read_response(id));
@@ -39,7 +39,7 @@ pub(super) fn show_list(ui: &mut Ui, list: ComboBox<'_>, entries: impl FnOnce(&m
     shown.response
 }
 
-/// A list called `name` that shows what is chosen; `entries` draws what can be. The width of the box is in heights of the text.
+/// A list with the name `name` that shows the present choice; `entries` draws the options. The width of the box is in heights of the text.
 pub(super) fn list(
     ui: &mut Ui,
     id: &str,
@@ -52,18 +52,18 @@ pub(super) fn list(
     show_list(ui, list, entries).called(Role::ComboBox, name).hint(about);
 }
 
-/// A list of the options of a parameter, with what the plan decides if it is left to that; another one is set at once.
+/// A list of the options of a parameter, with the decision of the plan for an automatic choice. A new choice is set at once.
 pub(super) fn choices(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx: &DrawContext<'_>) -> Response {
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
     let name = match cx.state.document.scene().get(parameter.key) {
         Some(Value::Text(name)) => name,
-        // The switch of a run whose scene is of the other kind.
+        // This is the switch of a run of the other kind of scene.
         _ => String::new(),
     };
     let list = ComboBox::from_id_salt(parameter.key).selected_text(chosen(parameter.key, &name, plan));
     show_list(ui, list.width(width).truncate(), |ui| {
         for option in parameter.options() {
-            // A table is chosen by giving its file, below.
+            // The option of a table is chosen by giving its file, below.
             let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
             let possible = !file || *option == name;
             let text = choice(parameter.key, option);
@@ -76,7 +76,7 @@ pub(super) fn choices(ui: &mut Ui, parameter: &'static Parameter, width: f32, cx
     })
 }
 
-/// A parameter with two values, as they are typed.
+/// A parameter with two values, as typed.
 pub(super) struct AxisRow<'a> {
     /// Default number of values when another parameter is chosen.
     pub(super) usual_count: usize,

@@ -4,7 +4,8 @@ use crate::lessons::formula::{Mark, Node, SUM};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
-/// Size of indices and exponents, of the sign of a sum on its own, and of numerator and denominator within text, as shares of the text's.
+/// Sizes relative to the text: of indices and exponents, of the sum sign of a displayed formula, and of numerators and denominators within
+/// text.
 const SCRIPT: f32 = 0.72;
 const SIGN_OF_SUM: f32 = 1.5;
 const FRACTION: f32 = 0.8;
@@ -19,7 +20,7 @@ const RULE: f32 = 0.07;
 /// Letters without a stem.
 const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
 
-/// A formula that is set. Places are relative to its left end on the baseline.
+/// A typeset formula. Positions are relative to the left end of its baseline.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Typeset {
     pub(super) width: f32,
@@ -34,7 +35,7 @@ pub(super) struct Style {
     /// Height of the text \[points\].
     pub(super) size: f32,
     pub(super) colour: Color32,
-    /// On its own: fractions as large as the rest.
+    /// Whether the formula is displayed on a line of its own: its fractions then have the full size.
     pub(super) display: bool,
 }
 
@@ -60,7 +61,7 @@ impl Typeset {
         let mut row = Self::default();
         for (i, node) in nodes.iter().enumerate() {
             let sign = matches!(node, Node::Sign(_));
-            // A minus that begins something is no difference.
+            // A minus sign at the beginning is a sign, not a difference.
             let unary = i == 0 || matches!(nodes[i - 1], Node::Sign(_));
             let room = if sign && !unary { 0.24 * style.size } else { 0.0 };
             row.width += room;
@@ -76,7 +77,7 @@ impl Typeset {
         self.width += width;
     }
 
-    /// Adds `part`, moved; what is wider than the whole widens nothing.
+    /// Adds `part`, shifted; a part that sticks out does not widen the whole.
     fn place(&mut self, part: Self, by: Vec2) {
         self.ascent = self.ascent.max(part.ascent - by.y);
         self.descent = self.descent.max(part.descent + by.y);
@@ -99,7 +100,7 @@ impl Typeset {
         }
     }
 
-    /// Puts a ground of this colour behind a text, a little wider.
+    /// Draws a background of this colour behind a text, a little wider than the text.
     pub(super) fn with_ground(mut self, colour: Color32) -> Self {
         if let Some(Shape::Text(text)) = self.shapes.first() {
             let place = Rect::from_min_size(text.pos, text.galley.size()).expand2(vec2(2.0, 0.0));
@@ -160,11 +161,11 @@ impl Typeset {
         set
     }
 
-    /// A sum on its own, with what it is over below and how far it goes above.
+    /// The sum sign of a displayed formula, with its lower limit below and its upper limit above.
     fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
         let small = style.scaled(SCRIPT);
         let sign = Self::text(painter, SUM, Style { size: SIGN_OF_SUM * style.size, ..style }, false);
-        // Its middle is where those of + and of fractions are.
+        // Its middle is on the line of + signs and fraction bars.
         let drop = 0.5 * (sign.ascent - sign.descent) - AXIS * style.size;
         let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
         let width = sign.width.max(below.width).max(above.width);
@@ -222,7 +223,7 @@ impl Typeset {
 
     fn marked(painter: &Painter, mark: Mark, inside: &[Node], style: Style) -> Self {
         let mut set = Self::of(painter, inside, style);
-        // Clear of a stem, and not far above a letter that has none.
+        // Clear of a stem, and close above a letter without one.
         let low = matches!(inside, [Node::Letter(letter)] if LOW.contains(*letter));
         let top = if low { -0.68 * style.size } else { -set.ascent - 0.2 * style.size };
         set.shapes.push(match mark {
@@ -233,7 +234,7 @@ impl Typeset {
         set
     }
 
-    /// The shapes, with the left end of the baseline moved to `by`.
+    /// The shapes, with the left end of the baseline at `by`.
     pub(super) fn moved(&self, by: Vec2) -> impl Iterator<Item = Shape> + '_ {
         self.shapes.iter().cloned().map(move |mut shape| {
             shape.translate(by);

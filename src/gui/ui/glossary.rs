@@ -1,4 +1,4 @@
-//! The glossary on hover, beside what is pointed at.
+//! Explanations from the glossary, shown on hover beside the widget.
 
 use super::highlight::ring_round;
 use super::rich::{self, Look};
@@ -7,23 +7,23 @@ use crate::lessons::glossary::{Term, find};
 use crate::lessons::text::plain_blocks;
 use eframe::egui::{self, Id, RichText, Ui};
 
-/// The title of a view stands this near to its ring.
+/// The title of a view may be this near to the ring round the view.
 const RING_NEAR: f32 = 24.0;
 /// Widest explanation on hover.
 const WIDTH: f32 = 320.0;
 
 const UNEXPLAINED: &str = "glossary, unexplained";
 
-/// Words that were shown and that the glossary does not have: none, which a test asks for.
+/// Words that were shown and that the glossary lacks. A test checks that there are none.
 pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
     ctx.data(|data| data.get_temp::<Vec<String>>(Id::unique(UNEXPLAINED))).unwrap_or_default()
 }
 
 /// Shows a glossary entry while the pointer rests on a widget.
 pub trait Explained {
-    /// Explains `word` beside the panel that is `ui`.
+    /// Explains `word` on hover, beside the panel `ui`.
     fn explained(self, ui: &Ui, word: &str) -> Self;
-    /// Explains `word` close to it: for the middle of the window.
+    /// Explains `word` on hover, close to the widget: for the middle of the window.
     fn explained_here(self, ui: &Ui, word: &str) -> Self;
 }
 
@@ -37,12 +37,12 @@ impl Explained for egui::Response {
     }
 }
 
-/// Writes `text`, and explains `word` close to it.
+/// Writes `text`, and explains `word` on hover, close to it.
 pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui::Response {
     ui.label(text).explained_here(ui, word)
 }
 
-/// A hover area over a term at `place`, which `id` tells from the same term elsewhere in `ui`.
+/// A hover area over a term at `place`; `id` distinguishes it from the same term elsewhere in `ui`.
 pub fn over(ui: &Ui, place: egui::Rect, word: &str, id: impl egui::AsIdSalt) -> egui::Response {
     let response = ui.interact(place, ui.scope_id().with(("term", word, id)), egui::Sense::hover());
     response.called(egui::Role::Label, &format!("About: {word}"))
@@ -65,7 +65,7 @@ fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Re
         let look = Look::usual(ui);
         rich::blocks(ui, &term.text, look);
     };
-    // What a lesson asks to look at is not covered either.
+    // The part that a lesson highlights is not covered either.
     match panel.or_else(|| ring_round(ui.ctx(), response.rect.expand(RING_NEAR))) {
         Some(rect) => beside_with(rect, response, add),
         None => response.on_hover_ui(add),

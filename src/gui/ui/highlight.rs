@@ -1,4 +1,4 @@
-//! Where parts of the window are, and the ring round one that a lesson or the tour points at.
+//! The positions of the parts of the window, and the ring round a part that a lesson or the tour highlights.
 
 use super::theme::palette;
 use eframe::egui::{Context, CornerRadius, Id, Rect, Stroke, StrokeKind, Ui};
@@ -24,7 +24,7 @@ pub fn place(ctx: &Context, name: &str) -> Option<Rect> {
 
 const RINGS: &str = "highlight, rings";
 
-/// The ring of this frame or the one before that `rect` touches: what pops up there keeps out of it.
+/// A ring of this frame or the one before that `rect` touches: pop-ups stay outside of it.
 pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
     let now = ctx.cumulative_frame_nr();
     let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(Id::unique(RINGS))).unwrap_or_default();

@@ -1,23 +1,23 @@
-//! Explanations on hover, which screen readers get too. In a panel they stand beside it and do not cover the rows around.
-//! And how wide a text is.
+//! Explanations on hover, which screen readers get too. For a panel they are shown beside it, so that they do not cover the rows around the
+//! widget. Also the width of a text.
 
 use eframe::egui::{Color32, Rect, RectAlign, Response, Role, TextStyle, Tooltip, Ui, WidgetInfo};
 
-/// Between the panel and the explanation.
+/// Distance between the panel and the explanation.
 const GAP: f32 = 12.0;
 
-/// Tells screen readers what the pointer is told.
+/// Gives screen readers the explanation that is shown on hover.
 pub fn describe(response: &Response, text: impl FnOnce() -> String) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text()));
 }
 
-/// Something that says what it is while the pointer rests on it.
+/// A widget with an explanation on hover.
 pub trait Hint {
     /// Shows `text` at the widget.
     fn hint(self, text: impl Into<String>) -> Self;
-    /// Shows `text` beside the panel that is `ui`.
+    /// Shows `text` beside the panel `ui`.
     fn hint_beside(self, ui: &Ui, text: &str) -> Self;
-    /// Screen readers call it `name`, in this role.
+    /// Sets the name and the role for screen readers.
     fn called(self, role: Role, name: &str) -> Self;
 }
 
@@ -38,7 +38,7 @@ impl Hint for Response {
     }
 }
 
-/// Shows `text` beside `panel` while the pointer rests on `response`, a widget in it.
+/// Shows `text` beside `panel` while the pointer rests on `response`, a widget in the panel.
 pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
     describe(&response, || text.to_owned());
     beside_with(panel, response, |ui| drop(ui.label(text)))
@@ -46,8 +46,8 @@ pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
 
 /// As [`beside`], with whatever `add` shows.
 pub fn beside_with(panel: Rect, response: Response, add: impl FnOnce(&mut Ui)) -> Response {
-    // egui keeps one open that a question has come over.
-    // What is dragged shows in the views, which an explanation would cover.
+    // egui keeps an explanation open when a dialog opens over it.
+    // While a value is dragged, the views show the effect, and an explanation would cover them.
     if response.dragged() || !response.ctx.memory(|memory| memory.allows_interaction(response.layer_id)) {
         return response;
     }

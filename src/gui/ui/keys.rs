@@ -1,4 +1,4 @@
-//! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
+//! The keyboard: one table determines what the keys do, what the sheet of shortcuts lists, and which keys the menus show.
 
 use crate::gui::command::{Command, HoldCommand, LessonCommand, PinCommand};
 use crate::gui::state::dialogs::Purpose;
@@ -13,11 +13,11 @@ use Scope::{Always, History, Idle, Window};
 pub enum Scope {
     /// Always: it changes only how the window looks.
     Always,
-    /// Unless a question is in the way. Text that is being typed is taken first.
+    /// Unless a dialog is open. Text that is being typed is committed first.
     Window,
-    /// Neither behind a question nor in a text field, which has an undo of its own.
+    /// Only if neither a dialog is open nor a text field has the focus; a text field has its own undo.
     History,
-    /// Only while nothing else listens to the keyboard.
+    /// Only if no other widget uses the keyboard.
     Idle,
 }
 
@@ -55,10 +55,10 @@ impl Scope {
     }
 }
 
-/// The group of the keys that move the cycle.
+/// The group of the keys for the animation of the cycle.
 const MOTION: &str = "Motion";
 
-/// The group of the keys that move a held plate, and by how much of its mean gap.
+/// The group of the keys that move a held plate, and the step as a share of its mean gap.
 const HOLDING: &str = "Held plate";
 const HOLD_STEP: f64 = 0.05;
 
@@ -68,9 +68,9 @@ pub const WINDOW: &str = "Window";
 const MOVING: &[Shortcut] = &[
     Idle.on(NONE, Key::Space, "Play or pause", || Command::TogglePlay),
     Idle.on(NONE, Key::ArrowLeft, "One frame back", || Command::StepFrames(-1)),
-    Idle.on(NONE, Key::ArrowRight, "One frame on", || Command::StepFrames(1)),
+    Idle.on(NONE, Key::ArrowRight, "One frame forward", || Command::StepFrames(1)),
     Idle.on(NONE, Key::Home, "To the start", || Command::Seek(0.0)),
-    Idle.on(NONE, Key::OpenBracket, "Follow the tooth before", || Command::NextTooth(-1)),
+    Idle.on(NONE, Key::OpenBracket, "Follow the previous tooth", || Command::NextTooth(-1)),
     Idle.on(NONE, Key::CloseBracket, "Follow the next tooth", || Command::NextTooth(1)),
 ];
 
@@ -86,7 +86,7 @@ const SCENE: &[Shortcut] = &[
         ..History.on(CTRL_SHIFT, Key::Z, "Redo", || Command::Redo)
     },
     Window.on(CTRL, Key::D, "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
-    Idle.on(NONE, Key::Escape, "Stop solving, or what the tab computes", || Command::CancelSolve),
+    Idle.on(NONE, Key::Escape, "Cancel the solve, or the computation of the tab", || Command::CancelSolve),
 ];
 
 const LESSONS: &[Shortcut] = &[
@@ -97,7 +97,7 @@ const LESSONS: &[Shortcut] = &[
     Idle.on(NONE, Key::Num2, "Second answer", || LessonCommand::Choose(1).into()),
     Idle.on(NONE, Key::Num3, "Third answer", || LessonCommand::Choose(2).into()),
     Idle.on(NONE, Key::Num4, "Fourth answer", || LessonCommand::Choose(3).into()),
-    Window.on(NONE, Key::F5, "Read the lessons of folders again", || LessonCommand::Reload.into()),
+    Window.on(NONE, Key::F5, "Reload the lessons of folders", || LessonCommand::Reload.into()),
     Idle.on(NONE, Key::H, "Hint", || LessonCommand::Hint.into()),
 ];
 
@@ -139,7 +139,7 @@ fn asking_for(command: &Command) -> Option<&'static Shortcut> {
     all().find(|shortcut| (shortcut.command)() == *command)
 }
 
-/// The shortcuts pressed in this frame. `tab`: the keys of the motion are its own, and so are those of a held plate.
+/// The shortcuts pressed in this frame. `tab` decides whether the keys for the animation or for a held plate apply.
 pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
     let text = ctx.text_edit_focused();
     let idle = !obstacles.typing && !ctx.egui_wants_keyboard_input() && !Popup::is_any_open(ctx);
@@ -151,7 +151,7 @@ pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
     };
     let mut found = Vec::new();
     ctx.input_mut(|input| {
-        // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
+        // Ctrl+Z also matches Ctrl+Shift+Z, so the longer shortcuts are tested first.
         for shift in [true, false] {
             let groups = GROUPS.iter().filter(|(group, _)| match *group {
                 MOTION => tab.moves(),
@@ -170,12 +170,12 @@ pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
     found
 }
 
-/// The keys as they are printed on a keyboard.
+/// The keys as they are labelled on a keyboard.
 pub fn name(keys: &KeyboardShortcut) -> String {
     name_on(MAC, keys)
 }
 
-/// `text`, which names keys as most keyboards have them, for the keyboard of this system.
+/// `text` with its names of keys, which are those of most keyboards, adapted to the keyboard of this system.
 pub fn in_text(text: &str) -> String {
     if MAC { text.replace("Ctrl+", ModifierNames::SYMBOLS.mac_cmd) } else { text.to_owned() }
 }
@@ -203,7 +203,7 @@ pub fn about(command: &Command) -> String {
     asking_for(command).map(|found| format!("{} ({})", found.about, name(&found.keys))).unwrap_or_default()
 }
 
-/// The keys that ask for `command`; empty if none do.
+/// The keys for `command`; empty if there are none.
 pub fn of(command: &Command) -> String {
     asking_for(command).map(|found| name(&found.keys)).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The window: panels around the middle, and what is over all of it.
+//! The layout of the window: panels around the middle, and the parts that are drawn over them.
 
 use super::context::DrawContext;
 use super::modals;
@@ -13,12 +13,12 @@ use eframe::egui::{self, Color32};
 struct Side {
     default: f32,
     least: f32,
-    /// The most of a narrow window that it takes.
+    /// The largest share of a narrow window that it takes.
     share: f32,
 }
 
 const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
-/// A lesson is read: wider than the results, whose place it takes, on a telephone too.
+/// A lesson is text to read, so its panel is wider than that of the results, whose place it takes, even on a telephone.
 const LESSON: Side = Side { default: 392.0, least: 240.0, share: 0.36 };
 const RESULTS: Side = Side { default: 304.0, least: 190.0, share: 0.29 };
 
@@ -27,7 +27,7 @@ impl Side {
         (self.share * window).max(self.least)
     }
 
-    /// Fits `panel` into a window of this width: what is in the middle stays the widest. `spare`: it begins as narrow as it can be.
+    /// Fits `panel` into a window of this width; the middle stays the widest part. `spare`: the panel starts at its least width.
     fn fit(&self, panel: egui::Panel, window: f32, spare: bool) -> egui::Panel {
         let most = self.most(window);
         let default = if spare { self.least } else { self.default };
@@ -42,7 +42,7 @@ const CROWDED: f32 = 900.0;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
     let (side, central) = (egui::Frame::side_top_panel(ui.style()), egui::Frame::central_panel(ui.style()));
-    // The window has the colour of the panels: to fill them would be to paint all of it twice.
+    // The window has the colour of the panels, so the panels are not filled: that would paint the whole area twice.
     let [side, central] = [side, central].map(|frame| frame.fill(Color32::TRANSPARENT));
     egui::Panel::top("menu").frame(side).show(ui, |ui| menu::show(ui, cx));
     egui::Panel::bottom("status").frame(side).show(ui, |ui| {
@@ -52,8 +52,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     });
     let width = ui.available_width();
     let telephone = ui.ctx().content_rect().height() < tabs::labels::LOW;
-    // Each size of text remembers its own widths, and so does a window too narrow or too low for the usual ones: made large again, it
-    // has those that it had. It is the size of this frame: one that was just asked for comes with the next.
+    // The widths of the panels are stored for each text size, and separately for a window that is too narrow or too low for the usual
+    // widths: when it is enlarged again, the earlier widths come back. The size is that of this frame; a size that was just requested
+    // applies from the next frame.
     let zoom = ui.ctx().zoom_factor();
     let id = |name: &str, side: &Side| {
         let window = match side.most(width) < side.default {
@@ -63,7 +64,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         };
         format!("{name}, {zoom:.2}{window}")
     };
-    // A lesson comes first for the keyboard.
+    // A lesson comes first in the order of the keyboard focus.
     if state.view.results && state.lessons.running.as_ref().is_some_and(|running| !running.all_results) {
         LESSON
             .fit(egui::Panel::right(id("lesson", &LESSON)), width, false)
@@ -71,7 +72,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             .show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
         RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width, telephone).frame(side).show(ui, |ui| {
-            // As wide before the first result as after it.
+            // The panel has the same width before the first result as after it.
             ui.set_min_width(ui.available_width());
             if state.lessons.running.is_some() && ui.button("Back to the lesson").clicked() {
                 cx.push(LessonCommand::AllResults(false));
@@ -83,7 +84,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         });
     }
-    // Where little is left for it, a plate in the hand takes the place of parameters that a lesson does not ask for.
+    // Where space is short, a held plate takes the place of the parameters, unless a lesson asks for them.
     let held = state.view.tab == Tab::Hold && state.lessons.step().is_some_and(|(_, step)| step.light.is_empty());
     if state.view.parameters && !(held && width < CROWDED) {
         PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width, telephone).frame(side).show(ui, |ui| {
@@ -111,7 +112,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     match (cx.state.view.tab, &cx.state.run) {
         (Tab::Motion, Some(run)) => {
-            // While the present scene is solved, nothing moves down and up again.
+            // This space is kept while the present scene is solved, so that nothing moves.
             if cx.state.activity.failure.is_some() {
                 cx.say_if_stale(ui, run);
             }

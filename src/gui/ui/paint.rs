@@ -1,4 +1,4 @@
-//! Axes, ticks, text and bands: the little that the views need to draw.
+//! Axes, ticks, text and bands: the drawing functions that the views share.
 
 use super::glossary::{self, Explained};
 use super::theme::{self, Palette};
@@ -23,12 +23,12 @@ pub(super) struct PlotStyle {
     pub(super) font: FontId,
     /// Height of a line of text.
     pub(super) row: f32,
-    /// Room for the numbers left of a drawing.
+    /// Width of the space for numbers at the left of a drawing.
     pub(super) gutter: f32,
-    /// Room for the title above it, and for the numbers below it.
+    /// Height of the space for the title above a drawing, and for the numbers below it.
     pub(super) title: f32,
     pub(super) axis: f32,
-    /// Terms that were written, and where.
+    /// The terms that were written, and their positions.
     terms: Rc<RefCell<Vec<(Rect, String)>>>,
 }
 
@@ -77,8 +77,8 @@ impl PlotStyle {
         self.terms.borrow_mut().push((place, word.to_owned()));
     }
 
-    /// Explains the terms of the drawing on hover: after all that also wants the pointer. Whether the pointer is on one: values
-    /// are then read out elsewhere.
+    /// Explains the terms of the drawing on hover. This is called after everything else that uses the pointer. Returns whether the pointer
+    /// is on a term: values are then shown elsewhere.
     pub(super) fn explain(&self, ui: &Ui) -> bool {
         let mut pointed = false;
         for (number, (place, word)) in self.terms.borrow_mut().drain(..).enumerate() {
@@ -91,13 +91,13 @@ impl PlotStyle {
         self.painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
-    /// The entry of a legend for the run that a lesson's step began with, if that is drawn.
+    /// The legend entry for the run that a lesson's step began with, if that run is drawn.
     pub(super) fn at_first<T>(&self, first: Option<T>) -> Option<(&'static str, Color32)> {
         first.map(|_| ("at first", self.palette.quiet))
     }
 
-    /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
-    /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
+    /// A title above `plot`, and a legend at its right end. The title is the first of `titles`, long to short, that fits beside the legend,
+    /// or else the first that fits alone. `word` is its glossary term; the entries of the legend are terms themselves.
     pub(super) fn title(&self, plot: Rect, word: &str, titles: &[&str], legend: &[(&str, Color32)]) {
         let bottom = plot.top() - 2.0;
         let gap = 0.7 * self.row;
@@ -124,7 +124,7 @@ impl PlotStyle {
         }
     }
 
-    /// Fills between two lines, given as columns (x, one y, other y).
+    /// Fills the area between two lines, given as columns (x, one y, other y).
     pub(super) fn band(&self, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
         self.shaded(columns.map(|(x, one, other)| (x, one, other, colour)));
     }
@@ -147,11 +147,10 @@ impl PlotStyle {
         self.painter.add(Shape::Mesh(Arc::new(mesh)));
     }
 
-    /// A title above `plot` with the colour bar and its ends at the right end of the same line.
-    /// `word`: its glossary term.
+    /// A title above `plot`, with the colour bar and the values of its ends at the right end of the same line. `word` is its glossary term.
     pub(super) fn title_with_bar(&self, plot: Rect, word: &str, titles: &[&str], range: [f64; 2]) {
         let ends = ends(range.map(|pascal| pascal / 1e3));
-        // Of one value there is no scale.
+        // A single value needs no scale.
         if ends[0] == ends[1] {
             let everywhere: Vec<_> =
                 titles.iter().map(|title| format!("{title}: {} kPa everywhere", ends[1])).collect();
@@ -165,7 +164,7 @@ impl PlotStyle {
         let bottom = plot.top() - 2.0;
         let written = self.width(ends[0]) + self.width(ends[1]) + 2.0 * self.row;
         let room = plot.width() - written - 2.0 * self.row;
-        // The longest title that leaves a bar of some length; if none does, none is written.
+        // The longest title that leaves room for a bar; if none does, no title is written.
         let title = titles.iter().copied().find(|title| self.width(title) < room).unwrap_or_default();
         let length = (room - self.width(title)).clamp(2.0 * self.row, 9.0 * self.row);
         let place = self.write(pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text);
@@ -182,7 +181,7 @@ impl PlotStyle {
         self.write(pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], self.palette.quiet);
     }
 
-    /// A vertical bar left of `axes`, as long as a round number of micrometres.
+    /// A vertical scale bar at the left of `axes`; its length is a round number of micrometres.
     fn scale_bar(&self, axes: &Axes) {
         let (plot, scale) = (axes.rect, axes.points_per_metre());
         let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
@@ -206,17 +205,17 @@ pub(super) fn has_fields(recording: &Recording) -> bool {
     recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()
 }
 
-/// Takes the whole of `ui`; `None`, with a word about it, if that is too little to draw in.
+/// Takes the whole of `ui`; `None`, with a message, if the space is too small to draw in.
 pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
     let size = ui.available_size();
     if size.x <= 160.0 || size.y <= 160.0 {
-        ui.label("There is no room for this view. The menu View hides what is at the sides.");
+        ui.label("There is no room for this view. Hide the side panels with the menu View.");
         return None;
     }
     Some(ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover()).0)
 }
 
-/// Drawings below each other, with numbers left of them.
+/// Drawings below each other, with numbers at the left of them.
 pub(super) struct Column {
     /// Horizontal range of the drawings, without the numbers.
     pub(super) x: Rangef,
@@ -231,7 +230,7 @@ impl Column {
         Self { x, bottom: area.top() }
     }
 
-    /// The place of the next one, with so much room above it.
+    /// The rectangle of the next drawing, with this much space above it.
     pub(super) fn next(&mut self, above: f32, height: f32) -> Rect {
         let top = self.bottom + above;
         self.bottom = top + height;
@@ -248,12 +247,13 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Ranges of no extent are widened.
+    /// A range of zero length is widened.
     pub(super) fn new(rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         Self { rect, x: widened(x), y: widened(y) }
     }
 
-    /// Those of a drawing of heights \[m\], with its ground and a scale bar: from `low` to `high`, and these shares of the drawing below and above.
+    /// Axes for a drawing of heights \[m\], with its background and a scale bar: from `low` to `high`, with these shares of the drawing
+    /// below and above.
     pub(super) fn of_heights(
         style: &PlotStyle,
         (rect, x): (Rect, [f64; 2]),
@@ -292,7 +292,7 @@ impl Axes {
         pos2(self.px(x), self.py(y))
     }
 
-    /// x at a place on the screen; `None` beside the rectangle.
+    /// x at a position on the screen; `None` outside of the rectangle.
     pub(super) fn x_at(&self, px: f32) -> Option<f64> {
         let part = f64::from((px - self.rect.left()) / self.rect.width());
         (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
@@ -309,7 +309,7 @@ impl Axes {
         Steps::new([self.x[0] / unit, self.x[1] / unit], about)
     }
 
-    /// Values below the plot, and the name of the axis left of them.
+    /// Values below the plot, and the name of the axis at the left of them.
     pub(super) fn x_labels(&self, style: &PlotStyle, unit: f64, name: &str) {
         let ticks = self.x_values(style, unit);
         let top = self.rect.bottom() + 1.0;
@@ -334,7 +334,7 @@ impl Axes {
     }
 }
 
-/// The range, or one round it if it has no extent.
+/// The range; if its length is zero, a range round it.
 pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     if !(low.is_finite() && high.is_finite()) {
         return [0.0, 1.0];
@@ -358,13 +358,13 @@ pub(super) fn field_colours() -> &'static [Color32; 256] {
     })
 }
 
-/// The colour of a value of the field, of which these get the first colour and the last.
+/// The colour of a value of the field; the two given values get the first and the last colour.
 pub(super) fn colour_between([low, high]: [f64; 2]) -> impl Fn(f64) -> Color32 {
     let (colours, per_unit) = (field_colours(), 255.0 / (high - low).max(f64::MIN_POSITIVE));
     move |value| colours[((value - low) * per_unit).clamp(0.0, 255.0) as usize]
 }
 
-/// The colour of a pressure \[Pa\] in this range. If both ends read the same, their difference is noise, and there is one colour.
+/// The colour of a pressure \[Pa\] in this range. If both ends read the same, their difference is noise, and all pressures have one colour.
 pub(super) fn pressure_colour(range: [f64; 2]) -> impl Fn(f64) -> Color32 {
     let [least, most] = ends(range.map(|pascal| pascal / 1e3));
     colour_between(if least == most { [range[0], f64::INFINITY] } else { range })

@@ -12,14 +12,14 @@ use eframe::egui::{
 use std::cell::Cell;
 use std::ops::RangeInclusive;
 
-/// Room at the right of a tab with charts: half of the last number of an axis is clear of the scroll bar.
+/// Space at the right of a tab with charts, so that half of the last number of an axis is clear of the scroll bar.
 pub(super) const BESIDE_CHARTS: f32 = 14.0;
 
-/// A button, lit if it is what comes next.
+/// A button, highlighted if it is the next step.
 pub(super) fn next_button(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
     let mut button = Button::new(RichText::new(text).strong());
     if lit {
-        // It has the outline of any other button that the keyboard is at.
+        // It has the same outline as any other button with the keyboard focus.
         let id = ui.next_auto_id();
         let focused = ui.memory(|memory| memory.has_focus(id));
         let line = if focused { ui.visuals().widgets.active.bg_stroke } else { Stroke::new(1.0, cx.colours.film) };
@@ -39,13 +39,13 @@ pub(super) fn first_button(ui: &mut Ui, text: &str, (empty, good): (bool, bool),
 /// A text that was entered, and why it is refused; `None` if it is a number in the range.
 pub(super) type Entered = (String, Option<String>);
 
-/// A number that is dragged, or typed with any unit of its kind, and the text if one was entered in this frame.
+/// A number that can be dragged, or typed with any unit of its kind. Also returns the text if one was entered in this frame.
 pub(super) fn entered_box(
     ui: &mut Ui,
     drag: DragValue<'_>,
     (range, unit): (RangeInclusive<f64>, &str),
 ) -> (Response, Option<Entered>) {
-    // What Escape has dropped must not be read after all when the frame is laid out once more.
+    // After Escape has dropped the text, it must not be read when the frame is laid out again.
     let (key, frame) = (ui.next_auto_id().with("escaped"), ui.ctx().cumulative_frame_nr());
     let dropped = ui.data(|data| data.get_temp::<u64>(key)).is_some_and(|at| frame <= at + 1);
     let entered = Cell::new(None);
@@ -63,8 +63,8 @@ pub(super) fn entered_box(
     (response, entered.take())
 }
 
-/// As [`entered_box`]. Text that Enter has entered and that is refused stays in it with the cursor, and why is told beside it until something
-/// else is done.
+/// As [`entered_box`]. If text entered by Enter is refused, it stays in the box with the cursor, and the reason is shown beside it until
+/// something else is done.
 pub(super) fn number_box(
     ui: &mut Ui,
     drag: DragValue<'_>,
@@ -101,16 +101,16 @@ fn refusal(text: &str, range: &RangeInclusive<f64>, unit: &str) -> String {
     format!("{}: expected a number{within}", show_text(text)).trim_end().to_owned()
 }
 
-/// Where the window notes which widget it scrolls to in this frame.
+/// The key under which the window notes which widget it scrolls to in this frame.
 pub const FOLLOWED: &str = "scrolled to";
 
-/// A striped table called `name`, with so much room between its columns. Where it is wider than the tab it is
-/// scrolled, so that what comes below keeps the width of the tab.
+/// A striped table with the name `name` and this distance between its columns. If it is wider than the tab, it scrolls, so that the parts
+/// below keep the width of the tab.
 pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: impl FnOnce(&mut Ui)) {
     let grid = Grid::new(name).num_columns(columns).striped(true).spacing([gap, 4.0]);
     let area = ScrollArea::horizontal().id_salt((name, "table")).auto_shrink(true);
     let shown = area.show(ui, |ui| grid.show(ui, rows));
-    // An area takes what is to be scrolled to, in directions in which it does not scroll as well.
+    // A scroll area handles a request to scroll also in directions in which it does not scroll; therefore the request is repeated here.
     let followed = ui.data(|data| data.get_temp::<Id>(Id::unique(FOLLOWED))).and_then(|id| ui.ctx().read_response(id));
     let rows = Rangef::new(shown.inner_rect.top(), shown.inner_rect.top() + shown.content_size.y);
     if let Some(found) = followed.filter(|found| rows.contains(found.rect.center().y)) {
@@ -118,7 +118,7 @@ pub(super) fn table(ui: &mut Ui, name: &str, columns: usize, gap: f32, rows: imp
     }
 }
 
-/// A row of column heads, each with its glossary term; an empty term leaves the head unexplained.
+/// A row of column heads, each with its glossary term; a head with an empty term is not explained.
 pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], cx: &DrawContext<'_>) {
     for (head, word) in heads {
         let head = RichText::new(*head).color(cx.colours.quiet);
@@ -130,18 +130,18 @@ pub(super) fn heads(ui: &mut Ui, heads: &[(&str, &str)], cx: &DrawContext<'_>) {
     ui.end_row();
 }
 
-/// A number and its unit, which no line break divides.
+/// A number and its unit, without a line break between them.
 pub(super) fn joined(text: &str) -> String {
     text.replace(' ', "\u{a0}")
 }
 
-/// Shows what `add` draws over the whole height that there is, and scrolls it. At the right `bar` is left free: for the scroll bar, which
-/// floats, and for half a number at the end of an axis.
+/// Shows what `add` draws, in a scroll area of the full height. At the right, the width `bar` is left free for the floating scroll bar, and
+/// for half a number at the end of an axis.
 pub fn scrolled(ui: &mut Ui, id: impl AsIdSalt, bar: f32, add: impl FnOnce(&mut Ui)) {
     scroll(ui, ScrollArea::vertical().id_salt(id), bar, add);
 }
 
-/// As [`scrolled`], but back at the top whenever `number` changes.
+/// As [`scrolled`], but scrolls to the top whenever `number` changes.
 pub fn scrolled_anew(ui: &mut Ui, id: &'static str, number: u64, bar: f32, add: impl FnOnce(&mut Ui)) {
     let key = Id::unique((id, "scrolled"));
     let last = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(key, number), number));

@@ -1,4 +1,5 @@
-//! The parts of every chart that egui_plot draws: a plot that is dragged and zoomed, its curves, dots and areas, and the marks of its axes.
+//! The common parts of all charts that egui_plot draws: a plot that can be dragged and zoomed, its curves, dots and areas, and the marks of
+//! its axes.
 
 use super::paint::widened;
 use crate::gui::derived::scales::span;
@@ -9,17 +10,17 @@ use egui_plot::{
     Points, VLine,
 };
 
-/// A chart is not zoomed out to more than this many times its ranges.
+/// A chart cannot be zoomed out to more than this many times its ranges.
 const FARTHEST: f64 = 100.0;
-/// A curve is drawn as exactly as this share of its size.
+/// Greatest deviation of a drawn curve, as a share of its size.
 const STRAIGHT: f64 = 5e-4;
 
 pub(super) fn id(name: &str) -> Id {
     Id::unique(("chart", name))
 }
 
-/// Shows the chart `name`, as screen readers call it, from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
-/// With the x that is pointed at.
+/// Shows the chart with the name `name`, also for screen readers, over the ranges of x and y, or over those to which it was dragged or
+/// zoomed. Also returns the x under the pointer.
 pub(super) fn framed<'a>(
     ui: &mut egui::Ui,
     (name, plot): (&str, Plot<'a>),
@@ -45,10 +46,10 @@ pub(super) fn framed<'a>(
     shown
 }
 
-/// A plot with numbers at its axes, and no words at the pointer: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn
-/// with the right button, and back with a double click. The wheel alone scrolls the tab that it is in.
+/// A plot with numbers at its axes, and no text at the pointer. It is dragged to move, zoomed with Ctrl and the wheel or by a box drawn
+/// with the right button, and reset by a double click. The wheel alone scrolls the tab.
 pub(super) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
-    // The spacers leave room for every number: none is to fade because others are near.
+    // The grid spacers leave enough space for every number, so no number has to fade because of its neighbours.
     let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
     Plot::new(name.to_owned())
         .id(id(name))
@@ -64,8 +65,8 @@ pub(super) fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) ->
         .set_margin_fraction(egui::Vec2::ZERO)
 }
 
-/// A line that does not answer to the pointer. As one path a solid one would be drawn thinner where it is steep, and with spikes where it
-/// turns: it is a chain of segments.
+/// A line that does not react to the pointer. A solid line is drawn as a chain of segments: as one path it would be thinner where it is
+/// steep, and would have spikes at sharp turns.
 pub(super) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
     let style = if style == LineStyle::Solid { LineStyle::Dashed { length: 1e6 } } else { style };
     let size = [0, 1].map(|k| span(points.iter().map(|point| point[k]))).map(|[low, high]| high - low);
@@ -84,7 +85,8 @@ pub(super) fn stroked(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<
     }
 }
 
-/// Keeps of a curve of this size the points that straight lines between others would miss, but for the last one (Ramer 1972).
+/// Keeps the points of a curve that straight lines between the others would miss, except for the last one (Ramer 1972). `size` is the size
+/// of the curve.
 fn thin(points: &[[f64; 2]], size: [f64; 2], kept: &mut Vec<[f64; 2]>) {
     let [first, .., last] = points else { return };
     let from_first = |point: &[f64; 2]| [0, 1].map(|k| (point[k] - first[k]) / size[k].max(f64::MIN_POSITIVE));
@@ -101,22 +103,22 @@ fn thin(points: &[[f64; 2]], size: [f64; 2], kept: &mut Vec<[f64; 2]>) {
     }
 }
 
-/// A line across a chart along x, that does not answer to the pointer.
+/// A horizontal line across a chart that does not react to the pointer.
 pub(super) fn level(y: f64, colour: Color32, width: f32) -> HLine {
     HLine::new("", y).color(colour).width(width).allow_hover(false)
 }
 
-/// A line across a chart along y, that does not answer to the pointer.
+/// A vertical line across a chart that does not react to the pointer.
 pub(super) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
     VLine::new("", x).color(colour).width(width).allow_hover(false)
 }
 
-/// The line at the x that is pointed at, if one is.
+/// The vertical line at the x under the pointer, if there is one.
 pub(super) fn under_pointer(plot: &mut PlotUi<'_>, x: Option<f64>, colour: Color32) {
     x.into_iter().for_each(|x| plot.vline(upright(x, colour, 1.0)));
 }
 
-/// Dots, which say what they are when the pointer is near, if they have a name.
+/// Dots. If they have a name, it is shown when the pointer is near.
 pub(super) fn dots<'a>(name: &str, points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
     Points::new(name, points).color(colour).radius(radius).allow_hover(!name.is_empty())
 }

@@ -25,7 +25,7 @@ impl Look {
         Self { size: TextStyle::Body.resolve(ui.style()).size, colour: ui.visuals().text_color() }
     }
 
-    /// A little larger than the usual: to be read, not looked up.
+    /// A little larger than the usual text, for longer texts.
     pub(super) fn reading(ui: &Ui) -> Self {
         let usual = Self::usual(ui);
         Self { size: 1.08 * usual.size, colour: ui.visuals().strong_text_color().lerp_to_gamma(usual.colour, 0.35) }
@@ -65,7 +65,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
     }
 }
 
-/// A picture, as wide as it is or as there is room.
+/// A picture, in its own width or in the available width, whichever is less.
 fn shown(ui: &mut Ui, picture: &Picture) {
     let place = picture.rgba.as_ptr() as usize;
     let texture = once(ui, &format!("picture at {place}"), (place, picture.size), || {
@@ -76,22 +76,22 @@ fn shown(ui: &mut Ui, picture: &Picture) {
     ui.add(image);
 }
 
-/// One piece that is not broken.
+/// A piece of text that is not broken between lines.
 struct Atom {
     set: Typeset,
-    /// Room before it, if it does not begin a line; none if nothing is between it and what comes before.
+    /// Space before it, unless it begins a line; `None` if nothing separates it from the piece before.
     space: Option<f32>,
-    /// Whether it is not parted from what comes before: a unit from its number, thousands from the rest.
+    /// Whether it stays on one line with the piece before: a unit with its number, groups of digits with each other.
     glued: bool,
 }
 
-/// Shows one paragraph; its response has the whole text.
+/// Shows one paragraph; its response contains the whole text.
 pub(super) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
     let atoms = atoms(ui, parts, look);
     let room = ui.available_width();
     let mut lines: Vec<Vec<&Atom>> = vec![Vec::new()];
     let mut at = 0.0;
-    // What is glued together is moved together.
+    // Pieces that stay together are moved together.
     for unit in atoms.chunk_by(|_, next| next.space.is_none() || next.glued) {
         let inside: f32 = unit.iter().skip(1).filter_map(|atom| atom.space).sum();
         let width = inside + unit.iter().map(|atom| atom.set.width).sum::<f32>();
@@ -153,11 +153,11 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let space = blank.size().x.max(0.25 * look.size);
     let style = |colour: Color32| MathStyle { size: look.size, colour, display: false };
     let mut atoms = Vec::new();
-    // Whether white space came before, and before that a number. A slanted word leans over what follows it.
+    // These say whether white space came before, and before that a number. A slanted word leans over the one after it.
     let (mut apart, mut number, mut lean) = (true, false, 0.0);
     for part in parts {
         match part {
-            // Numbers are filled in by whoever knows the run.
+            // The caller, who knows the run, has filled in the numbers.
             Inline::Number(_) => {}
             Inline::Math(formula) => {
                 let set = Typeset::of(painter, &formula.nodes, style(look.colour));
@@ -178,7 +178,7 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     let set = |colour| Typeset::text(painter, word, style(colour), *kind == Style::Slanted);
                     let set = match kind {
                         Style::Plain | Style::Slanted => set(look.colour),
-                        // The fonts have one weight: what is strong has a colour.
+                        // The fonts have one weight, so strong text has a colour instead.
                         Style::Strong => set(palette(ui.visuals().dark_mode).film),
                         Style::Code => set(look.colour).with_ground(ui.visuals().extreme_bg_color),
                     };
@@ -194,7 +194,7 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     atoms
 }
 
-/// Whether a word, without the marks behind it, is a unit.
+/// Whether a word, without punctuation after it, is a unit.
 fn is_unit(word: &str) -> bool {
     const UNITS: &str = "nm µm mm cm m mm/s g kg N N/m N·m N·s/m mN·s/m Pa kPa W Hz kHz µs ms s rpm %";
     let word = word.trim_end_matches(['.', ',', ':', ';', '?', ')']);

@@ -1,4 +1,4 @@
-//! Taps of a touchpad: the button goes down and up within one frame.
+//! Taps on a touchpad: the button is pressed and released within one frame.
 
 use eframe::egui::{Context, Event, Plugin, RawInput};
 

@@ -43,7 +43,7 @@ pub fn palette(dark: bool) -> Palette {
     }
 }
 
-/// Colour of one of several runs laid over each other, in the order of those in printed figures; after the last they begin again.
+/// Colour of one of several overlaid runs, in the same order as in printed figures; after the last colour the first follows.
 pub fn run_colour(slot: usize, dark: bool) -> Color32 {
     const DARK: [u32; 7] = [0x56b4e9, 0xf08a3c, 0x3fc79a, 0xe39ac6, 0xf0d442, 0xa9b4ff, 0xdfe3e9];
     const LIGHT: [u32; 7] = [0x0072b2, 0xd55e00, 0x008a64, 0xb04c8a, 0xa67600, 0x525cc8, 0x22262c];
@@ -51,7 +51,7 @@ pub fn run_colour(slot: usize, dark: bool) -> Color32 {
     rgb(colours[slot % colours.len()])
 }
 
-/// Dashes of that run: those that have a colour again have others.
+/// Dashes of that run: runs with the same colour have different dashes.
 pub fn run_dash(slot: usize) -> LineStyle {
     let dashes = [LineStyle::Solid, LineStyle::dashed_loose(), LineStyle::dotted_dense(), LineStyle::dashed_dense()];
     dashes[slot / Colour::CYCLE.len() % dashes.len()]
@@ -60,7 +60,7 @@ pub fn run_dash(slot: usize) -> LineStyle {
 /// Stands for the accent colour of the window in the description of a chart.
 pub const ACCENT: Colour = Colour(0xf0, 0xe4, 0x42);
 
-/// The colour of the window that means what this one does on paper.
+/// The colour of the window that corresponds to this colour on paper.
 pub fn on_screen(colour: Colour, visuals: &egui::Visuals) -> Color32 {
     let palette = palette(visuals.dark_mode);
     let own = [
@@ -83,7 +83,7 @@ fn rgb(digits: u32) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// `colour` on a face that has this much light, 0 to 1.
+/// `colour` on a surface with this brightness, 0 to 1.
 pub fn lit(colour: Color32, light: f32) -> Color32 {
     let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(|part| (f32::from(part) * light.clamp(0.0, 1.0)) as u8);
     Color32::from_rgb(r, g, b)
@@ -98,7 +98,7 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
-/// Greys with a little blue, so that panels and drawings are of one kind, and text that is read from the last row.
+/// Greys with a little blue, so that panels and drawings match, and text that is legible from the last row.
 fn dress(visuals: &mut egui::Visuals, dark: bool) {
     let grey = |in_dark: u32, in_light: u32| rgb(if dark { in_dark } else { in_light });
     visuals.panel_fill = grey(0x1e2128, 0xf2f3f6);
@@ -119,13 +119,13 @@ fn dress(visuals: &mut egui::Visuals, dark: bool) {
     widgets.inactive.fg_stroke.color = grey(0xd2d7df, 0x2e333b);
 }
 
-/// Gives fields and boxes an outline: in the light theme their fill is nearly that of the panel.
+/// Gives fields and boxes an outline, because in the light theme their fill is nearly the colour of the panel.
 pub fn outline_fields(ui: &mut egui::Ui) {
     let widgets = &mut ui.visuals_mut().widgets;
     widgets.inactive.bg_stroke = widgets.noninteractive.bg_stroke;
 }
 
-/// Installs the fonts: those of egui that text is written with, with fewer glyphs, its icons, and DejaVu Sans for the glyphs that they lack.
+/// Installs the fonts: those of egui that are needed for text, reduced to fewer glyphs, egui's icons, and DejaVu Sans for missing glyphs.
 pub fn install_fonts(ctx: &egui::Context) {
     use FontFamily::{Monospace, Proportional};
     const UBUNTU: &[u8] = include_bytes!("../../../assets/fonts/reduced/Ubuntu-Light.ttf");

@@ -1,4 +1,4 @@
-//! File dialogs, off the window's thread: they block, and answer later.
+//! File dialogs, shown outside the window's thread, because they block until they are answered.
 
 use super::platform::DialogStart;
 use crate::gui::state::dialogs::{Answer, Purpose};
@@ -22,13 +22,13 @@ pub struct Dialogs {
 }
 
 impl Dialogs {
-    /// Dialogs that are shown by `ask`, over the window of `parent`.
+    /// Dialogs that `ask` shows over the window `parent`.
     pub fn new(ask: AskDialog, parent: Parent) -> Self {
         let (sender, receiver) = channel();
         Self { ask, parent, open: Vec::new(), sender, receiver }
     }
 
-    /// Shows a dialog, unless one like it is open; its answer comes through [`Self::drain`], after a call of `wake`.
+    /// Shows a dialog, unless one like it is open. `wake` is called when there is an answer, and [`Self::drain`] returns it.
     ///
     /// # Errors
     /// If no thread can be started.
@@ -40,7 +40,7 @@ impl Dialogs {
         let start = DialogStart { name: name.to_owned(), parent: self.parent.clone() };
         aside("dialog", move || {
             let answer = ask(theirs.clone(), &start);
-            // The window may be gone: then nobody waits for the answer.
+            // The window may be closed already; then nobody waits for the answer.
             let _ = sender.send((theirs, answer));
             wake();
         })?;
@@ -48,7 +48,7 @@ impl Dialogs {
         Ok(())
     }
 
-    /// Answers that have come.
+    /// The answers since the last call.
     pub fn drain(&mut self) -> Vec<(Purpose, Answer)> {
         let answers: Vec<(Purpose, Answer)> = self.receiver.try_iter().collect();
         self.open.retain(|open| answers.iter().all(|(answered, _)| !open.is_like(answered)));

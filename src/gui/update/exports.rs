@@ -1,4 +1,4 @@
-//! Exports: the same code and the same names as those of the command line, in the background.
+//! Exports, in the background. They use the same code and the same file names as the command line.
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::tradeoff::Target;
@@ -29,18 +29,18 @@ impl Updater {
         }
     }
 
-    /// The run on screen; its scene has the name and the description of now: saving may have changed them since it was solved.
+    /// The run on screen, with the present name and description of its scene, which saving may have changed since the solve.
     pub(super) fn shown(&self) -> Option<SolvedScene> {
         let mut run = SolvedScene::clone(self.state.run.as_ref()?);
         let scene = self.state.document.scene();
-        // Keys that only one of a motor and a plate has do not tell them apart.
+        // Keys that only a motor or only a plate has are not compared.
         if run.scene.scene() == scene.scene() && run.scene.changed(scene).next().is_none() {
             run.scene = scene.clone();
         }
         Some(run)
     }
 
-    /// As [`Self::shown`], retitled if the scene was changed since it was saved.
+    /// As [`Self::shown`], with a new title if the scene was changed since it was saved.
     fn named(&self) -> Option<SolvedScene> {
         let mut run = self.shown()?;
         run.scene.retitle(self.state.document.saved());

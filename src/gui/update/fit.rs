@@ -1,4 +1,4 @@
-//! Carries out the commands of measurements, of measured faces, and of fits.
+//! Carries out the commands for measurements, measured faces, and fits.
 
 use super::updater::{REDRAW, Updater};
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
@@ -29,10 +29,10 @@ impl Updater {
         }
     }
 
-    /// Reads a table of measurements, or a measured face, as `purpose` asks. On the torque tab torques are drawn over the curve; anything else
-    /// shows the fit.
+    /// Reads a table of measurements, or a measured face, as `purpose` asks. In the torque tab, measured torques are drawn over the curve;
+    /// otherwise the fit tab is shown.
     pub(super) fn load_measurements(&mut self, purpose: Purpose, path: PathBuf) {
-        // No table of measurements is as large as heights may be.
+        // The limit is lower than that for heights: no table of measurements is that large.
         let heights = match read_text(&path, LARGEST_TABLE) {
             Ok(text) => begins_as_heights(&text),
             Err(error) => matches!(error, ReadError::TooLarge(_)),
@@ -67,7 +67,7 @@ impl Updater {
         }
     }
 
-    /// Gives the scene the roughness of two faces like this one: those of its keys that follow from it.
+    /// Sets the roughness of the scene to that of two faces like this one; only the keys that the scene has are set.
     pub(super) fn take_roughness(&mut self) {
         let Some(face) = self.state.face.found.as_ref() else { return };
         let values = face.roughness(self.state.document.scene());
@@ -79,7 +79,7 @@ impl Updater {
             return;
         }
         let scene = self.state.document.titled();
-        // What is wrong with a key is said at the key.
+        // An error about a key is shown at the key.
         let state = &self.state.fit;
         let (Ok(bounds), Ok(goal)) = (state.asked(&scene), state.goal(&scene)) else { return };
         let measured = state.measured.clone();

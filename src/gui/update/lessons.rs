@@ -12,7 +12,7 @@ use crate::platform::SystemTime;
 use std::path::Path;
 
 impl Updater {
-    /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
+    /// Adds the lessons of a folder, and shows errors about those that cannot be read.
     pub fn load_lessons(&mut self, folder: &Path) {
         if self.state.lessons.load(folder) {
             self.leave_lesson();
@@ -20,7 +20,7 @@ impl Updater {
         self.say_faults();
     }
 
-    /// Reads all folders of lessons again; a lesson that is followed goes on at its step.
+    /// Reads all folders of lessons again; a running lesson stays at its step.
     fn reload_lessons(&mut self) {
         let place = self.state.lessons.running.as_ref().map(|running| (running.lesson, running.step));
         let changed = self.state.lessons.reload();
@@ -37,7 +37,7 @@ impl Updater {
         }
     }
 
-    /// Checks the lesson against what is on screen, and notes the time of what was done. Returns whether another frame is needed soon.
+    /// Checks the lesson against what is on screen, and records the time of completed tasks. Returns whether another frame is needed soon.
     pub fn observe(&mut self) -> bool {
         let soon = self.state.observe();
         let State { document, lessons, .. } = &mut self.state;
@@ -88,7 +88,7 @@ impl Updater {
         self.tell_page();
     }
 
-    /// Answers what the step asks now with one of its choices.
+    /// Answers the present question of the step with one of its choices.
     fn choose(&mut self, choice: usize) {
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Predict(Prediction::Choice(choice))),
@@ -101,7 +101,7 @@ impl Updater {
         }
     }
 
-    /// Does what comes next in the tour, whose last stop leads to the first lesson, or in a lesson.
+    /// Does the next thing in the tour, whose last stop leads to the first lesson, or in a lesson.
     fn go_on(&mut self) {
         if let Some(stop) = self.state.lessons.tour {
             return match stop + 1 < STOPS.len() {
@@ -115,7 +115,7 @@ impl Updater {
                 self.state.lessons.running.iter_mut().for_each(RunningLesson::enter_marked);
             }
             Some(Stage::Observation) => {}
-            // An answer is followed by Enter out of habit.
+            // Users press Enter after an answer out of habit.
             Some(Stage::Told) if self.state.lessons.has_just_answered(self.now()) => {}
             Some(Stage::Told) => self.teach(LessonCommand::Next),
             None => {
@@ -137,7 +137,7 @@ impl Updater {
         }
     }
 
-    /// Carries out an action of a lesson's example in its tab.
+    /// Carries out an action of the example solution of a task in its tab.
     fn act(&mut self, act: Act) {
         match act {
             Act::Hold(gap) => {
@@ -152,7 +152,7 @@ impl Updater {
         }
     }
 
-    /// Brings the student's own scene back, if a lesson has set it aside.
+    /// Restores the student's own scene, if a lesson has set it aside.
     pub(super) fn leave_lesson(&mut self) {
         let State { document, view, lessons, .. } = &mut self.state;
         if lessons.leave(document, view) {

@@ -17,7 +17,7 @@ impl Updater {
         let state = &self.state;
         let link = match state.lessons.running.as_ref() {
             Some(running) => {
-                // The recap behind the last step has no number.
+                // The recap after the last step has no number.
                 let steps = state.lessons.lessons[running.lesson].steps.len();
                 Link::to_lesson(running.lesson + 1, (running.step + 1).min(steps))
             }
@@ -26,7 +26,7 @@ impl Updater {
         self.ctx.copy_text(format!("{}{link}", page()));
     }
 
-    /// Tells the page what is on screen: the run, and in words what screen readers are to say of it and of the lesson.
+    /// Gives the page the run on screen, and a text about it and about the lesson for screen readers.
     pub(super) fn tell_page(&self) {
         let Some(run) = self.state.run.as_ref().filter(|_| !HAS_FILES) else { return };
         let known = Numbers::of(&run.problem, &run.solution);
@@ -52,7 +52,7 @@ impl Updater {
         }));
     }
 
-    /// Shows what a link leads to; asks first if that would lose unsaved changes.
+    /// Opens the target of a link; asks first if that would lose unsaved changes.
     pub fn follow(&mut self, link: Link) {
         self.carry_out(Command::Tour(None));
         match link {
@@ -76,7 +76,7 @@ impl Updater {
         }
     }
 
-    /// Shows the target of an address that the user has gone to, or an error if it cannot be read.
+    /// Opens the target of an address that the user has entered, or shows an error if it cannot be read.
     pub fn visit(&mut self, address: &str) {
         match Link::read(address) {
             Ok(link) => self.follow(link),

@@ -69,14 +69,15 @@ impl Updater {
         let problem = run.map(|run| &run.problem).or(state.problem.as_ref());
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
         let plate = match problem.map(|problem| &problem.scenario) {
-            // Without a run its mean gap is a guess, above the true one: one below where it rests is that of a plate that does not float.
+            // Without a run the mean gap is a guess above the true one. If even the guess is below the gap at which the plate rests, it
+            // does not float.
             Some(Scenario::Plate(plate)) if known && scene.floats() && plate.mean_gap < plate.resting().mean_gap => {
                 Some(plate.resting())
             }
             Some(Scenario::Plate(plate)) if known => Some(plate.clone()),
             _ => None,
         };
-        // A run on finer grids knows the mean gap better; a plate that has been moved since stays as it is.
+        // A run on finer grids gives a better mean gap; it is used unless the plate has been moved since.
         let known_better =
             |hold: &HoldState| plate.as_ref().is_some_and(|plate| *plate != hold.plate) && hold.is_untouched();
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene) || known_better(hold)) {
@@ -130,7 +131,7 @@ impl Updater {
 
     pub(super) fn start_from_rest(&mut self) {
         let Some(posed) = self.posed() else { return };
-        // Three grids of every tooth: a finer one takes minutes.
+        // Every tooth is solved on three grids; a finer fidelity would take minutes.
         let fidelity = self.state.document.target().min(Fidelity::Standard);
         if posed.scene.floats() {
             let work = DropWork { posed: posed.clone(), fidelity };
@@ -140,7 +141,7 @@ impl Updater {
             return;
         }
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
-        // One at a time: the last one is ended first.
+        // Only one start-up runs at a time: the previous one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
         let work = StartupWork { posed: posed.clone(), settings };
         if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {

@@ -1,4 +1,4 @@
-//! How commands, background work and time change the state. Nothing is drawn here.
+//! Changes of the state by commands, background work and time. Nothing is drawn here.
 
 pub mod dialogs;
 mod exports;

@@ -1,4 +1,4 @@
-//! Pictures of the window: taken, and written.
+//! Takes and writes pictures of the window.
 
 use super::updater::Updater;
 use crate::gui::state::dialogs::{self, Purpose};
@@ -11,13 +11,13 @@ impl Updater {
     pub(super) fn take_picture(&self) {
         let (sender, wake) = (self.pictures.0.clone(), self.ctx.clone());
         self.ctx.request_screenshot(move |image| {
-            // The window may be gone by now: then there is nobody to show it to.
+            // The window may be closed by now; then the picture is dropped.
             let _ = sender.send(image);
             wake.request_repaint();
         });
     }
 
-    /// Asks for a file for each picture that was taken, and says what became of those that were written.
+    /// Asks for a file for each picture that was taken, and reports the outcome of those that were written.
     pub(super) fn receive_pictures(&mut self) {
         while let Ok(image) = self.pictures.1.try_recv() {
             let size = image.size.map(|pixels| pixels as u32);

@@ -1,4 +1,4 @@
-//! Carries out the commands of the pins.
+//! Carries out the commands for the pins.
 
 use super::updater::Updater;
 use crate::gui::command::PinCommand;
@@ -15,7 +15,8 @@ impl Updater {
                     let mut run = to_compare(&run);
                     let mut named = run.scene.clone();
                     named.retitle(self.state.document.saved());
-                    // It may be called by what tells it from the others, but not described as what it is no longer.
+                    // The pin may be named by the keys that distinguish it from others, but must not keep a description that is no longer
+                    // true.
                     let told_apart = told_apart(&run.scene, self.state.document.saved());
                     run.label = told_apart.filter(|_| named.name != run.scene.name).unwrap_or(named.name);
                     run.scene.about = named.about;
@@ -49,7 +50,7 @@ impl Updater {
         }
     }
 
-    /// Solves again what was pinned in the last window: one after the other, and not before the scene on screen.
+    /// Solves the pins of the last window again, one after the other, after the scene on screen.
     pub(super) fn solve_pins(&mut self) {
         if self.state.awaits_result() || self.state.activity.running.is_some() {
             return;

@@ -1,4 +1,4 @@
-//! The window's access to the outside: clock and date, file dialogs, and the effort of measurements. Tests bring their own.
+//! What the window uses of its surroundings: clock and date, file dialogs, and the effort of measurements. Tests replace them.
 
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
@@ -17,7 +17,7 @@ pub struct Platform {
     pub date: fn() -> SystemTime,
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
-    /// File that keeps the state for the next window; `None` if it is not kept in a file.
+    /// The file that keeps the state for the next window; `None` if no file is used.
     pub storage: Option<PathBuf>,
     /// Settings to measure for the trade-off, and the effort.
     pub measure: fn(&Problem) -> (Vec<Candidate>, Effort),
@@ -44,14 +44,14 @@ impl Default for Platform {
     }
 }
 
-/// Without a portal and without zenity rfd returns `None` at once. An answer sooner than this means that there was no dialog.
+/// Without a portal and zenity, rfd returns `None` at once. A `None` within this time therefore means that no dialog was shown.
 const TOO_SOON: Duration = Duration::from_millis(400);
 
 /// Asks the system's own dialog.
 fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
     let started = Instant::now();
     let filter = purpose.filter();
-    // The system says what the dialog is for.
+    // The buttons of the system's dialog say what it is for.
     let title = if matches!(purpose, Purpose::Picture(_) | Purpose::Save(_)) { "Save" } else { purpose.title() };
     let asked = match (filter, purpose.writes()) {
         (None, _) => Asked::Folder,

@@ -1,4 +1,4 @@
-//! One place where every command is carried out, and one where all that has happened is taken.
+//! The functions that carry out every command, and that take all results of background work.
 
 use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 impl Updater {
-    /// Changes the state as `command` says.
+    /// Carries out `command`.
     pub fn carry_out(&mut self, command: Command) {
         let state = &mut self.state;
         match command {
@@ -116,14 +116,14 @@ impl Updater {
             }
             Command::ToggleLecture => {
                 state.lecture = !state.lecture;
-                // The user's own zoom stays.
+                // The user's own zoom is kept.
                 let zoom = if state.lecture { LECTURE_ZOOM } else { LECTURE_ZOOM.recip() };
                 self.ctx.set_zoom_factor(self.ctx.zoom_factor() * zoom);
             }
             Command::Screenshot => self.take_picture(),
             Command::ToggleParameters => state.view.parameters = !state.view.parameters,
             Command::ToggleResults => state.view.results = !state.view.results,
-            // Not below a question.
+            // It must not be hidden by a dialog.
             Command::ToggleShortcuts => state.shortcuts = !state.shortcuts && state.modal.is_none(),
             Command::Tour(stop) => state.lessons.show_tour(stop, &mut state.view),
             Command::Glossary(shown) => state.lessons.glossary = shown.then(String::new),
@@ -131,7 +131,7 @@ impl Updater {
         }
     }
 
-    /// Takes what background work and dialogs have told.
+    /// Takes the messages and results of background work and the answers of dialogs.
     pub fn drain(&mut self) {
         let mut solved = false;
         let state = &mut self.state;
@@ -140,7 +140,7 @@ impl Updater {
                 Event::Progress { number, fidelity, progress } if number == state.activity.number => {
                     state.activity.running = Some(Running { fidelity, round: progress });
                 }
-                // A result of an edit that is already history is still newer than what is shown.
+                // A result for an edit that is no longer the present one is still newer than the result on screen.
                 Event::Solved(run) if state.run.as_ref().is_none_or(|shown| run.number >= shown.number) => {
                     if run.scene == *state.document.scene() {
                         state.switches.solved(&run);
@@ -195,7 +195,7 @@ impl Updater {
         self.update_hold();
     }
 
-    /// Does that for which a file or a folder was chosen. A CSV file that is opened is a table of measurements, or a measured face.
+    /// Uses the chosen file or folder. A CSV file that is opened is a table of measurements, or a measured face.
     fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
         let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         match purpose {
@@ -206,7 +206,7 @@ impl Updater {
                 let text = path.display().to_string();
                 self.edit(key, false, Change::Text(text.clone()));
                 if let Some(why) = self.state.rejected.of(key).map(str::to_owned) {
-                    // Why is told at the key, unless the scene has become one without it.
+                    // The reason is shown at the key, unless the new scene does not have the key.
                     let scene = self.state.document.scene();
                     match Parameter::find(key).is_some_and(|parameter| scene.has(parameter)) {
                         true => self.state.failed_path = Some((purpose, text)),
@@ -230,8 +230,8 @@ impl Updater {
         }
     }
 
-    /// As [`Self::chosen`] for a path that was typed: the prompt closes. If nothing can be saved there it stays, with the reason and what was
-    /// to come after.
+    /// As [`Self::chosen`], for a typed path: the prompt closes. If nothing can be saved there, the prompt stays open, with the reason and
+    /// with what is to follow.
     fn typed(&mut self, purpose: Purpose, path: PathBuf) {
         let prompt = std::mem::replace(&mut self.state.modal, self.state.covered.take());
         match (purpose, prompt) {
@@ -253,10 +253,10 @@ impl Updater {
         }
     }
 
-    /// Asks for a path to type: begins with the one at which something like this failed last, or the one suggested for the last of `purposes`.
+    /// Opens the prompt for a path. It suggests the path at which such an action failed last, or the one for the last of `purposes`.
     fn prompt(&mut self, purposes: Vec<Purpose>) {
         let state = &mut self.state;
-        // A path of one key is none of another's.
+        // A path that was typed for one key is not suggested for another.
         let same = |failed: &Purpose, purpose: &Purpose| match failed {
             Purpose::Csv(_) => failed == purpose,
             _ => failed.is_like(purpose),

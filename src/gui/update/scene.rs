@@ -1,4 +1,4 @@
-//! Edits of the scene, and scenes opened and saved.
+//! Edits the scene, and opens and saves scenes.
 
 use super::updater::Updater;
 use crate::fidelity::Fidelity;
@@ -13,7 +13,7 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 
 impl Updater {
-    /// An edit: the scene changes, everything depending on it is solved again.
+    /// Edits the scene, and solves everything that depends on it again.
     pub(super) fn edit(&mut self, key: &'static str, dragging: bool, change: Change) {
         match change.applied(self.state.document.scene(), key) {
             Ok(next) => {
@@ -80,12 +80,12 @@ impl Updater {
         }
     }
 
-    /// As [`Self::proceed`], but without asking about unfinished work.
+    /// As [`Self::proceed`], but without a question about unfinished work.
     pub(super) fn proceed_with_document(&mut self, next: Next) {
         let State { document, lessons, .. } = &self.state;
         let student = lessons.student_document(document);
         if student.is_dirty() && !self.state.quitting {
-            // A lesson goes on if this is not answered.
+            // The lesson goes on if the user does not answer.
             let file = student.path().and_then(Path::file_name).map(|file| format!(" ({})", file.display()));
             let name = student.scene().name.clone() + &file.unwrap_or_default();
             self.state.modal = Some(Modal::Unsaved { name, next });
@@ -95,7 +95,7 @@ impl Updater {
         self.proceed_now(next);
     }
 
-    /// Opens the preset in a file. One that cannot be opened takes nothing away, and a lesson goes on.
+    /// Opens the preset in a file. If it cannot be opened, nothing is lost, and a lesson goes on.
     pub(super) fn open_file(&mut self, path: PathBuf) {
         match Scene::load(&path) {
             Ok(scene) => {
@@ -145,7 +145,7 @@ impl Updater {
         }
     }
 
-    /// As [`Self::save`], also where another program has changed the file.
+    /// As [`Self::save`], even if another program has changed the file.
     pub(super) fn replace(&mut self, then: Option<Next>) {
         match self.state.document.path().map(Path::to_path_buf) {
             Some(path) => {
@@ -157,7 +157,7 @@ impl Updater {
         }
     }
 
-    /// Saves to a file that was chosen; what has no extension becomes a `.toml`, and another one is refused.
+    /// Saves to a chosen file. A name without an extension gets `.toml`; another extension is refused.
     ///
     /// # Errors
     /// If nothing can be saved there; nothing changes then.
@@ -165,7 +165,8 @@ impl Updater {
         self.save_to(&complete(path, "preset", &["toml"])?, then)
     }
 
-    /// Saves to this file, then goes on to `then`. What was read from this very file before is left out: the window shows what it holds now.
+    /// Saves to this file, then goes on to `then`, unless that was read from this very file earlier: the window already shows what the file
+    /// now holds.
     fn save_to(&mut self, path: &Path, then: Option<Next>) -> Result<(), String> {
         self.state.document.save(path).map_err(|error| error.to_string())?;
         self.state.remember(path);
@@ -179,14 +180,14 @@ impl Updater {
     pub(super) fn discard_then(&mut self, next: Next) {
         self.leave_lesson();
         if next == Next::Quit {
-            // The next window begins with what is saved.
+            // The next window begins with the saved scene.
             self.state.document = self.state.document.discarded();
         }
         self.proceed_now(next);
     }
 }
 
-/// Whether `next` is a document that was read from the file at `path`, under whatever name.
+/// Whether `next` is a document that was read from the file at `path`, possibly under another name.
 fn is_of_file(next: &Next, path: &Path) -> bool {
     let Next::Given(document) = next else { return false };
     let file = document.path().and_then(|read| read.canonicalize().ok());

@@ -15,7 +15,8 @@ impl Updater {
         match command {
             SensitivityCommand::Start => {
                 let settings = Settings { fidelity, ..Settings::default() };
-                let task = self.start_work("It cannot be computed", Derivatives { scene, settings }, REDRAW);
+                let task =
+                    self.start_work("The sensitivities cannot be computed", Derivatives { scene, settings }, REDRAW);
                 task.into_iter().for_each(|task| self.state.sensitivity.begin(task));
             }
             SensitivityCommand::Look(output) => state.output = output,

@@ -8,9 +8,9 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// So many windows at once have files of their own.
+/// Most windows that can have files of their own at the same time.
 const MOST: usize = 64;
-/// What a window says of itself under this key: whether it holds unsaved work, `true` or `false`.
+/// The key under which a window stores whether it holds unsaved work, `true` or `false`.
 pub const UNSAVED: &str = "unsaved";
 
 /// Begins the message that nothing is kept, before the reason.
@@ -19,19 +19,19 @@ pub const NOT_KEPT: &str = "What you change is not kept for the next start of th
 /// What a window keeps, by name.
 pub type Entries = BTreeMap<String, String>;
 
-/// The file of this window: no other has it until this is dropped.
+/// The file of this window. No other window uses it until this value is dropped.
 #[derive(Debug)]
 pub struct StorageFile {
     /// Where it is.
     pub path: PathBuf,
-    /// Locked. The system unlocks it at the end of the process, however that comes.
+    /// The lock. The system releases it when the process ends, in whatever way.
     _lock: File,
 }
 
 impl StorageFile {
-    /// Of the files in `folder` that no window has, the one that was written last: there is what a window left that crashed or was closed last.
-    /// Those with unsaved work come before the others, so that it is not hidden by a window that was closed after a crash. If all are taken, a
-    /// new one, which begins as a copy of the one that was written last.
+    /// Of the files in `folder` that no window uses, chooses the one that was written last: it has the state of the window that was closed,
+    /// or crashed, last. Files with unsaved work come first, so that work lost in a crash is not hidden by a window that was closed later.
+    /// If all files are in use, creates a new one as a copy of the one that was written last.
     ///
     /// # Errors
     /// If the folder cannot be made, or no file can be locked.
@@ -43,7 +43,7 @@ impl StorageFile {
         let last = paths.iter().find(|path| path.is_file()).cloned();
         paths.sort_by_cached_key(|path| !holds_unsaved(path));
         for path in paths {
-            // What is no file, such as a pipe, would block.
+            // Anything other than a file, such as a pipe, would block.
             if [&path, &path.with_extension("lock")].iter().any(|path| path.exists() && !path.is_file()) {
                 continue;
             }
@@ -90,10 +90,12 @@ pub fn read(path: &Path) -> Result<Option<Entries>, String> {
         return Ok(None);
     }
     let text = fs::read(path).map_err(|error| error.to_string())?;
-    serde_json::from_slice(&text).map(Some).map_err(|_| "this is not what a window of this version writes".to_owned())
+    serde_json::from_slice(&text)
+        .map(Some)
+        .map_err(|_| "this file was not written by a window of this version".to_owned())
 }
 
-/// Copies the file at `path` beside it, under a name that is free, and returns that; nothing if there is no such file.
+/// Copies the file at `path` to a free name beside it, and returns that name; `None` if there is no such file.
 ///
 /// # Errors
 /// If it cannot be copied.
@@ -124,7 +126,7 @@ mod tests {
         assert_eq!(fs::read_to_string(&other.path).unwrap(), "first");
         drop(one);
         assert_eq!(StorageFile::claim(folder.path()).unwrap().path, folder.path().join("app.json"));
-        // What the second one left last is there first, though its window is gone.
+        // The state of the second window, which is closed by now, comes first.
         let left = File::options().append(true).open(&other.path).unwrap();
         left.set_modified(std::time::SystemTime::now() + std::time::Duration::from_secs(10)).unwrap();
         let second = other.path.clone();
@@ -149,7 +151,7 @@ mod tests {
         let claimed: Vec<StorageFile> = (0..5).map(|_| StorageFile::claim(folder.path()).unwrap()).collect();
         let names = ["app-2.json", "app.json", "app-4.json", "app-3.json", "app-5.json"];
         assert_eq!(claimed.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), names.map(place));
-        // A new one begins with what was written last.
+        // A new file begins with the state that was written last.
         assert_eq!(fs::read(place("app-5.json")).unwrap(), fs::read(place("app-4.json")).unwrap());
     }
 

@@ -16,10 +16,10 @@ impl Updater {
                 }
             }
             SweepCommand::Open(point) => {
-                // Every point is a scene: the sweep has made them all.
+                // The sweep has built the scenes of all its points, so each of them is valid.
                 let scene = self.state.sweep.swept.as_ref().and_then(|swept| swept.sweep.scene_at(point).ok());
                 if let Some(mut scene) = scene {
-                    // A sweep says in its name what was changed; the present scene keeps its own.
+                    // The scene of a point has the changes in its name; the present scene keeps its own name.
                     let present = self.state.document.scene();
                     (scene.name, scene.about) = (present.name.clone(), present.about.clone());
                     self.change_scene(scene);
@@ -33,7 +33,7 @@ impl Updater {
     fn start_sweep(&mut self) {
         let scene = self.state.document.scene();
         let fidelity = self.state.sweep.form.as_ref().map(|form| form.fidelity).unwrap_or_default();
-        // What is wrong with an axis is said at the axis.
+        // An error about an axis is shown at the axis.
         let Ok(vary) = self.state.sweep.asked(scene) else { return };
         let settings = Settings { fidelity, ..Settings::default() };
         self.begin_sweep(SweepWork::New(self.state.document.titled(), vary, settings));

@@ -1,15 +1,15 @@
-//! Error against time: measured.
+//! Starts the measurement of error against time.
 
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
 use crate::job::tradeoff::TradeoffWork;
 use std::time::Duration;
 
-/// A measurement is drawn anew at most this often: what draws it is measured too.
+/// Least interval between redraws during a measurement: drawing takes time that would be measured, too.
 const MEASURE_INTERVAL: Duration = Duration::from_millis(200);
 
 impl Updater {
-    /// Starts to measure, unless that goes on.
+    /// Starts a measurement, unless one is running.
     pub(super) fn measure(&mut self) {
         if self.state.tradeoff.as_ref().is_some_and(|measured| measured.work.running()) {
             return;

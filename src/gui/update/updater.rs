@@ -1,4 +1,4 @@
-//! The updater, which carries out commands: it has the state that they change, the solver, the file dialogs, and the way to be redrawn.
+//! The updater, which carries out commands. It owns the state, the solver and the file dialogs, and requests redraws.
 
 use super::dialogs::Dialogs;
 use super::platform::Platform;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-/// Changes the state: by commands, by what background work tells, and by time.
+/// Changes the state: by commands, by the results of background work, and over time.
 #[derive(Debug)]
 pub struct Updater {
     /// All that the window knows.
@@ -35,7 +35,7 @@ pub struct Updater {
 }
 
 impl Updater {
-    /// Begins with `state`, and starts to solve its scene. `parent`: a file dialog over the window.
+    /// Starts with `state`, and starts to solve its scene. `parent` is the window over which file dialogs are shown.
     pub fn start(ctx: &egui::Context, state: State, platform: Platform, parent: Parent) -> std::io::Result<Self> {
         let wake = ctx.clone();
         let solver = Solver::start(platform.now, move || wake.request_repaint())?;
@@ -53,37 +53,37 @@ impl Updater {
         (self.platform.now)()
     }
 
-    /// Starts `work`, which draws the window again not more often than `every`, but at once at its end; if it cannot be, that is said after what
-    /// `failed`.
+    /// Starts `work`. The window is redrawn at most once in each interval `every`, and at once when the work ends. If it cannot be started,
+    /// a message that begins with `failed` is shown.
     pub(super) fn start_work<W: Work>(&mut self, failed: &str, work: W, every: Duration) -> Option<TaskOf<W>> {
         let ctx = self.ctx.clone();
         let wake = move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) };
         BackgroundTask::of(work, wake).map_err(|error| self.state.fail(format!("{failed}: {error}"))).ok()
     }
 
-    /// Shows an error about a file, whose path is suggested at the next try.
+    /// Shows an error about a file, whose path is suggested in the next prompt.
     pub(super) fn fail_at(&mut self, purpose: Purpose, path: &Path, error: impl ToString) {
         self.state.failed_path = Some((purpose, path.display().to_string()));
         self.state.fail(error);
     }
 
-    /// The scene, titled, and its problem; `None`, with an error message, if it is refused.
+    /// The scene, with a title for its changes, and its problem; `None`, with an error message, if it is refused.
     pub(super) fn posed(&mut self) -> Option<Posed> {
         Posed::try_from(self.state.document.titled()).map_err(|error| self.state.fail(error)).ok()
     }
 
-    /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted, for as long as is allowed.
+    /// Requests solves of the present scene, at draft first, then up to the wanted fidelity, within the time limit.
     pub(super) fn refine(&mut self) {
         let (target, budget) = (self.state.document.target(), self.state.budget);
         let mut fidelities = target.and_coarser();
         if budget.is_some() {
-            // The last of them begins with coarse grids itself.
+            // The solve at the last fidelity begins with coarse grids itself.
             fidelities.drain(1..fidelities.len().max(2) - 1);
         }
         self.solve(fidelities, budget);
     }
 
-    /// Asks for the present scene at these fidelities, each within the budget.
+    /// Requests solves of the present scene at these fidelities, each within the time limit.
     pub(super) fn solve(&mut self, fidelities: Vec<Fidelity>, budget: Option<Duration>) {
         let State { document, problem, activity, .. } = &mut self.state;
         let posed = Posed::try_from(document.scene().clone());
@@ -97,7 +97,8 @@ impl Updater {
         }
     }
 
-    /// Follows a change of the whole scene: clears messages about edits, leaves a tab that it does not have, and solves it.
+    /// Follows a change of the whole scene: clears messages about edits, leaves a tab that the new scene does not have, and solves the
+    /// scene.
     pub(super) fn scene_replaced(&mut self) {
         if !self.state.view.tab.is_listed(self.state.document.scene().kind() == Kind::Plate) {
             self.state.view.tab = Tab::Motion;
@@ -115,7 +116,7 @@ impl Updater {
         }
     }
 
-    /// Gives the scene these values, by key, as one edit; shows an error if they are refused.
+    /// Sets these values in the scene, by key, as one edit; shows an error if they are refused.
     pub(super) fn take_values<'k>(&mut self, values: impl IntoIterator<Item = (&'k str, f64)>) {
         let mut next = self.state.document.scene().clone();
         let set = values.into_iter().try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
@@ -125,7 +126,7 @@ impl Updater {
         }
     }
 
-    /// Asks for a file or a folder, with a name to begin with.
+    /// Asks for a file or a folder, with a suggested name.
     pub(super) fn ask(&mut self, purpose: Purpose) {
         let wake = self.ctx.clone();
         let name = self.state.suggested_path(&purpose);
@@ -140,7 +141,7 @@ impl Updater {
     }
 }
 
-/// Progress is drawn at most this often.
+/// Least interval between redraws for progress.
 pub(super) const REDRAW: Duration = Duration::from_millis(100);
 
 /// Zoom of the lecture size, relative to the user's own.

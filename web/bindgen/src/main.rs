@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let bytes = std::fs::read(file)?;
             let mut options = LzmaOptions::with_preset(9);
             (options.nice_len, options.pb) = (273, 0);
-            // Whoever unpacks sets so much aside.
+            // The unpacker allocates a dictionary of this size.
             options.dict_size = u32::try_from(bytes.len())?.next_power_of_two();
             let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, Some(bytes.len() as u64))?;
             writer.write_all(&bytes)?;

@@ -18,7 +18,7 @@ pub fn is_searched(ctx: &egui::Context) -> bool {
     ctx.memory(|memory| memory.has_focus(search_id()))
 }
 
-/// Shows the glossary, searched for `query`.
+/// Shows the glossary with the terms that match `query`.
 pub fn show(ctx: &egui::Context, query: &str, cx: &DrawContext<'_>) {
     let room = ctx.content_rect();
     let size = egui::vec2(SIZE[0].min(0.9 * room.width()), SIZE[1].min(0.75 * room.height()));

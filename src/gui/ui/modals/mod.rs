@@ -1,4 +1,4 @@
-//! Overlays: questions, the sheet of shortcuts, the tour, the glossary; and what modal ones have in common.
+//! Overlays: dialogs, the sheet of shortcuts, the tour, the glossary; and the common parts of modal ones.
 
 pub mod glossary;
 mod new_motor;
@@ -15,7 +15,7 @@ const MARGIN: i8 = 18;
 /// Commands to carry out when the dialog is closed; `None` until it is answered.
 type Answer = Option<Vec<Command>>;
 
-/// The frame of all modals: as that of a popup, with room inside.
+/// The frame of all modals: that of a popup, with a wider margin.
 fn frame(ctx: &egui::Context) -> egui::Frame {
     egui::Frame::popup(&ctx.global_style()).inner_margin(MARGIN)
 }

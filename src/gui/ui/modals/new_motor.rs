@@ -1,4 +1,4 @@
-//! The questions of a new motor, with what is assumed where there is no answer.
+//! The questions about a new motor, with the assumptions for those without an answer.
 
 use super::{Answer, heading};
 use crate::gui::command::Command;
@@ -10,17 +10,17 @@ use crate::scene::Parameter;
 use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question, asked};
 use eframe::egui::{self, Key, Ui};
 
-/// Share of the window's height that questions and assumptions have each.
+/// Shares of the window's height for the questions and for the assumptions.
 const HEIGHTS: [f32; 2] = [0.5, 0.2];
 
-/// Asks; the answer is the motor. Enter in a field makes it, as the button does.
+/// Shows the questions; the answer is the motor. Enter in a field makes the motor, as the button does.
 pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answer {
     let mut answers = answers.clone();
     let mut entered = false;
     heading(ui, "A motor from its data sheet");
     outline_fields(ui);
     let height = ui.ctx().content_rect().height();
-    // Beside what is asked, and there whenever something is further down: a bar that fades hides that there is more.
+    // The bar is beside the questions, and visible whenever there is more below: a bar that fades would hide that.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     egui::ScrollArea::vertical().id_salt("questions").max_height(HEIGHTS[0] * height).show(ui, |ui| {
         egui::Grid::new("questions").num_columns(2).show(ui, |ui| {
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
     });
     ui.add_space(8.0);
     let motor = NewMotor::of(&answers);
-    // As high whatever it says: the questions above do not move while they are answered.
+    // The height does not depend on the text, so that the questions above do not move while they are answered.
     let said =
         egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).auto_shrink([true, false]);
     said.show(ui, |ui| match &motor {
@@ -61,7 +61,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
     .inner
 }
 
-/// What the motor will have more of than is assumed here, where nothing is solved yet, if it has to agree with a data sheet.
+/// What the motor will have more of than is assumed here, where nothing is solved yet, in order to agree with the data sheet.
 fn to_be_raised(answers: &Answers) -> Option<String> {
     let follows = [
         ("stall-torque-nm", "friction", "stall torque"),
@@ -72,7 +72,7 @@ fn to_be_raised(answers: &Answers) -> Option<String> {
     let [more, until] = [more, until].map(|words| words.join(" and "));
     (!more.is_empty()).then(|| {
         format!(
-            "When it is made, the motor is solved with more {more} than assumed below, until it has the {until} of the data sheet, if it can"
+            "When the motor is made, it is solved with more {more} than assumed below until it reaches the {until} of the data sheet, if that is possible"
         )
     })
 }
@@ -89,7 +89,7 @@ fn complaint(question: &Question, answers: &Answers) -> Option<String> {
     }
 }
 
-/// Shows a question, with its answer so far, and takes another one; whether Enter was pressed in its field.
+/// Shows a question with its present answer, and takes a new one. Returns whether Enter was pressed in its field.
 fn ask(ui: &mut Ui, question: &'static Question, answers: &mut Answers, cx: &DrawContext<'_>) -> bool {
     let mut entered = false;
     let label = ui.label(question.title());

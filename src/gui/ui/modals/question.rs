@@ -1,4 +1,4 @@
-//! Errors, questions and the prompt for a path, drawn.
+//! Draws error messages, questions and the prompt for a path.
 
 use super::{Answer, frame, heading, new_motor};
 use crate::citation::{LICENCE, VERSION, bibtex};
@@ -35,7 +35,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     }
 }
 
-/// A button that has the keyboard until something else takes it.
+/// A button that has the keyboard focus until another widget takes it.
 fn button_with_keyboard(ui: &mut Ui, text: &str) -> Response {
     let button = ui.button(text);
     if ui.memory(|memory| memory.focused().is_none()) {
@@ -46,7 +46,7 @@ fn button_with_keyboard(ui: &mut Ui, text: &str) -> Response {
 
 fn error(ui: &mut Ui, message: &str) -> Answer {
     heading(ui, "This did not work");
-    // A long message scrolls: the button below stays in the window.
+    // A long message scrolls, so that the button below stays in the window.
     egui::ScrollArea::vertical().max_height(0.6 * ui.ctx().content_rect().height()).show(ui, |ui| {
         ui.add(egui::Label::new(message).wrap());
     });
@@ -106,7 +106,7 @@ fn changed_elsewhere(ui: &mut Ui, path: &Path, then: Option<&Next>) -> Answer {
     buttons(ui, 0, answers)
 }
 
-/// A row of buttons, one of which has the keyboard: what the one that is clicked does.
+/// A row of buttons; the one with the index `first` has the keyboard focus. Returns the commands of the one that was clicked.
 fn buttons<const N: usize>(ui: &mut Ui, first: usize, answers: [(&str, Vec<Command>); N]) -> Answer {
     ui.horizontal_wrapped(|ui| {
         let mut clicked = None;
@@ -133,7 +133,7 @@ fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
 fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     if let [only] = &prompt.purposes[..] {
         heading(ui, only.title());
-        cx.note(ui, "No file dialog answers on this machine: type the path.");
+        cx.note(ui, "This system shows no file dialog: type the path.");
         ui.add_space(6.0);
     } else {
         heading(ui, "Open or save a preset");
@@ -144,7 +144,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let field = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY)).labelled_by(label.id);
     if prompt.fresh {
         field.request_focus();
-        // What is typed replaces the name that is there.
+        // Typed text replaces the suggested name.
         select_all(ui, field.id, &typed);
     }
     if prompt.fresh || field.changed() {
@@ -167,7 +167,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
                 true => "Save",
             };
             let clicked = ui.add_enabled(named, egui::Button::new(text)).clicked();
-            // Enter takes the first, but replaces nothing.
+            // Enter chooses the first button, but never replaces a file.
             let replacing = replaces && *purpose != Purpose::Open;
             if clicked || (entered && named && i == 0 && !replacing) {
                 cx.push(Command::Typed(purpose.clone(), path.clone()));
@@ -178,7 +178,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     .inner
 }
 
-/// A typed path in full, `~/` being the home folder, on Windows `~\` as well.
+/// A typed path as an absolute path; `~/` is the home folder, and on Windows `~\` too.
 fn expanded(path: &str) -> PathBuf {
     let path = path.trim();
     let rest = path.strip_prefix('~').and_then(|rest| rest.strip_prefix(is_separator));

@@ -7,7 +7,7 @@ use crate::gui::ui::keys::{self, GROUPS, Shortcut, WINDOW};
 use eframe::egui::gui_zoom::kb_shortcuts::{ZOOM_IN, ZOOM_OUT, ZOOM_RESET};
 use eframe::egui::{self, RichText, TextStyle};
 
-/// Between the two columns, and between a key and what it does.
+/// Distance between the two columns, and between a key and its description.
 const GAP: f32 = 28.0;
 
 /// Shows the sheet.
@@ -15,12 +15,12 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     let response = egui::Modal::new(egui::Id::unique("shortcuts")).frame(frame(ctx)).show(ctx, |ui| {
         ui.heading("Keyboard shortcuts");
         ui.add_space(10.0);
-        // Two columns, as even as can be.
+        // Two columns of nearly equal length.
         let rows =
             |groups: &[(&str, &[Shortcut])]| groups.iter().map(|(_, shortcuts)| shortcuts.len() + 2).sum::<usize>();
         let sides = (0..GROUPS.len()).map(|at| GROUPS.split_at(at));
         let columns = sides.min_by_key(|(left, right)| rows(left).max(rows(right))).unwrap_or_default();
-        // Keys of one width, so that what they do begins at one place.
+        // All keys have one width, so that their descriptions are aligned.
         let font = TextStyle::Monospace.resolve(ui.style());
         let width = |shortcut: &Shortcut| {
             let text = keys::name(&shortcut.keys);
@@ -54,8 +54,8 @@ fn group(ui: &mut egui::Ui, title: &str, shortcuts: &[Shortcut], widest: f32, cx
     let grid = egui::Grid::new(("shortcuts", title)).num_columns(2).min_col_width(widest).spacing([GAP / 2.0, 5.0]);
     grid.show(ui, |ui| {
         let own = shortcuts.iter().map(|shortcut| (shortcut.keys, shortcut.also, shortcut.about));
-        // These are egui's own.
-        let zoom = [(ZOOM_IN, "Larger"), (ZOOM_OUT, "Smaller"), (ZOOM_RESET, "As large as usual")];
+        // These shortcuts are egui's own.
+        let zoom = [(ZOOM_IN, "Larger"), (ZOOM_OUT, "Smaller"), (ZOOM_RESET, "Usual size")];
         let zoom = zoom.into_iter().filter(|_| title == WINDOW).map(|(keys, about)| (keys, None, about));
         for (keys, also, about) in own.chain(zoom) {
             ui.label(RichText::new(keys::name(&keys)).monospace().strong());

@@ -1,4 +1,4 @@
-//! A stop of the tour: a few words beside the part of the window that has the ring.
+//! A stop of the tour: a short text beside the part of the window that is highlighted.
 
 use crate::gui::command::{Command, LessonCommand};
 use crate::gui::state::tour::STOPS;
@@ -7,12 +7,12 @@ use crate::gui::ui::{highlight, keys};
 use eframe::egui::{self, Align, Id, Layout, Order, Rect, RichText, Vec2, pos2, vec2};
 
 const WIDTH: f32 = 300.0;
-/// Height it takes at most, to choose its place before it is drawn.
+/// Greatest height of the callout, used to place it before it is drawn.
 const HEIGHT: f32 = 190.0;
-/// Between it and what it is about.
+/// Distance between the callout and the part.
 const GAP: f32 = 14.0;
 
-/// The place for a callout of `size` beside `part`: inside `room`, covering as little of it as can be.
+/// The place for a callout of `size` beside `part`: inside `room`, covering as little of the part as possible.
 pub fn beside(part: Rect, size: Vec2, room: Rect) -> Rect {
     let room = room.shrink(6.0);
     let level = part.center().y - 0.5 * size.y;
@@ -41,7 +41,7 @@ pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
     let part = highlight::place(ctx, shown.place).unwrap_or(Rect::from_center_size(room.center(), Vec2::ZERO));
     let width = WIDTH.min(0.8 * room.width());
     let id = Id::unique("tour");
-    // As high as it was drawn, once it has been.
+    // The height with which it was drawn, if it has been drawn.
     let last = ctx.data(|data| data.get_temp::<Vec2>(id.with(stop)));
     let place = beside(part, last.unwrap_or(vec2(width + 26.0, HEIGHT)), room);
     let area = egui::Area::new(id).order(Order::Foreground).fixed_pos(place.min).constrain(true).show(ctx, |ui| {

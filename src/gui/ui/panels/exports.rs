@@ -12,7 +12,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let exports = &cx.state.exports;
     if let Some(running) = &exports.running {
         ui.horizontal(|ui| {
-            cx.button(ui, "Cancel the export", "Ends it; nothing is written", Command::CancelExport);
+            cx.button(ui, "Cancel the export", "Ends the export; nothing is written", Command::CancelExport);
             let (drawn, all) = running.drawn;
             if all > 0 {
                 let (share, words) = (drawn as f64 / all as f64, format!("{drawn} of {all} pictures"));

@@ -1,5 +1,4 @@
-//! A field for typed values. What is refused stays in the field, with the reason below, until it is corrected or
-//! Escape brings the value back.
+//! A field for typed values. Refused text stays in the field, with the reason below it, until it is corrected or Escape restores the value.
 
 use crate::digits::rounded;
 use crate::gui::command::Command;
@@ -12,10 +11,11 @@ use eframe::egui::{self, Id, Key, TextStyle};
 
 /// Width of a field for numbers, in heights of the text.
 const NUMBER: f32 = 4.4;
-/// Most and fewest significant digits of a number that is not being edited: as many as fit. With the cursor in the field it has all.
+/// Most and fewest significant digits of a number that is not being edited; as many are shown as fit. While the cursor is in the field, all
+/// digits are shown.
 const DIGITS: usize = 6;
 const FEWEST_DIGITS: usize = 3;
-/// Bytes of a text beyond which it stays on one line, so that it does not fill the panel.
+/// Texts longer than this \[bytes\] stay on one line, so that they do not fill the panel.
 const LONGEST_WRAPPED: usize = 400;
 
 /// Text that differs from the scene.
@@ -29,9 +29,9 @@ struct Edit {
 enum Stage {
     /// The cursor is in the field.
     Typing,
-    /// Handed to the application by Enter; if refused, the cursor stays.
+    /// Committed by Enter; if the text is refused, the cursor stays in the field.
     Entered,
-    /// Handed to the application by leaving the field, or refused already.
+    /// Committed because the field lost the focus, or refused already.
     Left,
 }
 
@@ -40,7 +40,7 @@ enum Stage {
 pub struct Field<'a> {
     /// Dotted key.
     pub key: &'static str,
-    /// The value in the scene; `None` if there is nothing to go back to.
+    /// The value in the scene; `None` if there is no value to restore.
     pub value: Option<&'a Value>,
     /// Name for screen readers.
     pub name: &'a str,
@@ -49,7 +49,7 @@ pub struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Shows the field and pushes what comes of it.
+    /// Shows the field, and pushes the commands that follow from the input.
     pub fn show(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>) -> egui::Response {
         let id = id_of(self.key);
         let present = self.value.map(plain).unwrap_or_default();
@@ -95,7 +95,7 @@ impl Field<'_> {
                 keep(ui, id, text, Stage::Typing);
             }
         } else if typing || (refused && response.lost_focus() && escaped) {
-            // A field that was not shown for a while has not been left just now.
+            // A field that was not shown for a while has not just lost the focus.
             let left = response.lost_focus() && !escaped;
             let handed = if entered { Stage::Entered } else { Stage::Left };
             self.finish(ui, id, &text, (left && text.trim() != present).then_some(handed), cx);
@@ -103,7 +103,7 @@ impl Field<'_> {
         response
     }
 
-    /// The cursor has left the field: hands the text over at this stage, or drops it.
+    /// The cursor has left the field: commits the text, with this stage, or drops it.
     fn finish(&self, ui: &egui::Ui, id: Id, text: &str, handed: Option<Stage>, cx: &DrawContext<'_>) {
         if let Some(stage) = handed {
             cx.push(self.submit(text));
@@ -112,14 +112,14 @@ impl Field<'_> {
         }
         ui.data_mut(|data| data.remove::<Edit>(id));
         if let (Some(_), Some(value)) = (cx.state.rejected.of(self.key), self.value) {
-            // Setting what is already set takes the refusal back.
+            // Setting the present value again withdraws the refusal.
             cx.push(Command::Set { key: self.key, value: value.clone(), dragging: false });
         }
     }
 
     fn submit(&self, text: &str) -> Command {
         match self.value {
-            // Free text is a value as it stands, on one line.
+            // Free text is taken as it is, on one line.
             Some(Value::Text(_)) => {
                 let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
                 Command::Set { key: self.key, value: Value::Text(line), dragging: false }
@@ -160,12 +160,12 @@ fn pending(ui: &egui::Ui, id: Id, refused: bool) -> Option<Edit> {
     Some(edit)
 }
 
-/// Whether the field of `key` holds text that is not in the scene.
+/// Whether the field of `key` holds text that differs from the scene.
 pub fn holds_text(ui: &egui::Ui, key: &'static str) -> bool {
     ui.data(|data| data.get_temp::<Edit>(id_of(key))).is_some()
 }
 
-/// Puts the cursor into the field of `key`, which shows `value`: what is typed replaces it.
+/// Puts the cursor into the field of `key`, which shows `value`; typed text replaces it.
 pub fn enter(ui: &egui::Ui, key: &'static str, value: &Value) {
     ui.memory_mut(|memory| memory.request_focus(id_of(key)));
     select_all(ui, id_of(key), &plain(value));
@@ -175,7 +175,7 @@ fn id_of(key: &'static str) -> Id {
     Id::unique(("parameter", key))
 }
 
-/// The value as it is edited: texts in full.
+/// The value in the form in which it is edited: texts in full.
 fn plain(value: &Value) -> String {
     match value {
         Value::Text(text) => text.clone(),

@@ -1,4 +1,4 @@
-//! The right panel beside a plate in the hand: the numbers of its film now.
+//! The right panel for a held plate: the present numbers of its film.
 
 use super::results::{headline, number, section, shown};
 use crate::estimate::Estimate;
@@ -38,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         let highest = now.pressure.iter().copied().fold(reading.mean_pressure, f64::max);
         number(ui, cx, "Highest pressure", &shown(highest * 1e-3), "kPa");
         number(ui, cx, "Boyle", &shown(ambient * plate.mean_gap / reading.gap * 1e-3), "kPa");
-        cx.note(ui, "if no gas had come or gone since the mean gap");
+        cx.note(ui, "if no gas had flowed in or out since the mean gap");
         section(ui, "At this gap");
         number(ui, cx, "Leak time", &time(leak_time(plate, reading.gap)), "");
         number(ui, cx, "Knudsen number Kn", &shown(plate.gas.mean_free_path / reading.gap), "");

@@ -1,4 +1,4 @@
-//! The panel of a lesson, in place of the results: the step's text and what it asks, the numbers it is about, and a recap at the end.
+//! The panel of a lesson, in place of the results: text and questions of the step, the numbers that it is about, and a recap at the end.
 
 use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
@@ -12,7 +12,7 @@ use crate::lessons::work::{Score, Stage, StepWork};
 use crate::lessons::{Answer, Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
-/// Shows the lesson that is followed.
+/// Shows the running lesson.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let lessons = &cx.state.lessons;
     let Some(running) = lessons.running.as_ref() else { return };
@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             ui.add_space(0.4 * look.size);
             lesson_parts::blocks(ui, &step.body, look, false, cx);
             lesson_parts::show(ui, step, work, cx);
-            // What has just appeared, below the fold of a small window, comes into view.
+            // A part that has just appeared below the visible area of a small window is scrolled into view.
             let appeared = Id::unique(("lesson, appeared", running.lesson, running.step));
             let state = (work.stage(step) as u8, work.wrong, work.hints, work.misread, work.too_far);
             let before = ui.ctx().data(|data| data.get_temp::<(u8, usize, usize, usize, bool)>(appeared));
@@ -94,9 +94,9 @@ fn dots(ui: &mut Ui, running: &RunningLesson, lesson: &Lesson, cx: &DrawContext<
 
 fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &StepWork, cx: &DrawContext<'_>) {
     let stage = work.stage(step);
-    // What keeps to an answer is always in sight, however long the text is.
+    // The button that commits an answer is always visible, however long the text is.
     if let (Some(question), Stage::Question) = (&step.question, stage) {
-        // A number that is being typed is handed over by the click that gives it, and is known in the next frame.
+        // A number that is being typed is committed by the click on the button, and is known in the next frame.
         let typed = matches!(question.answer, Answer::Number { .. }) && ui.ctx().text_edit_focused();
         let given = work.prediction.is_some() && !work.refused;
         let ready = typed || given;
@@ -178,14 +178,14 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
         let (mark, colour): (&str, Color32) = match (work.left, work.is_skipped(step)) {
             (true, true) => ("○", cx.colours.contact),
             (true, false) => ("✔", cx.colours.good),
-            // Never opened.
+            // This step was never opened.
             (false, _) => ("○", cx.colours.quiet),
         };
         ui.add(egui::Label::new(RichText::new(format!("{mark}  {}", step.title)).color(colour)).wrap());
         if let (Some(question), true) =
             (step.question.as_ref().or(step.observe.as_ref()), work.stage(step) == Stage::Told)
         {
-            // What quotes a number quotes that of the run on screen, which is another one by now.
+            // Numbers quoted in a text are those of the run on screen, which is another run by now.
             if readings(&question.ask).next().is_none() {
                 lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
             }

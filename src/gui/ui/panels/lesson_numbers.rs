@@ -14,7 +14,7 @@ use eframe::egui::{self, Align, Layout, RichText, TextStyle, Ui, vec2};
 const DIGITS: usize = 4;
 /// Widths of the columns of numbers, in heights of the text: the first two have room for a sign.
 const NUMBER_WIDTHS: [f32; 3] = [4.5, 4.5, 3.7];
-/// Changes smaller than this are none, relative.
+/// Relative changes smaller than this count as none.
 const UNCHANGED: f64 = 5e-4;
 
 /// The numbers that the step is about: at its beginning, now, and their ratio.
@@ -27,12 +27,12 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
     let [ran, begun] = running.ran(scene);
     let shown = |name: Name, value: Option<f64>| match (name, value) {
         (_, None) => "…".to_owned(),
-        // A parameter as it was typed, a result with its digits.
+        // A parameter is shown as it was typed, a result with its digits.
         (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
         (Name::Live(Live::Cycles), Some(value)) => format!("{value}"),
         (Name::Quantity(_) | Name::Live(_), Some(value)) => significant(value, DIGITS),
     };
-    // Three columns of numbers; the names have what is left.
+    // Three columns of numbers; the names get the remaining width.
     let em = ui.text_style_height(&TextStyle::Body);
     let row = |ui: &mut Ui, name: Option<&dyn Fn(&mut Ui)>, cells: [RichText; 3]| {
         let height = ui.spacing().interact_size.y.min(1.3 * em);
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
             let name = |ui: &mut Ui| {
                 ui.add(egui::Label::new(&text).wrap()).explained(ui, &words);
             };
-            // A name that is longer than what is left has lines of its own, above its numbers.
+            // A name that does not fit has lines of its own, above its numbers.
             let beside = ui.available_width() - NUMBER_WIDTHS.map(|width| width * em + 4.0).iter().sum::<f32>();
             let fits = text_width(ui, &text) <= beside;
             if !fits {
@@ -80,7 +80,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
             row(ui, fits.then_some(&name as &dyn Fn(&mut Ui)), cells);
         }
     });
-    // The ring stands outside of what the panel clips.
+    // The ring lies outside of the clip rectangle of the panel.
     ui.scope(|ui| {
         ui.set_clip_rect(ui.clip_rect().expand(8.0));
         cx.mark(ui, "numbers", table.response.rect);

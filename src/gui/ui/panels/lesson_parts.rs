@@ -25,7 +25,7 @@ pub(super) fn commit_label(kind: Kind) -> &'static str {
     if kind == Kind::Calculate { "This is my result" } else { "This is my prediction" }
 }
 
-/// Blocks with the numbers of the run that they quote; `told`: of the run that did the task.
+/// Blocks with the numbers of a run that they quote; `told`: of the run that fulfilled the task.
 pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look, told: bool, cx: &DrawContext<'_>) {
     let value = |reading: &_| cx.state.lessons.quoted(reading, cx.state.document.scene(), told);
     let fill = |block: &Block| match block {
@@ -36,7 +36,7 @@ pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look, told: bool, cx: 
     rich::blocks(ui, &blocks.iter().map(fill).collect::<Vec<_>>(), look);
 }
 
-/// Everything of a step below its text, as far as it has come.
+/// Everything of a step below its text, up to the present stage.
 pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'_>) {
     let stage = work.stage(step);
     let gap = 0.7 * Look::reading(ui).size;
@@ -67,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'
     if !cx.state.awaits_result() && cx.state.lessons.tells_of_another_run(cx.state.document.scene()) {
         cx.note(
             ui,
-            "The numbers in this text are those of your run that did the task, which is not the one on screen.",
+            "The numbers in this text are from the run with which you completed the task, not from the one on screen.",
         );
     }
 }
@@ -81,7 +81,7 @@ fn boxed(ui: &mut Ui, colour: Color32, title: &str, add: impl FnOnce(&mut Ui)) {
     frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 5.0;
-        // Buttons keep an edge on the tinted ground.
+        // Buttons keep an outline on the tinted background.
         ui.visuals_mut().widgets.inactive.bg_stroke = line;
         ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
         add(ui);
@@ -110,7 +110,7 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                     };
                     let name = ui.label("Your number");
                     let field = egui::DragValue::new(&mut number).speed(0.01).max_decimals(6);
-                    // Before it is drawn, so that all of it is selected.
+                    // This comes before the field is drawn, so that all of its text is selected.
                     cx.lead_to(ui, NUMBER, ui.next_auto_id());
                     if work.committed {
                         ui.disable();
@@ -234,7 +234,7 @@ fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, unmarked: bool, ope
     });
 }
 
-/// The right answer, what is said to a wrong one, and why it is so.
+/// The right answer, the reply to a wrong one, and the explanation.
 fn explain(ui: &mut Ui, question: &Question, then: &[Block], work: &StepWork, cx: &DrawContext<'_>) {
     let given = work.prediction;
     let right = given.is_some_and(|given| question.answer.is_right(given));

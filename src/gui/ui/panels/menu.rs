@@ -60,7 +60,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// A menu. Its entries are no type of their own, so that egui's menus are compiled once.
+/// A menu. Its entries are a trait object, so that egui's menus are compiled only once.
 pub fn menu(ui: &mut egui::Ui, name: &str, entries: &mut dyn FnMut(&mut egui::Ui)) -> Response {
     ui.menu_button(name, |ui| entries(ui)).response
 }
@@ -71,7 +71,7 @@ fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: impl Into<Command
     take(ui, entry, command, cx);
 }
 
-/// Asks for `command` if this entry was clicked, and closes the menu.
+/// Requests `command` if this entry was clicked, and closes the menu.
 fn take(ui: &egui::Ui, entry: Response, command: impl Into<Command>, cx: &DrawContext<'_>) {
     if entry.clicked() {
         cx.push(command);
@@ -94,7 +94,7 @@ pub const COMPARISON: &[Export] = &[Export::Comparison, Export::ComparisonReport
 /// Exports of the sweep.
 pub const SWEEP: &[Export] = &[Export::Sweep, Export::SweepTable, Export::SweepFigure];
 
-/// A button with a menu of exports, once there is something to export.
+/// A button with a menu of exports; it is shown once there is something to export.
 pub fn export_button(ui: &mut egui::Ui, group: &[Export], cx: &DrawContext<'_>) {
     if group.iter().any(|export| cx.state.can_export(*export)) {
         let button = menu(ui, "Export ▾", &mut |ui| group.iter().for_each(|export| export_item(ui, *export, cx)));
@@ -162,7 +162,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "Leave the lesson", running, LessonCommand::Leave, cx);
     if HAS_FILES {
         item(ui, "Open a folder of lessons…", true, Command::Ask(Purpose::Lessons), cx);
-        item(ui, "Read lessons of folders again", !state.folders.is_empty(), LessonCommand::Reload, cx);
+        item(ui, "Reload the lessons of folders", !state.folders.is_empty(), LessonCommand::Reload, cx);
     }
     export_item(ui, Export::Answers, cx);
     if !state.faults.is_empty() {
@@ -170,7 +170,7 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     }
 }
 
-/// All built-in presets; `command` is asked with the one that is clicked.
+/// All built-in presets; a click requests the `command` for that preset.
 pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
     // Built-in presets parse: a test opens every one.
     static ALL: LazyLock<Vec<(&presets::BuiltIn, Scene)>> =

@@ -72,7 +72,7 @@ fn sentence(change: &SwitchEffect) -> String {
     format!("α {before} → {after} ({sign}{}), {bound}", percent(relative.abs()))
 }
 
-/// A share in per cent, two digits; of less than a hundred-thousandth, the power of ten that it is below.
+/// A share in per cent, with two digits; below a hundred-thousandth, the next power of ten above it.
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     if value > 0.0 && value < 1e-3 {
@@ -90,12 +90,12 @@ fn at_most(share: f64) -> String {
     }
     let exponent = value.log10().floor();
     let unit = 10f64.powf(exponent);
-    // What is one digit already stays, whatever rounding has left of it.
+    // A number that has one digit already is kept, whatever rounding has added to it.
     let (up, decimals) = ((value / unit - 1e-9).ceil() * unit, (-exponent).max(0.0) as usize);
     format!("{up:.decimals$} %")
 }
 
-/// Widths, so that the switches begin and end at one place.
+/// Widths of the columns, so that the switches are aligned.
 #[derive(Clone, Copy)]
 struct Columns {
     term: f32,
@@ -110,7 +110,7 @@ impl Columns {
             |texts: &mut dyn Iterator<Item = String>| texts.map(|text| text_width(ui, &text)).fold(0.0, f32::max);
         let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key()?)?)));
         let term = widest(&mut switches().map(|(decision, _)| capitalised(decision::term(decision))));
-        // As if anything were decided: rows must not jump when something is.
+        // There is always space for a decision, so that rows do not jump when one appears.
         let bound = text_width(ui, "≤ 0.06 %");
         let wide = widest(&mut switches().flat_map(|(_, parameter)| {
             parameter.options().iter().map(|option| words::automatic(parameter.key, option))
@@ -121,7 +121,7 @@ impl Columns {
     }
 }
 
-/// Up to which fidelity edits are solved.
+/// The fidelity up to which edits are solved.
 fn target(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let (target, numerics) = (cx.state.document.target(), cx.state.document.scene().numerics());
     ui.horizontal(|ui| {
@@ -167,7 +167,7 @@ fn switch(
     }
 }
 
-/// A decision without a switch: what and why in words.
+/// A decision without a switch: the choice and the reason in words.
 fn fixed(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) {
     ui.add_space(2.0);
     heading(ui, decision, cx);
@@ -192,7 +192,7 @@ fn term(ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
     ui.add(egui::Label::new(capitalised(decision::term(decision))).extend())
 }
 
-/// Bound of a decision's effect; none for a grid, whose error is stated elsewhere.
+/// Bound of a decision's effect; a grid has none, because its error is stated elsewhere.
 fn bound(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) {
     let (text, about) = if decision.effect > 0.0 {
         (format!("≤ {}", at_most(decision.effect)), "What is left out changes α by at most this, relative")
@@ -204,11 +204,11 @@ fn bound(ui: &mut egui::Ui, decision: &Decision, cx: &DrawContext<'_>) {
     ui.add(egui::Label::new(RichText::new(text).color(cx.colours.quiet)).extend()).hint_beside(ui, about);
 }
 
-/// Says that the scene decides, and offers to leave it to the plan again.
+/// Says that the scene decides this part, and offers to return the decision to the plan.
 fn overruled(ui: &mut egui::Ui, decision: &Decision, back: Command, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let (text, colour) =
-            if decision.overruled { ("Overruled", cx.colours.accent) } else { ("As the plan would", cx.colours.quiet) };
+            if decision.overruled { ("Overruled", cx.colours.accent) } else { ("Same as auto", cx.colours.quiet) };
         ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
         let name = format!("{} back to auto", capitalised(decision::term(decision)));
         cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), &name, back);
@@ -216,7 +216,7 @@ fn overruled(ui: &mut egui::Ui, decision: &Decision, back: Command, cx: &DrawCon
     ui.add_space(2.0);
 }
 
-/// `add` in a box of this size, at its left or right.
+/// Draws `add` in a box of this size, aligned left or right.
 fn cell<R>(ui: &mut egui::Ui, width: f32, height: f32, align: Align, add: impl FnOnce(&mut egui::Ui) -> R) -> R {
     let layout =
         if align == Align::Max { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };

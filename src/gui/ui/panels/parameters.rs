@@ -1,4 +1,4 @@
-//! The left panel: every parameter of the scene. Reads the scene, pushes commands.
+//! The left panel: every parameter of the scene. It reads the scene and pushes commands.
 
 use super::field::{self, Field};
 use super::records;
@@ -39,7 +39,7 @@ pub const GROUPS: &[(&str, &str, bool)] = &[
     ("numerics", "Numerics", false),
 ];
 
-/// Digits of a value that follows from others.
+/// Digits of a value that follows from other keys.
 const FOLLOWING_DIGITS: usize = 4;
 /// Narrowest slider.
 const SHORTEST_SLIDER: f32 = 40.0;
@@ -48,7 +48,7 @@ const NOTE_SIZE: f32 = 0.88;
 /// Margin between the frame of the main group and its contents.
 const FRAME_MARGIN: i8 = 6;
 
-/// Shows the parameters of the scene, and at each why its last edit was rejected.
+/// Shows the parameters of the scene, each with the reason if its last edit was rejected.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     scrolled_anew(ui, "parameters", cx.state.view.opened, 8.0, |ui| {
@@ -85,7 +85,8 @@ impl Panel<'_> {
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
             ui.set_width(ui.available_width());
             let heading = ui.add(egui::Label::new(RichText::new("Main").strong()).selectable(false)).rect;
-            // Beside it, so that nothing moves under a slider that is dragged; and always there, because whatever comes after has another id without it.
+            // The note is beside the heading, so that nothing moves under a slider that is dragged. Its area is always there, because
+            // otherwise the widgets after it would change their ids.
             let area = heading.with_max_x(ui.max_rect().right());
             let layout = egui::Layout::right_to_left(egui::Align::Center);
             let mut beside = ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout));
@@ -135,7 +136,7 @@ impl Panel<'_> {
         let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
         let mut parameters: Vec<_> = PARAMETERS.iter().filter(shown).filter(inside).collect();
         if table == "rotor" && self.scene.kind() == Kind::Motor {
-            // A file that is given to a beam replaces it.
+            // For a beam, a given file replaces the beam.
             let file = |p: &&'static Parameter| p.table() == table && matches!(p.kind, ParameterKind::CsvPath { .. });
             let others: Vec<_> = PARAMETERS.iter().filter(|p| file(p) && !parameters.contains(p)).collect();
             parameters.extend(others);
@@ -163,7 +164,7 @@ impl Panel<'_> {
                 }
                 (ParameterKind::Text { .. }, Some(value)) => self.text_row(ui, parameter, value),
                 (ParameterKind::CsvPath { .. }, _) => self.path_row(ui, parameter),
-                // No scene has a value of another type than its key.
+                // The type of a value in a scene is always that of its key.
                 _ => {}
             }
             self.footnotes(ui, parameter);
@@ -183,7 +184,7 @@ impl Panel<'_> {
         ui.add_space(4.0);
     }
 
-    /// A value that follows from others: to be read.
+    /// A read-only row for a value that follows from other keys.
     fn following_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) {
         let Some(value) = self.scene.following(parameter.key) else { return };
         let explanation = format!("{}\nFollows from the keys above\n{}", parameter.about, parameter.key);
@@ -194,7 +195,7 @@ impl Panel<'_> {
         });
     }
 
-    /// The name, and at its right the button that brings back what it was.
+    /// The name, and at its right the button that resets the value.
     fn label_row(&mut self, ui: &mut Ui, parameter: &'static Parameter) -> egui::Response {
         let explanation = self.explanation(parameter);
         let text = RichText::new(label_in(self.scene, parameter));
@@ -204,7 +205,7 @@ impl Panel<'_> {
         })
     }
 
-    /// `add` at the left, and the reset button at the right if the value is not the one that was opened.
+    /// `add` at the left, and at the right the reset button if the value differs from the one that was opened.
     fn beside_reset<R>(&mut self, ui: &mut Ui, parameter: &'static Parameter, add: impl FnOnce(&mut Ui) -> R) -> R {
         let original = self.original(parameter).filter(|value| Some(value) != self.scene.get(parameter.key).as_ref());
         let side = ui.text_style_height(&TextStyle::Body);
@@ -214,7 +215,7 @@ impl Panel<'_> {
             add(ui)
         });
         if let Some(value) = original {
-            // Placed over the row, which keeps its height when the button comes and goes.
+            // It is placed over the row, whose height does not change when the button appears.
             let corner = egui::pos2(right - side, row.response.rect.top());
             let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
             let button = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
@@ -226,14 +227,14 @@ impl Panel<'_> {
 
     fn number_row(&mut self, ui: &mut Ui, parameter: &'static Parameter, value: &Value) {
         let explanation = self.explanation(parameter);
-        // The checkbox above mostly says it already.
+        // Usually the checkbox above says it already.
         let said =
             parameter.absent.is_some() && parameter.switch.to_lowercase().contains(&label(parameter).to_lowercase());
         let name = if said { None } else { Some(self.label_row(ui, parameter)) };
         ui.horizontal(|ui| {
             let others = field::number_width(ui) + self.units + 2.0 * ui.spacing().item_spacing.x;
             ui.spacing_mut().slider_width = (ui.available_width() - others).max(SHORTEST_SLIDER);
-            // What has no effect here can be read, and not set.
+            // A parameter that has no effect here can be read, but not set.
             if !self.scene.heeds(parameter.key) {
                 ui.disable();
             }
@@ -266,7 +267,7 @@ impl Panel<'_> {
             let value = if moved == present {
                 value.clone()
             } else if whole {
-                // Ranges of whole numbers are far inside those of i64.
+                // The ranges of whole numbers lie far inside those of i64.
                 Value::Whole(moved.clamp(range.min, range.max).round() as i64)
             } else {
                 Value::Number(inside(moved, range))
@@ -287,13 +288,13 @@ impl Panel<'_> {
             let now = format!("Now {} {}", significant(value, FOLLOWING_DIGITS), self.scene.unit(parameter));
             return quiet(ui, self.cx, now.trim_end());
         }
-        // That unset numerics are left to the fidelity need not be said four times.
+        // The note that unset numerics are left to the fidelity is not repeated for each of the four.
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
             quiet(ui, self.cx, &capitalised(meaning));
         }
     }
 
-    /// The command of a checkbox: a key that is given in place of another one says the same as that, there and back.
+    /// The command of a checkbox. For a key that replaces another one, both values mean the same.
     fn switched(&self, parameter: &'static Parameter, on: bool) -> Command {
         let replaced = parameter.instead_of.and_then(Parameter::find);
         let Some(given) = Some(parameter).filter(|_| on).or(replaced) else { return Command::Reset(parameter.key) };
@@ -304,7 +305,7 @@ impl Panel<'_> {
         }
     }
 
-    /// What is known of the plate, if it is one that is solved as it is now: as exact as the run on screen.
+    /// Results for the plate, with the accuracy of the run on screen; `None` unless that is a converged run of the present scene.
     fn solved_plate(&self) -> Option<SolvedPlate> {
         let run = self.cx.state.run.as_ref().filter(|run| !self.cx.state.stale(run))?;
         if run.solution.status != Status::Converged {
@@ -368,7 +369,7 @@ impl Panel<'_> {
             ui.label(label(parameter)).hint_beside(ui, &explanation);
             ui.label(RichText::new(counted(rows, "row", "rows")).strong());
         });
-        quiet(ui, self.cx, "Edit the table in its file and give the file again");
+        quiet(ui, self.cx, "To change the table, edit its file and open it again");
     }
 
     /// Notes below a parameter: why an edit is refused, and that it has no effect.
@@ -411,7 +412,7 @@ impl Panel<'_> {
     }
 }
 
-/// Whether the parameter is among those that the eye meets first. A plate has no minimum spacing.
+/// Whether the parameter is among the main ones. A plate has no minimum spacing.
 fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
     MAIN.contains(&parameter.key) && words::unused(scene, parameter).is_none()
 }

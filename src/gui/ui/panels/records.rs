@@ -1,5 +1,6 @@
-//! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text a row. A number that is
-//! refused stays in its field, with the reason below its table, until it is corrected, Escape brings the value back, or anything else is edited.
+//! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text in each row. A
+//! refused number stays in its field, with the reason below its table, until it is corrected, Escape restores the value, or anything else
+//! is edited.
 
 use crate::gui::command::Command;
 use crate::gui::derived::words::{choice, field_name, label};
@@ -20,13 +21,13 @@ const DECIMALS: usize = 4;
 /// The last edit in one of the tables of an array.
 #[derive(Clone, Debug)]
 struct Tried {
-    /// Which table, and which of its values.
+    /// The index of the table, and the index of the value in it.
     at: [usize; 2],
     /// The text, if a number was typed.
     entered: Option<Entered>,
-    /// The array that the edit made, or the present one if the text is at fault.
+    /// The array after the edit; the present array if the text is invalid.
     array: Value,
-    /// The frame in which it was made: it is carried out when that has been drawn.
+    /// The frame in which the edit was made; it is carried out after that frame is drawn.
     frame: u64,
 }
 
@@ -35,7 +36,7 @@ impl Tried {
         Id::unique(("tried", key))
     }
 
-    /// The last edit in the array of `key`, and why it is refused. One that is not refused is forgotten.
+    /// The last edit in the array of `key`, and why it is refused. An edit that is accepted is forgotten.
     fn refused(ui: &egui::Ui, cx: &DrawContext<'_>, key: &'static str) -> Option<(Self, String)> {
         let tried: Self = ui.data(|data| data.get_temp(Self::id_of(key)))?;
         let fault = tried.entered.as_ref().and_then(|(_, fault)| fault.clone());
@@ -48,12 +49,12 @@ impl Tried {
     }
 }
 
-/// Whether why the last edit of `key` was refused is told at one of its tables.
+/// Whether the reason for the refusal of the last edit of `key` is shown at one of its tables.
 pub fn tells(ui: &egui::Ui, key: &'static str) -> bool {
     ui.data(|data| data.get_temp::<Tried>(Tried::id_of(key))).is_some()
 }
 
-/// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that an edit makes of them.
+/// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that results from an edit.
 pub fn show(
     ui: &mut egui::Ui,
     cx: &DrawContext<'_>,
@@ -97,7 +98,7 @@ pub fn show(
                     {
                         let mut edited = records.to_vec();
                         match value {
-                            // What two parts share moves in both.
+                            // An edge that two parts share is moved in both.
                             Some(Value::Number(to)) if fewest > 0 => {
                                 let lengths = columns[..place].iter().filter(|column| column.range().is_some());
                                 edited = with_edge(records, (number, lengths.count()), to);
@@ -106,7 +107,7 @@ pub fn show(
                             None => {}
                         }
                         if !matches!(entered, Some((_, Some(_)))) {
-                            // To set what is already set takes a refusal back.
+                            // Setting the present value again withdraws a refusal.
                             set(edited.clone(), dragging);
                         }
                         let tried = Tried { at: [number, place], entered, array: Value::Records(edited), frame: drawn };
@@ -130,7 +131,7 @@ pub fn show(
             columns.iter().map(first).map(|value| value.unwrap_or(Value::Number(0.0))).collect()
         };
         let mut another: Vec<Value> = records.last().cloned().unwrap_or_else(new);
-        // On top of the last one, so that it is connected and nothing overlaps.
+        // The new part is on top of the last one, so that it is connected and nothing overlaps.
         let at = |key: &str| columns.iter().position(|column| column.key == key);
         if let (Some(bottom), Some(top), true) = (at("z_bottom_mm"), at("z_top_mm"), fewest > 0) {
             let [low, high] = [bottom, top].map(|i| another[i].as_number().unwrap_or_default());
@@ -145,7 +146,7 @@ pub fn show(
 
 /// An edit of one value.
 struct Edit {
-    /// What it becomes; it stays if a text that is no number was entered, or was dropped with Escape.
+    /// The new value; `None` if invalid text was entered, or if Escape dropped the text.
     value: Option<Value>,
     /// Whether a pointer still drags it.
     dragging: bool,
@@ -153,7 +154,7 @@ struct Edit {
     entered: Option<Entered>,
 }
 
-/// One value, or the text in place of it that was refused; the edit of it.
+/// A value, or the refused text in its place. Returns the edit of it.
 fn cell(
     ui: &mut egui::Ui,
     (of, value, refused): (&'static Parameter, &Value, Option<&str>),
@@ -171,7 +172,7 @@ fn cell(
                 None => drag.suffix(format!(" {}", of.unit)),
             };
             let usual = ui.visuals().override_text_color;
-            // Without a scope, since with one the fields below would be other ones to the keyboard.
+            // There is no scope here, because it would change the ids of the fields below.
             if refused.is_some() {
                 ui.visuals_mut().override_text_color = Some(cx.colours.alarm);
             }
@@ -185,7 +186,7 @@ fn cell(
             if faulty || refused.is_some() && escaped {
                 return Some(Edit { value: None, dragging: false, entered });
             }
-            // What a drag makes of it is round; a field that is only left keeps the decimals that it does not show.
+            // A drag sets a round value; a field that only loses the focus keeps the decimals that it does not show.
             let shown = |number: f64| format!("{number:.DECIMALS$}");
             let number = match number {
                 number if response.dragged() => (100.0 * number).round() / 100.0,

@@ -43,7 +43,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         match (&run.problem.scenario, &run.solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, &shown, motor, result, cx),
             (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, &shown, plate, result, cx),
-            // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
+            // A solver returns the kind of result that belongs to the scene.
             _ => {}
         }
         cx.warn(ui, &run.solution.warnings);
@@ -133,7 +133,7 @@ impl RunNumbers<'_> {
         self.numbers.estimate(quantity).map_or_else(String::new, uncertain)
     }
 
-    /// A row, if the run has the number.
+    /// A row, if the run has this number.
     fn row(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, quantity: Quantity) {
         if let Some(found) = self.numbers.estimate(quantity) {
             number(ui, cx, name, &uncertain(found), quantity.unit(self.problem));
@@ -213,7 +213,7 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };
     number(ui, cx, "Time", &significant(time, 3), unit);
     if stats.warm_start {
-        cx.note(ui, "Warm start, from the fields of the scene before: counts, time, and values within their errors depend on it");
+        cx.note(ui, "Warm start from the fields of the previous scene: the counts and the time depend on it, and the values do so within their errors");
     }
     if !run.history.is_empty() {
         ui.add_space(6.0);
@@ -231,7 +231,7 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
     match &run.solution.status {
         Status::Converged if stale => {}
         Status::Converged => {
-            // A grid that the time did not suffice for is given up before it has converged.
+            // If the time limit ends the solve on a grid, that grid has not converged and is dropped.
             let last = run.history.iter().rev().find(|round| round.residual <= round.tolerance);
             let text = last.map_or_else(String::new, |last| {
                 let [changed, allowed] = [last.residual, last.tolerance].map(|share| joined(&percent(share)));
@@ -267,10 +267,10 @@ fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
     ui.add_space(6.0);
 }
 
-/// The number that matters, its error smaller; all of it smaller where it would not fit. The glossary explains it under `word`.
+/// The main number, with its error in smaller type; all of it is smaller where it would not fit. The glossary explains it under `word`.
 pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str, unit: &str) {
     let body = TextStyle::Body.resolve(ui.style()).size;
-    // A power of ten is that of both, and they are of one size.
+    // A power of ten applies to both value and error, so both have one size.
     let parts = value.split_once(" ± ").filter(|_| !value.starts_with('('));
     let (number, error) = parts.map_or((value, None), |(number, error)| (number, Some(error)));
     let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
@@ -303,7 +303,7 @@ pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str,
 fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
     let height = 0.6 * ui.text_style_height(&TextStyle::Body);
     let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
-    // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
+    // Suction can make the share negative, and it can exceed 1 before the solve has converged; the bar shows 0 to 1.
     let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
     painter.rect_filled(area, 3, cx.colours.contact);
@@ -347,7 +347,7 @@ pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value:
     let (term, gap) = (name, 2.0 * ui.spacing().item_spacing.x);
     let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
     let name = egui::Label::new(RichText::new(name).color(cx.colours.quiet));
-    // Of two values each stays whole with its error and unit.
+    // Two values are broken only between them: each stays with its error and unit.
     let value = if fits { value } else { joined(&value).replace("\u{a0}…\u{a0}", " … ") };
     let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
     let right = egui::Layout::right_to_left(egui::Align::Center);

@@ -1,4 +1,4 @@
-//! The bottom panel: the timeline of the cycle or of a plate in the hand, and what the solver is doing.
+//! The bottom panel: the timeline of the cycle or of a held plate, and the state of the solver.
 
 use crate::digits::{duration, percent};
 use crate::fidelity::Fidelity;
@@ -30,7 +30,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     let row = ui.horizontal(|ui| {
         play_and_step(ui, view.playing, cx);
-        // Whether all that moves has one period.
+        // Whether all runs that are animated have the same period.
         let alike = periods[1] / periods[0] - 1.0 < 1e-9;
         let slowed = |seconds: f64| {
             let [most, least] = periods.map(|period| thousands(seconds / period));
@@ -46,7 +46,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
         speed.called(egui::Role::Slider, "Speed").explained_here(ui, "Slow motion");
         if let Some(at) = scrub(ui, place, frames, ["Time in the cycle", "Drag to an instant of the cycle"]) {
-            // To a recorded frame; the end of the cycle is its start.
+            // The slider stops at recorded frames; the end of the cycle is its start.
             cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
         }
         let phase = place / frames;
@@ -60,13 +60,13 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     cx.mark(ui, "timeline", row.response.rect);
 }
 
-/// Pause, step and scrub what a plate in the hand has done lately.
+/// Controls to pause, step and scrub the recent recording of a held plate.
 fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     ui.add_space(2.0);
     let newest = hold.trail().len().saturating_sub(1);
     let row = ui.horizontal(|ui| {
         play_and_step(ui, hold.playing, cx);
-        let hover = "Plays what the charts show once more, in slow motion; the plate waits";
+        let hover = "Replays what the charts show, in slow motion; the plate waits meanwhile";
         cx.on_click(&ui.add_enabled(newest > 0, egui::Button::new("Replay")).hint(hover), HoldCommand::Replay);
         let most = newest.max(1) as f64;
         let place = if newest == 0 { most } else { hold.place() as f64 };
@@ -92,7 +92,7 @@ fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {
     }
 }
 
-/// A slider from 0 to `most` over what is left of the row but for a label; where it was dragged to.
+/// A slider from 0 to `most` that fills the row except for a label. Returns the position it was dragged to.
 fn scrub(ui: &mut egui::Ui, mut at: f64, most: f64, [called, hover]: [&str; 2]) -> Option<f64> {
     ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
     let slider = Slider::new(&mut at, 0.0..=most).clamping(egui::SliderClamping::Never).show_value(false);
@@ -124,7 +124,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             ui.label("Nothing solved yet");
         }
         if let Some(message) = &activity.failure {
-            // All of a long one is said on hover, with the keys of a file.
+            // A long message is shown in full on hover, with the keys as they are in a file.
             let words = RichText::new(without_keys(message)).color(cx.colours.alarm);
             ui.add(egui::Label::new(words).truncate()).hint(message);
         }

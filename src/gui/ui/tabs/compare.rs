@@ -1,4 +1,4 @@
-//! Pinned runs beside each other: who they are, their fields in phase, and their numbers with differences from the first.
+//! Pinned runs beside each other: their names, their fields in phase, and their numbers with differences from the first.
 
 use crate::analysis::compare::{ComparedRun, ParameterRow};
 use crate::analysis::quantity::Quantity;
@@ -23,8 +23,7 @@ const WIDEST_LABEL: f32 = 16.0;
 /// Margin and gaps between the parts of a pin \[points\].
 const CHIP_MARGIN: i8 = 4;
 const CHIP_GAP: f32 = 5.0;
-/// With more runs than this, or in a tab narrower than their columns, differences stand below the values instead of beside
-/// them.
+/// With more runs than this, or in a tab narrower than their columns, the differences are shown below the values instead of beside them.
 const BESIDE: usize = 3;
 /// Widths of the columns of names, values and differences, and of a label above them that has room or has not, in heights of
 /// the text.
@@ -53,7 +52,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.add_space(8.0);
     let text = "Pin a run, change the scene, pin the next: their waves, pressures and loads are laid over each other in \
-                phase, their maps share one scale of colours, and a table tells what differs.";
+                phase, their maps share one scale of colours, and a table shows what differs.";
     cx.note(ui, text);
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| add_buttons(ui, cx));
@@ -79,7 +78,7 @@ fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
-/// Brings back what was removed last, if there is something.
+/// A button that restores the pins that were removed last, if there are any.
 fn restore_button(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (name, about) = match cx.state.pins.removed() {
         0 => return,
@@ -133,14 +132,14 @@ fn chip(ui: &mut Ui, pin: &Pin, run: &ComparedRun, present: bool, cx: &DrawConte
     let (id, colour, dash) = (pin.id, run_colour(pin.slot, cx.state.dark), run_dash(pin.slot));
     let em = ui.text_style_height(&TextStyle::Body);
     let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
-    // A square, or room for some dashes.
+    // A square, or space for some dashes.
     let swatch = if dash == LineStyle::Solid { 0.8 } else { 2.0 } * em;
-    // All but the label.
+    // The width of everything except the label.
     let rest = 2.0 * f32::from(CHIP_MARGIN) + swatch + 0.2 * em + CHIP_GAP + button("✕");
     let rest = rest + if present { 0.0 } else { button("Open") };
     let label = text_width(ui, &run.label) + 4.0;
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
-    // In one piece, so that it is a whole that goes to the next line.
+    // The parts of a pin are in one box, which moves to the next line as a whole.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
     let parts = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
@@ -153,7 +152,7 @@ fn chip(ui: &mut Ui, pin: &Pin, run: &ComparedRun, present: bool, cx: &DrawConte
         }
         name_field(ui, id, run, label, cx);
         if !present {
-            let open = ("Open", "Makes this the present scene; undo brings back what was");
+            let open = ("Open", "Makes this the present scene; undo brings the previous one back");
             cx.small_button(ui, open, &format!("Open {}", run.label), PinCommand::Open(id));
         }
         cx.small_button(ui, ("✕", "Remove this pin"), &format!("Remove {}", run.label), PinCommand::Remove(id));
@@ -162,12 +161,12 @@ fn chip(ui: &mut Ui, pin: &Pin, run: &ComparedRun, present: bool, cx: &DrawConte
     ui.allocate_ui_with_layout(size, row, |ui| frame(ui, colour).show(ui, parts));
 }
 
-/// The label, to be typed over; Enter or leaving takes it, Escape does not.
+/// The label, which can be edited; Enter or leaving the field commits it, Escape does not.
 fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawContext<'_>) {
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
     let focused = ui.memory(|memory| memory.has_focus(id));
-    // A name that is longer than the field is cut until it is typed over.
+    // A name that is longer than the field is shortened until it is edited.
     let mut layouter = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
         let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
         let text = text.as_str();
@@ -184,7 +183,7 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
         .align(egui::Align2::LEFT_CENTER)
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .desired_width(width);
-    let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
+    let about = format!("{}, solved at {}. Type to rename it", run.label, fidelity(run));
     let response = ui.add(field).hint(about).called(egui::Role::TextInput, &format!("Label of {}", run.label));
     if response.lost_focus() {
         let escaped = ui.input(|input| input.key_pressed(Key::Escape));
@@ -197,8 +196,8 @@ fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawCon
     }
 }
 
-/// `text`, or as much of it as fits, with "…" in it: names of pins begin alike, and more is kept of the end. A number and its unit stay
-/// together, or go together.
+/// `text`, or as much of it as fits, with "…" in it. Names of pins begin alike, so more is kept of the end. A number and its unit are kept
+/// or dropped together.
 fn cut(text: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(text) {
         return text.to_owned();
@@ -215,7 +214,7 @@ fn cut(text: &str, fits: impl Fn(&str) -> bool) -> String {
     (0..chars.len()).rev().map(kept).find(|text| fits(text)).unwrap_or_default()
 }
 
-/// Where there is a number in a text, each with the word behind it, unless there is a comma between.
+/// The positions of the numbers in a text, each with the following word unless a comma separates them.
 fn numbers_with_units(text: &[char]) -> Vec<std::ops::Range<usize>> {
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
     let mut start = 0;
@@ -238,7 +237,7 @@ fn numbers_with_units(text: &[char]) -> Vec<std::ops::Range<usize>> {
 fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
-    // Bars that stay, so that columns beyond the edge are not missed.
+    // The scroll bars are always visible, so that columns beyond the edge are not overlooked.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     egui::ScrollArea::both().id_salt("numbers of pins").auto_shrink(false).show(ui, |ui| {
         let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs.iter().any(|run| run.scene.scene() == kind));
@@ -249,7 +248,7 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
             ui.label(quiet(about));
         }
         if motors && plates {
-            ui.label(quiet("Motors and plates have few numbers in common; what one does not have is left empty"));
+            ui.label(quiet("Motors and plates have few numbers in common; a number that a run does not have is left empty"));
         }
         ui.add_space(4.0);
         ui.label(RichText::new("Results").strong());
@@ -263,7 +262,7 @@ fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
         let rows: Vec<&ParameterRow> =
             pins.parameters.iter().filter(|row| pins.all_parameters || row.differs()).collect();
         if rows.is_empty() {
-            let text = if pins.runs.len() < 2 { "Pin a second run to see differences" } else { "None differs" };
+            let text = if pins.runs.len() < 2 { "Pin a second run to see differences" } else { "No parameter differs" };
             ui.label(quiet(text));
         } else {
             parameters(ui, &rows, cx);
@@ -368,7 +367,7 @@ mod tests {
         let pins = ["100", "150"].map(|spacing| format!("Fundamental case, minimum spacing H_m {spacing} nm"));
         assert_eq!(pins.each_ref().map(|pin| shown(pin, 16)), ["Funda…H_m 100 nm", "Funda…H_m 150 nm"]);
         assert_eq!(shown(&pins[0], 100), pins[0]);
-        // No number without its unit, and no part of one.
+        // A number is not shown without its unit, nor a part of a number.
         let name = "Case, frequency 45 kHz, minimum spacing H_m 100 nm";
         for most in 1..name.len() {
             let text = shown(name, most);

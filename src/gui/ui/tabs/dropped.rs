@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let dropped = cx.state.dropped.as_ref();
     ui.horizontal_wrapped(|ui| {
         if dropped.is_some_and(|dropped| dropped.work.running()) {
-            cx.button(ui, "Cancel", "Ends it; its way so far stays", Command::CancelTab);
+            cx.button(ui, "Cancel", "Ends the drop; the motion so far is kept", Command::CancelTab);
         } else {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
             cx.mark(ui, "start", button.rect);
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         return cx.introduce(ui, &[
             "What does a plate under a load do when it is dropped on the vibration?",
             "It falls from rest, at twice the gap at which it floats, through gas at ambient pressure, while the vibration comes up. Its \
-             way is marched with time steps of two lengths, whose difference is the error of the height. In the tab Hold it \
+             motion is computed with time steps of two lengths; the difference is the error of the height. In the tab Hold it \
              can be pushed by hand and let go, in slow motion.",
         ]);
     };
@@ -46,13 +46,13 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         ui.label(RichText::new(format!("computed at {}", dropped.fidelity)).color(cx.colours.quiet));
     });
     let stale = dropped.stale(cx.state.document.scene());
-    cx.alarm(ui, stale.then_some("Of the scene before it changed; drop it again"));
+    cx.alarm(ui, stale.then_some("Computed before the scene changed; drop it again"));
     if dropped.cycles.len() > 1 {
         way(ui, dropped, height, cx);
     }
 }
 
-/// Height over time as the exported figure has it, and the mean gap of the periodic solve.
+/// Height over time as in the exported figure, with the mean gap of the periodic solve.
 fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) {
     let panel = panel(&dropped.cycles, periodic(dropped, cx).map(|gap| gap * 1e6));
     cx.note(ui, "Height of the plate, µm");
@@ -60,7 +60,7 @@ fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) 
     Chart { name, height, panel: &panel, words }.show(ui);
 }
 
-/// The mean gap of the periodic solve: of the drop's own at its end, until then of the run on screen.
+/// The mean gap of the periodic solve: after the end of the drop, that of its own solve; before, that of the run on screen.
 fn periodic(dropped: &Dropped, cx: &DrawContext<'_>) -> Option<Estimate> {
     if let Some(ended) = &dropped.ended {
         return ended.as_ref().ok()?.floats.as_ref().ok().copied();
@@ -72,7 +72,7 @@ fn periodic(dropped: &Dropped, cx: &DrawContext<'_>) -> Option<Estimate> {
     }
 }
 
-/// How far it is, in words.
+/// The progress or the outcome, in words.
 fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, Color32) {
     let last = dropped.cycles.last();
     let at = last.map_or_else(String::new, |cycle| {
@@ -81,7 +81,7 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
     });
     let hit = struck(&dropped.cycles).map_or_else(String::new, |words| format!(". {words}"));
     let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
-        format!("; the periodic solve, in which it does not shake, has {} µm (dashed)", gap * 1e6)
+        format!("; the periodic solve, in which it does not shake, gives {} µm (dashed)", gap * 1e6)
     });
     match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),

@@ -1,5 +1,4 @@
-//! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
-//! invariant.
+//! A solved plate beside its exact results: spring and damping over the squeeze number, the limits over the cycle, and the invariant.
 
 use crate::analysis::exact::{ExactComparison, Harmonic, units};
 use crate::digits::{percent, raised, significant};
@@ -22,13 +21,13 @@ const SHARES: [f32; 2] = [0.33, 0.27];
 const LEAST_LINES: [f32; 2] = [10.0, 9.0];
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
-/// The charts: what they are called, and what the glossary explains that and their axes under.
+/// The charts: the name of each, and the glossary terms of the chart and its axes.
 const CHARTS: [[&str; 4]; 2] = [
     ["Spring and damping against the squeeze number", "Squeeze number", "σ/Q", "Spring and damping"],
     ["Load over the cycle and its limits", "Film load", "t/T", "Film load"],
 ];
 
-/// All that this tab explains below its table, as in lessons: text, and formulae that are set.
+/// The explanations below the table: text and typeset formulas, as in lessons.
 mod notes {
     use crate::lessons::text::{Block, blocks};
     use crate::problem::Outline;
@@ -75,11 +74,11 @@ The invariant, the same at every point of the film, for every $\sigma$ and $\var
 $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\langle \frac{H^3}{2} + 6mH^2 \right\rangle $$";
 
     fn read(linear: &str) -> Vec<Block> {
-        // They are built in; a test reads them.
+        // The notes are built in, and a test reads them.
         [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text, None).unwrap_or_default()).collect()
     }
 
-    /// Of a plate of this outline.
+    /// The notes for a plate of this outline.
     pub(super) fn of(outline: Outline) -> &'static [Block] {
         static NOTES: LazyLock<[Vec<Block>; 4]> = LazyLock::new(|| [STRIP, RECTANGLE, DISC, RING].map(read));
         &NOTES[match outline {
@@ -134,20 +133,20 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-/// Computed beside exact.
+/// Computed values beside exact ones.
 fn table(ui: &mut Ui, found: &ExactComparison, units: [&str; 2], cx: &DrawContext<'_>) {
     let both = |solved: Option<Harmonic<Estimate>>| match solved {
         Some(solved) => [solved.spring, solved.damping].map(uncertain),
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
-    // At the frequency of the vibration: in slow motion, which is the stiffness at this height, gas leaves.
+    // These are at the frequency of the vibration: in slow motion, which the stiffness at this height is for, gas leaves.
     let names = [format!("Dynamic stiffness, {}", units[0]), format!("Dynamic damping, {}", units[1])];
     let exact = |value: f64| raised(&significant(value, DIGITS));
     let Harmonic { spring: stiff, damping: lossy } = found.linear;
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     let small = "ε → 0";
-    // What it is called, computed, exact, and when that holds.
+    // The name, the computed value, the exact value, and when that holds.
     let rows = [
         ["Spring S", &spring, &exact(stiff), small],
         ["Damping D", &damping, &exact(lossy), small],

@@ -1,4 +1,4 @@
-//! A measured face below the rotor: its heights as a map, the profile where the pointer is, and what it comes to.
+//! A measured face, below the rotor: its heights as a map, the profile under the pointer, and its statistics.
 
 use crate::digits::{signed, significant};
 use crate::export::figure::{Axis, Colour, Line, Panel, Style};
@@ -25,14 +25,14 @@ const DRAWN: usize = 512;
 /// Most points of a profile that are drawn.
 const POINTS: usize = 2000;
 
-/// Text without a face.
+/// Text shown when no face is open.
 const INTRODUCTION: &[&str] = &[
     "How rough is a face that was measured, and what follows from it?",
     "The file has a grid of heights, after the lines # dx_um = 0.5, # dy_um = 0.5 and # height = nm, or a profile with the columns x_um and \
          z_nm.",
 ];
 
-/// Shows the face that was opened, or how to open one.
+/// Shows the open face, or how to open one.
 pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     ui.add_space(6.0);
     title(ui, "Measured face", "Measured face");
@@ -49,8 +49,8 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
             Some(format!("{} to {}", label(parameter), parameter.with_unit(Value::Number(value))))
         });
         let about = format!(
-            "Sets what follows from two faces like this one in the present surface model, as one edit:\n{}\nAfter another model is chosen \
-             nothing is taken until this is pressed again",
+            "Sets the keys of the present surface model for two faces like this one, as one edit:\n{}\nAfter a change of \
+             the model, press this again",
             set.collect::<Vec<_>>().join("\n")
         );
         cx.button(ui, "Take roughness from it", about, Command::TakeRoughness);
@@ -119,7 +119,7 @@ fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {
     Chart { name, height: 0.6 * height, panel: &panel, words: (None, "Measured face") }.show(ui);
 }
 
-/// Its statistics, and what follows from two faces like it.
+/// Its statistics, and the values for two faces like it.
 fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
     let (own, both) = (&face.texture, &face.pair);
     let lengths = lengths(own, own.correlation);

@@ -1,4 +1,4 @@
-//! The fit tab: parameters fitted to measurements, or optimised for a result: the table, the form, and the result.
+//! The fit tab: parameters are fitted to measurements, or optimised for a result. It has the table, the form, and the result.
 
 use crate::analysis::fit::{Bound, Fitted, FittedUnknown, MOST_UNKNOWNS, Measured, Optimum};
 use crate::digits::{capitalised, counted, percent, signed, significant};
@@ -28,7 +28,7 @@ const LEAST_LINES: f32 = 9.0;
 const ROW: f32 = 1.3;
 /// Width of the lists and of the field for limits, in heights of the text.
 const WIDE: f32 = 13.0;
-/// Rows that are listed: all are in the files of the command line.
+/// Most rows that are listed; the files of the command line have all rows.
 const LISTED: usize = 200;
 
 /// Shows the tab.
@@ -65,7 +65,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             cx.alarm(ui, stale.then(|| format!("Fitted to “{name}” before the scene changed; fit again")));
             let another = state.asks_for_another();
             cx.alarm(ui, another.then(|| format!("Found for another question: {}", question(found))));
-            // Both are built once for what was found.
+            // Both are computed once for each result.
             let drawn = once(ui, "fit", Arc::as_ptr(found) as usize, || drawn(found));
             match &**found {
                 FitResult::Fit(measured, fitted) => result(ui, measured, fitted, &drawn, height, cx),
@@ -120,7 +120,7 @@ fn sought(ui: &mut Ui, form: &mut FitForm, cx: &DrawContext<'_>) {
             }
         });
         ui.label("with");
-        let about = "Limits on other results, separated by commas: alpha<30 %, stall_torque_nm>0.2 N·m. Their names are those of the columns that are exported";
+        let about = "Limits on other results, separated by commas: alpha<30 %, stall_torque_nm>0.2 N·m. The names are those of the exported columns";
         field(ui, ("Limits on other results", about), (&mut form.limits, "no limits"), WIDE);
     });
     cx.alarm(ui, cx.state.fit.goal_fault.as_ref().filter(|_| sought != Sought::Agreement));
@@ -198,7 +198,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     let agreement = state.form.sought == Sought::Agreement;
     ui.horizontal_wrapped(|ui| {
         if state.work.running() {
-            cx.button(ui, "Cancel the fit", "Ends it and discards what was found", Command::CancelTab);
+            cx.button(ui, "Cancel the fit", "Ends the search; nothing is kept", Command::CancelTab);
             ui.spinner();
             let what = if agreement { "χ²" } else { "best" };
             ui.label(match state.told {
@@ -225,7 +225,7 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
     }
 }
 
-/// Charts of the result, and the words for its numbers.
+/// Charts of the result, and the text for its numbers.
 #[derive(Default)]
 struct Drawn {
     panels: Vec<Panel>,
@@ -275,8 +275,8 @@ fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, heigh
             significant(found.chi_squared, 3),
             counted(found.degrees_of_freedom, "degree of freedom", "degrees of freedom")
         ),
-        (false, Some(_)) => "The table has no errors: they are taken from the residuals.".to_owned(),
-        (false, None) => "The table has no errors, and no measurement is left to tell them from.".to_owned(),
+        (false, Some(_)) => "The table has no errors: they are estimated from the residuals.".to_owned(),
+        (false, None) => "The table has no errors, and too few measurements to estimate them.".to_owned(),
     };
     cx.note(ui, how);
     ui.add_space(4.0);
@@ -302,7 +302,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
             ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
             ui.label(RichText::new(value).color(strong));
             ui.scope(|ui| {
-                // Over as many lines as it takes, each of some words.
+                // The text is wrapped between groups of words.
                 let room = ui.available_width().max(0.7 * WIDE * ui.text_style_height(&TextStyle::Body));
                 ui.set_max_width(room);
                 ui.add(Label::new(beside).wrap());
@@ -353,7 +353,8 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
     });
 }
 
-/// Measured against computed, a chart for each kind of measurement, torques over the speed; and residuals row by row.
+/// Charts of measured and computed values, one for each kind of measurement, with torques over the speed; and a chart of the residuals, row
+/// by row.
 fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
     let Some((residuals, kinds)) = drawn.panels.split_last() else { return };
     for panel in kinds {

@@ -1,4 +1,4 @@
-//! A plate in the hand: dragged up and down, and the film's answer felt as a force.
+//! A held plate: it is dragged up and down, and the film answers with a force.
 
 use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{thousands, time};
@@ -14,13 +14,13 @@ use eframe::egui::{self, DragValue, Slider, TextStyle};
 
 /// Preset that is offered while the scene is a motor.
 const PRESET: &str = "plate-crossover";
-/// Share of the requested pace below which the film is reported to be slower.
+/// The film is reported as slower than real time below this share of the requested speed.
 const SLOW: f64 = 0.85;
 /// Decimals of the gap in µm.
 const GAP_DECIMALS: usize = 3;
-/// Change of a number over its range, or over itself, for each point that its box is dragged.
+/// Change of a number for each point that its box is dragged, relative to its range or to itself.
 const SPEED: f64 = 5e-3;
-/// Widest and narrowest slider, and what stands beside either, in heights of the text.
+/// Greatest and least width of the slider, and the width of the widgets beside it, in heights of the text.
 const WIDEST: f32 = 18.0;
 const NARROWEST: f32 = 5.0;
 const BESIDE_GAP: f32 = 18.0;
@@ -34,7 +34,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         }
         let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
         cx.introduce(ui, &[text]);
-        let hover = "A built-in preset: some of its gas escapes, some is squeezed";
+        let hover = "A built-in preset in which part of the gas escapes and part is compressed";
         return cx.button(ui, "Open the plate at its crossover", hover, Next::Preset(PRESET));
     };
     controls(ui, hold, cx);
@@ -47,7 +47,8 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         let [least, most] = hold.reach().map(|gap| gap * 1e6);
-        // As the slider rounds it, the ends of its range too: a plate that falls, however high, is not taken in the hand.
+        // These are rounded as the slider rounds them, including the ends of its range; otherwise drawing the slider could hold a plate
+        // that falls.
         let digits = 10f64.powi(GAP_DECIMALS as i32);
         let (least, most) = ((least * digits).ceil() / digits, (most * digits).floor() / digits);
         let gap = egui::emath::round_to_decimals(hold.target * 1e6, GAP_DECIMALS);
@@ -84,7 +85,7 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     });
 }
 
-/// A slider over what a row has left beside others, so many heights of the text wide; none where that is too short.
+/// A slider that fills the remaining width of a row, which is given in heights of the text; `None` if that is too short.
 fn slide<'v>(
     ui: &mut egui::Ui,
     value: &'v mut f64,
@@ -97,7 +98,7 @@ fn slide<'v>(
     (room > NARROWEST * em).then(|| ui.add(slider(value).show_value(false)))
 }
 
-/// How slow the slow motion is, in words; and whether this computer keeps up.
+/// How slow the slow motion is, in words, and whether this computer can keep up.
 fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let leak = time(leak_time(&hold.plate, hold.plate.mean_gap));
     cx.note(ui, format!("The film's leak time at the mean gap is {leak}. Drag the plate."));

@@ -1,4 +1,4 @@
-//! The labels above the middle of the window.
+//! The tabs' labels, above the middle of the window.
 
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::state::view::Tab;
@@ -8,10 +8,10 @@ use crate::gui::ui::keys;
 use crate::scene::Kind;
 use eframe::egui;
 
-/// Windows that are lower have the height of a telephone that lies on its side.
+/// Windows lower than this have the height of a telephone in landscape format.
 pub const LOW: f32 = 480.0;
 
-/// The labels above the middle, and at their right what pins the run.
+/// The labels above the middle, and at their right the button that pins the run.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
     let (present, pinned, solved) = (state.view.tab, state.pins.runs.len(), state.run.is_some());
@@ -26,7 +26,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         }
         if present != Tab::Compare {
-            // Below the labels where they leave no room for it.
+            // The button is below the labels where they leave no space for it.
             let room = ui.available_size_before_wrap().x;
             if room < ui.spacing().interact_size.x {
                 ui.end_row();
@@ -38,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             });
         }
     };
-    // On a telephone they stay on one line, which a finger moves.
+    // On a telephone the labels stay on one line, which is scrolled with a finger.
     let row = if ui.ctx().content_rect().height() < LOW {
         egui::ScrollArea::horizontal().id_salt("tabs").show(ui, |ui| ui.horizontal(labels)).inner
     } else {

@@ -1,6 +1,6 @@
-//! The rotor by itself: compliance by harmonic and Green's function of several models, and the section of a ring, to scale, with its
-//! mesh and as the present load bends it. The edges of its parts can be dragged. Below, the faces if they are rough (`surface`), and one that was measured
-//! (`face`).
+//! The rotor by itself: compliance by harmonic and Green's function of several models, and the cross-section of a ring, to scale, with its
+//! mesh and its deformation under the present load. The edges of its parts can be dragged. Below the rotor are the faces if they are rough
+//! (`surface`), and a measured face (`face`).
 
 use super::{face, surface};
 use crate::analysis::rotor::{Bent, RotorCurves};
@@ -25,11 +25,11 @@ const LEAST_LINES: [f32; 3] = [10.0, 10.0, 14.0];
 const BESIDE: f32 = 36.0;
 /// Harmonics that the chart of compliances shows.
 const SHOWN: usize = 64;
-/// The greatest displacement as it is drawn, as a share of the section's size.
+/// The greatest displacement as drawn, as a share of the section's size.
 const MAGNIFIED: f64 = 0.06;
-/// Nodes of an element round its sides, from one corner to the same again.
+/// The nodes round an element, from one corner back to the same corner.
 const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
-/// Distance from an edge within which the pointer takes it \[points\].
+/// Distance from an edge within which the pointer grabs it \[points\].
 const REACH: f32 = 5.0;
 /// Rounding of a dragged edge \[mm\].
 const STEP: f64 = 0.01;
@@ -48,9 +48,9 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         match known {
             None => drop(ui.label("Computing the rotor…")),
             Some(Err(why)) => {
-                // Of curves their numbers say it, so that what is dragged does not move away.
+                // If there are curves, the text with their numbers says so, and nothing moves while an edge is dragged.
                 if !cx.state.rotor.is_of(motor) {
-                    cx.note(ui, "Of the rotor before this edit");
+                    cx.note(ui, "Curves of the rotor before this edit");
                 }
                 cx.alarm(ui, [format!("There are no curves to show: {why}")]);
             }
@@ -135,7 +135,7 @@ fn section(
     let canvas = canvas.called(egui::Role::Image, "Cross-section of the rotor");
     let bound = |i: usize, pick: fn(f64, f64) -> f64| boxes.iter().map(|part| part[i]).reduce(pick).unwrap_or(0.0);
     let now = [bound(0, f64::min), bound(1, f64::max), bound(2, f64::min), bound(3, f64::max)];
-    // While an edge is dragged the scale stays.
+    // The scale does not change while an edge is dragged.
     let kept = canvas.id.with("bounds");
     let dragged: Option<[f64; 4]> = ui.data(|data| data.get_temp(kept));
     let [left, right, bottom, top] = dragged.unwrap_or(now);
@@ -147,7 +147,7 @@ fn section(
         let half = 0.5 * f64::from(size) / points;
         [middle - half, middle + half]
     });
-    // Millimetres, with one scale for both.
+    // Both axes are in millimetres and have one scale.
     let scale = Axes { rect, x, y };
     let painter = ui.painter().with_clip_rect(rect);
     let outline = Stroke::new(1.5, cx.colours.rotor);
@@ -160,7 +160,7 @@ fn section(
     if let Some(bent) = bent {
         elements(&painter, ui, bent, scale, [wide, tall], cx);
     }
-    // Where the stator touches.
+    // The place where the stator touches.
     let touching = [-0.5, 0.5].map(|part| scale.at(1e3 * radius + part * (1e3 * width), now[2]));
     painter.line_segment(touching, Stroke::new(4.0, cx.colours.contact));
     supports(&painter, scale, cx);
@@ -185,7 +185,7 @@ fn section(
             }
             let told = format!("{called} of {name}: {} mm", significant(lengths[which], 5));
             let held = if held.dragged() {
-                // A hint goes when a pointer drags.
+                // A hint disappears during a drag.
                 describe(&held, || told.clone());
                 Tooltip::for_widget(&held).show(|ui| drop(ui.label(told.as_str())));
                 held
@@ -199,7 +199,7 @@ fn section(
             let along =
                 if which < 2 { f64::from(at.x - origin.x) / points } else { f64::from(origin.y - at.y) / points };
             let reach = reach(parts, (number, which), STEP);
-            // As few digits as the step has.
+            // The value has as few digits as the step.
             let to = ((along / STEP).round() * STEP).clamp(*reach.start(), *reach.end());
             let value = Value::Records(with_edge(parts, (number, which), (to * 1e4).round() / 1e4));
             cx.push(Command::Set { key: "rotor.part", value, dragging: held.dragged() });
@@ -212,11 +212,11 @@ fn section(
     });
 }
 
-/// The mesh as it is, and magnified as the load bends it.
+/// The undeformed mesh, and the mesh deformed by the load, magnified.
 fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Axes, [wide, tall]: [f64; 2], cx: &DrawContext<'_>) {
     let draw = |node: &dyn Fn(usize) -> [f64; 2], stroke: Stroke| {
         for element in &bent.mesh.elements {
-            // Side by side: where sides meet at a sharp angle a closed line has spikes.
+            // The sides are drawn one by one, because a closed line has spikes where sides meet at a sharp angle.
             for pair in AROUND.windows(2) {
                 let ends = [pair[0], pair[1]].map(|i| node(element.nodes[i])).map(|[r, z]| scale.at(1e3 * r, 1e3 * z));
                 painter.line_segment(ends, stroke);

@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         tornado(ui, found, output, cx);
         monte_carlo(ui, found, output, cx);
         table(ui, found, output, uncertainties, cx);
-        // Below the rows, so that none of them moves while it is typed in.
+        // The message is below the rows, so that none of them moves while text is typed.
         cx.alarm(ui, state.all_refused(found.scene()));
         cx.alarm(ui, excessive(found, uncertainties));
         let whole = found.whole();
@@ -55,10 +55,11 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         if let Some(share) = state.running() {
-            cx.button(ui, "Cancel", "Ends it; what was found before stays", Command::CancelTab);
+            cx.button(ui, "Cancel", "Ends the work; earlier results stay", Command::CancelTab);
             cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), None);
         } else {
-            let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";
+            let hover =
+                "Solves the scene with each parameter changed a little, in the background; takes about a second";
             let button = first_button(ui, "Compute sensitivities", (state.found.is_none(), true), cx).hint(hover);
             cx.on_click(&button, SensitivityCommand::Start);
         }
@@ -86,7 +87,7 @@ fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>
     });
 }
 
-/// The result with both of its uncertainties, apart from each other.
+/// The result with its two uncertainties, which are shown separately.
 fn result(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let value = found.values[output];
     if !value.value.is_finite() {
@@ -173,7 +174,7 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext
     }
     let Some(panel) = distribution(found, output, uncertainties, carlo) else { return };
     let name = "Histogram of the random scenes";
-    // On one line either way, so that the rows below stay where they are while an uncertainty is typed.
+    // The heading takes one line in both cases, so that the rows below do not move while an uncertainty is typed.
     let heading = if earlier { "Random scenes of the earlier uncertainties; draw and solve again" } else { name };
     title(ui, heading, "Random scenes");
     let height = HISTOGRAM * ui.text_style_height(&TextStyle::Body);
@@ -182,9 +183,9 @@ fn monte_carlo(ui: &mut Ui, found: &Sensitivity, output: usize, cx: &DrawContext
     cx.note(ui, "Dashed: the normal distribution that the derivatives give. The line: the result of the scene itself.");
 }
 
-/// Standard deviations that are larger than the values that they are of.
+/// Warnings about standard deviations that are larger than the values.
 fn excessive(found: &Sensitivity, uncertainties: &Uncertainties) -> Vec<String> {
-    // A temperature has no zero of its own, and a key may be zero.
+    // A temperature in °C has no natural zero, and the value of a key may be zero.
     let uncertain = uncertainties.iter().filter(|(parameter, at, _)| *at != 0.0 && parameter.unit != "°C");
     let uncertain = uncertain.map(|(parameter, at, given)| (parameter, at, given.deviation(at)));
     let excessive = uncertain.filter(|(_, at, deviation)| *deviation > at.abs());
@@ -197,7 +198,7 @@ fn excessive(found: &Sensitivity, uncertainties: &Uncertainties) -> Vec<String> 
     excessive.map(told).collect()
 }
 
-/// Every parameter: how much the result changes with it, and its uncertainty, to type.
+/// A table of every parameter: the change of the result with it, and a field for its uncertainty.
 fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
     let propagated = found.propagated(output, uncertainties);
     let magnitude = |column: usize| {
@@ -228,7 +229,7 @@ fn table(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncert
             ui.label(format!("{} {unit}", short(by.at, 10)).trim_end().to_owned());
             ui.horizontal(|ui| {
                 field(ui, parameter, 6.0 * em, cx);
-                // The unit of a plain number, and what a given one comes to.
+                // The unit of a plain number, and the value of a given one.
                 let given =
                     uncertainties.deviation(parameter).map(|deviation| format!("s.d. {} ", short(deviation, 3)));
                 let read = given.unwrap_or_default() + &unit;

@@ -82,7 +82,7 @@ fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     cx.introduce(ui, &paragraphs);
 }
 
-/// How far it is, and of what; then the numbers of the cycle looked at.
+/// The progress and the scene of the start-up, and the numbers of the cycle on screen.
 fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     let (text, colour) = ending(startup, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {
@@ -100,7 +100,7 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     }
 }
 
-/// How far it is, in words.
+/// The progress or the outcome, in words.
 fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) -> (String, egui::Color32) {
     let cycles = startup.points.len();
     let remaining = startup.points.last().and_then(|row| row.remaining).unwrap_or(f64::INFINITY);

@@ -10,7 +10,7 @@ use crate::problem::Motor;
 use crate::surface::Surface;
 use eframe::egui::Ui;
 
-/// Shows what there is to show of the faces of a motor; nothing of a hard stop between smooth ones.
+/// Shows the curves of the faces of a motor; nothing for smooth faces with a hard stop.
 pub(super) fn show(ui: &mut Ui, motor: &Motor, height: f32, cx: &DrawContext<'_>) {
     if motor.surface == Surface::default() {
         return;

@@ -1,4 +1,4 @@
-//! The sweep tab: the form for one or two parameters, the points as they are solved, and the result that is shown of them.
+//! The sweep tab: the form for one or two parameters, the points as they are solved, and the choice of the result that is shown.
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
@@ -81,14 +81,14 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     let building = cx.state.sweep.building();
     let busy = building || running.is_some();
     ui.horizontal_wrapped(|ui| {
-        // It stays where it was pressed: a second click neither goes on with the sweep nor starts another.
+        // The button stays where it was pressed, so that a second click neither continues the sweep nor starts another.
         if busy || swept.is_some_and(|swept| !swept.complete()) {
-            let about = "Ends it; what is solved stays, and it can go on";
+            let about = "Ends the sweep; the solved points are kept, and it can be continued";
             let button = ui.add_enabled(busy, Button::new("Cancel the sweep"));
             cx.on_click(&button.hint(about), Command::CancelTab);
         }
         match running {
-            _ if building => drop(ui.label("Its points are being made")),
+            _ if building => drop(ui.label("The points are being built")),
             Some(swept) => {
                 let text = format!("{} of {}", swept.rows.len(), swept.sweep.len());
                 cx.progress(ui, 190.0, swept.share(), &text, Some(swept.since()));
@@ -120,7 +120,7 @@ fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
     let Some(problem) = swept.or(cx.state.problem.as_ref()) else { return };
     let all: Vec<Quantity> = Quantity::of(problem).collect();
     let present = cx.state.sweep.quantity(&all);
-    let called = ("Result shown", "Which result is drawn; another one solves nothing anew");
+    let called = ("Result shown", "The result that is drawn; changing it solves nothing again");
     list(ui, "quantity", called, (&capitalised(present.words()), 11.0), |ui| {
         for quantity in all {
             let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(problem)));
@@ -136,7 +136,7 @@ const INTRODUCTION: &[&str] = &[
          make its scene the present one. Nothing is solved before you ask.",
 ];
 
-/// State of the sweep: whether it is of the present scene, and how many points failed.
+/// State of the sweep: whether it belongs to the present scene, and how many points failed.
 fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
     let name = swept.sweep.headline();
     let stale = swept.stale(cx.state.document.scene());
@@ -150,7 +150,7 @@ fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
     let count = |failed: bool| unsound().filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed).count();
     for (number, what) in [(count(false), "are not converged or not resolved"), (count(true), "have no solution")] {
         if number > 0 {
-            cx.note(ui, format!("{number} of the points {what}: crosses, point at one to read why"));
+            cx.note(ui, format!("{number} of the points {what}: they are drawn as crosses; point at one to read why"));
         }
     }
 }

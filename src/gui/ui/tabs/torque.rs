@@ -1,5 +1,5 @@
-//! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
-//! reads off them.
+//! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and the numbers that a designer takes
+//! from them.
 
 use crate::analysis::torque::TorqueCurves;
 use crate::digits::{as_given, significant};
@@ -21,7 +21,7 @@ const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
 const LEAST_LINES: [f32; 3] = [9.0, 8.0, 6.0];
 /// In a tab wider than this, in heights of the text, power and efficiency stand beside each other.
 const BESIDE: f32 = 36.0;
-/// In a tab narrower than this, in heights of the text, the columns of the table are closer, and its names no wider than the second number.
+/// In a tab narrower than this, in heights of the text, the columns of the table are closer, and the names are limited to the second width.
 const NARROW: [f32; 2] = [30.0, 7.5];
 /// Room between the columns of the table, in a narrow tab and in others \[points\].
 const GAPS: [f32; 2] = [4.0, 10.0];
@@ -31,7 +31,7 @@ const ALL: f64 = 104.0;
 const HEADROOM: f64 = 1.08;
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
-/// Titles of the charts, and what the glossary explains them under.
+/// Titles of the charts, and their glossary terms.
 const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
 
@@ -92,7 +92,7 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
     ui.add_space(8.0);
 }
 
-/// Torque, power and efficiency over the speed, and over the first what was `measured`.
+/// Charts of torque, power and efficiency over the speed; the first one shows the `measured` torques, too.
 fn panels(merit: &TorqueCurves, measured: Vec<[f64; 2]>) -> [Panel; 3] {
     type Value = fn(&OperatingPoint) -> f64;
     let (torque, output): (Value, Value) = (|point| point.torque.value, |point| point.output.value);
@@ -122,7 +122,7 @@ fn panels(merit: &TorqueCurves, measured: Vec<[f64; 2]>) -> [Panel; 3] {
             Layer::Points(points) => points.points.as_slice(),
             _ => &[],
         });
-        // What brakes the rotor is below the axis.
+        // Where the rotor is braked, values are below the axis.
         let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
         let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
         let x = Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
@@ -161,7 +161,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     let speed = |found: Option<Estimate>| stated(found, merit.rpm(1.0), "rpm");
     let present = format!("Torque at {} rpm", as_given(merit.rpm(motor.rotor_speed)));
     let both = |value: &dyn Fn(&Performance) -> String| [with, without].map(value);
-    // What it is called here, its values, and what the glossary explains it under.
+    // The name in this table, the values, and the glossary term.
     let rows = [
         ("Stall torque", both(&|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
         ("Maximum operating torque", both(&|of| stated(Some(of.max_torque), 1.0, "N·m")), "Maximum operating torque"),
@@ -203,7 +203,7 @@ fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     cx.note(ui, format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
     cx.note(ui, format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
     if merit.with_film.no_load_speed.is_none() {
-        return cx.note(ui, "No tooth touches the rotor: nothing but that drag drives it.");
+        return cx.note(ui, "No tooth touches the rotor: only that drag drives it.");
     }
     let dry = stated(Some(merit.dry_equivalent), 1.0, "");
     let text = format!(

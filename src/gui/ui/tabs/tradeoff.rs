@@ -1,5 +1,5 @@
-//! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
-//! of those that no other beats, the present setting ringed, and the cheapest that serves a target.
+//! Error against solve time of the present scene, measured on this machine on request: each setting is a point. The front of the settings
+//! that no other beats is drawn, the present setting has a ring, and the cheapest setting that meets a target is listed.
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::tradeoff::{Candidate, Target, Tradeoff, TradeoffPoint};
@@ -54,7 +54,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let running = cx.state.tradeoff.as_ref().filter(|measured| measured.work.running());
         match running {
             Some(measured) => {
-                let hover = "Ends it; what was measured stays";
+                let hover = "Ends the measurement; the results so far are kept";
                 cx.button(ui, "Cancel the measurement", hover, Command::CancelTab);
                 let share = measured.share;
                 cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), Some((measured.started, share)));
@@ -81,13 +81,13 @@ const INTRODUCTION: &[&str] = &[
          background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
 ];
 
-/// State of the measurement: whether it is of the present scene, was cancelled, or failed.
+/// State of the measurement: whether it belongs to the present scene, was cancelled, or failed.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
         let name = measured.scene.headline();
         cx.alarm(ui, [format!("Measured on “{name}” before the scene changed; measure again")]);
     } else if measured.work.cancelled {
-        let text = if measured.work.running() { "Ending…" } else { "Cancelled; this was measured until then" };
+        let text = if measured.work.running() { "Ending…" } else { "Cancelled; these are the results so far" };
         cx.note(ui, text);
     }
     let failed = |failure: &String| format!("The measurement failed: {failure}");
@@ -99,18 +99,18 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     }
 }
 
-/// Whether the window solves with just this setting.
+/// Whether the window solves with exactly this setting.
 fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
     is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
 }
 
-/// Error against time as the exported figure has it, with lines at what is asked for and bars from quartile to quartile.
+/// Error against time as in the exported figure, with lines at the targets and bars from quartile to quartile.
 fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
     let used = (0..tradeoff.points.len()).filter(|i| in_use(&tradeoff.points[*i].run.candidate, cx));
     let mut panel = panel(tradeoff, ("present setting", ACCENT, &used.collect::<Vec<_>>()));
     let (accuracy, budget) = (100.0 * cx.state.view.accuracy, cx.state.view.budget);
     for mark in [Mark::horizontal(accuracy, "asked for"), Mark::vertical(budget, "asked for")] {
-        // Dashes are the front's.
+        // Dashes are reserved for the front.
         panel.layers.push(Mark { style: Style { width: 0.9, ..Style::quiet() }.dash(Dash::Dotted), ..mark }.into());
     }
     for TradeoffPoint { quartiles: (low, high), error, run, .. } in &tradeoff.points {
@@ -126,7 +126,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     chart.show_with(ui, |plot| plot.label_formatter(|at| told(tradeoff, at)));
 }
 
-/// The setting that is pointed at, in words.
+/// The setting under the pointer, in words.
 fn told(tradeoff: &Tradeoff, at: &HoverPosition<'_>) -> Option<String> {
     let HoverPosition::NearDataPoint { position, .. } = at else { return None };
     let point = tradeoff.points.iter().find(|point| point.median.log10() == position.x)?;
@@ -134,7 +134,7 @@ fn told(tradeoff: &Tradeoff, at: &HoverPosition<'_>) -> Option<String> {
     Some(format!("{}{error}\ntime {}", point.run.candidate.name, duration(point.median)))
 }
 
-/// A target, what serves it, and the way to use that.
+/// A target, the setting that meets it, and the button to use that setting.
 fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let (name, mut value, unit, range, about) = match target {
@@ -148,7 +148,7 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         let drag =
             egui::DragValue::new(&mut value).suffix(unit).speed(speed).custom_formatter(|value, _| short(value, 3));
         let field = number_box(ui, drag, (range, unit.trim()), cx).labelled_by(label.id).hint(about);
-        // A field that is only left keeps the digits that it does not show.
+        // A field that only loses the focus keeps the digits that it does not show.
         let value = if short(value, 3) == short(present, 3) { present } else { value };
         let changed = match target {
             Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
@@ -156,7 +156,7 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
         };
         cx.on_change(&field, Command::Target(changed));
         let Some(point) = tradeoff.choose(target).and_then(|i| tradeoff.points.get(i)) else {
-            ui.add(egui::Label::new(RichText::new("no setting serves").color(cx.colours.alarm)));
+            ui.add(egui::Label::new(RichText::new("no setting meets this").color(cx.colours.alarm)));
             return;
         };
         let candidate = &point.run.candidate;

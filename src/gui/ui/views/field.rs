@@ -9,12 +9,12 @@ use crate::recording::Recording;
 use crate::recording::sample::{self, Plane, between};
 use eframe::egui::{Align2, Color32, ColorImage, Rect, TextureOptions, Ui, pos2};
 
-/// Texels across the width: the field is smooth, the graphics card interpolates.
+/// Texels across the width. These are enough, because the field is smooth and the graphics card interpolates.
 const MOST_ROWS: usize = 96;
 /// Texels along x.
 const MOST_COLUMNS: usize = 2048;
 
-/// Key of a picture of the field: as long as it is the same, the texture is kept.
+/// Key of a picture of the field: the texture is kept as long as the key stays the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stamp {
     /// Number of the run and its fidelity.
@@ -29,8 +29,8 @@ pub(super) struct Stamp {
     pub(super) range: [f64; 2],
 }
 
-/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `rect`: all of
-/// it, so that it needs no canvas below. Returns the axes, along x and across the width.
+/// Draws the map of the teeth from `stamp.tooth` on, with x from `stamp.x[0]` to `stamp.x[1]`, into `rect`. The picture fills it, so that
+/// it needs no background. Returns the axes, along x and across the width.
 pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording, name: &str, stamp: Stamp) -> Axes {
     let half = sample::half_width(recording);
     let axes = Axes::new(rect, stamp.x, [-half, half]);
@@ -48,8 +48,8 @@ pub(super) fn draw(ui: &Ui, style: &PlotStyle, rect: Rect, recording: &Recording
     axes
 }
 
-/// Draws the map of all teeth, or of a plate, into `rect`, with the colour bar in its title, one of `titles`, and the values of y at the left.
-/// `name`: what tells it from other maps.
+/// Draws the map of all teeth, or of a plate, into `rect`. The title, one of `titles`, has the colour bar, and the values of y are at the
+/// left. `name` distinguishes it from other maps.
 pub(super) fn of_run<T>(
     ui: &Ui,
     style: &PlotStyle,
@@ -66,7 +66,7 @@ pub(super) fn of_run<T>(
     axes
 }
 
-/// The ends of y, and its name between them if there is room.
+/// The values at the ends of y, and the name of the axis between them if there is space.
 pub(super) fn y_labels(style: &PlotStyle, axes: &Axes) {
     let x = axes.rect.left() - 4.0;
     let (top, bottom) = (axes.rect.top(), axes.rect.bottom());
@@ -83,7 +83,7 @@ pub(super) fn y_labels(style: &PlotStyle, axes: &Axes) {
     }
 }
 
-/// Pixels of the map, row by row from y = +w/2 down; the ground beside the teeth.
+/// Pixels of the map, row by row from y = +w/2 down; beside the teeth they have the colour of the background.
 fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], ground: Color32) -> Vec<Color32> {
     let mut pixels = vec![ground; columns * rows];
     let Some(plane) = Plane::of(recording, 0, 0) else { return pixels };
@@ -132,7 +132,7 @@ mod tests {
         // Tooth 1 is half a cycle ahead.
         assert_eq!(at(10, 4), field_colours()[85]);
         assert_eq!(at(30, 4), field_colours()[255]);
-        // What is written as one number is one colour.
+        // Pressures that are written as the same number have the same colour.
         assert_eq!(pressure_colour([101_325.0, 101_325.3])(101_325.3), field_colours()[0]);
         assert_eq!(pressure_colour([100_000.0, 102_000.0])(101_000.0), field_colours()[127]);
         for i in 0..columns {

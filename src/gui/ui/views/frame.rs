@@ -1,4 +1,4 @@
-//! A run at one instant: what its views draw.
+//! A run at one instant, as its views draw it.
 
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::{Ranges, Scales};
@@ -26,13 +26,13 @@ pub(super) struct Frame<'a, T> {
     pub(super) lines: Lines,
     pub(super) view: &'a View,
     pub(super) tooth: usize,
-    /// The run that it is compared with, at the same phase of its own cycle: drawn in grey behind it.
+    /// The run for comparison, at the same phase of its own cycle, drawn behind this one in grey.
     pub(super) first: Option<Box<Self>>,
 }
 
 impl<'a, T> Frame<'a, T> {
-    /// `run` at the phase of `view`, and behind it `first`, on one scale, or with the ranges `within`; `None` if its scenario is not the one that
-    /// `pick` picks. `name`: under which its curves are cached.
+    /// `run` at the phase of `view`, and behind it `first`, with common ranges of the axes, or with the ranges `within`; `None` if its
+    /// scenario is not the one that `pick` picks. `name` is the key under which its curves are cached.
     pub(super) fn of(
         ui: &Ui,
         name: &str,

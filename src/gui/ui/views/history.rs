@@ -1,4 +1,4 @@
-//! A start-up's numbers against the number of the cycle, with the periodic solve's that they converge to.
+//! The numbers of a start-up over the number of the cycle, with the values of the periodic solve to which they converge.
 
 use super::inset::{Inset, chosen};
 use crate::analysis::quantity::{Numbers, Quantity};
@@ -16,14 +16,14 @@ use crate::problem::Scenario;
 use eframe::egui::{CursorIcon, Rect, Sense, Ui, pos2, vec2};
 use egui_plot::{Axis, LineStyle, Span};
 
-/// Cycles that the axis holds at least.
+/// Least number of cycles that the axis covers.
 const FEWEST: usize = 8;
-/// Error bands are drawn up to this many times the range of the values: the first ones may be known badly.
+/// Error bands are drawn up to this many times the range of the values, because the errors of the first cycles may be large.
 const WIDEST_BAND: f64 = 0.5;
 
 /// Curve of a plot over the cycles: a result, times a factor.
 struct Curve {
-    /// Long to short.
+    /// Titles, long to short.
     titles: [&'static str; 3],
     /// Its glossary term.
     word: &'static str,
@@ -59,15 +59,15 @@ const PRESSURE: Curve = Curve {
     of: (Quantity::MaxPressure, 1.0),
 };
 const OF_MOTOR: &[(Curve, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
-/// Curves where there is no room for three; the text above has the number left out.
+/// The curves where there is no space for three; the text above has the number that is left out.
 const OF_MOTOR_NARROW: &[(Curve, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
 const NARROW: f32 = 36.0;
-/// The gap of a plate is given.
+/// The gap of a plate is prescribed.
 const OF_PLATE: &[(Curve, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 const OF_STRIP: &[(Curve, f32)] = &[(RATIO_OF_STRIP, 0.62), (PRESSURE, 0.38)];
 
-/// Draws the start-up's numbers into the next `height` of `ui`; a click looks at the cycle there. `periodic`: the periodic
-/// solve of the same scene.
+/// Draws the numbers of the start-up into the next `height` of `ui`; a click chooses a cycle. `periodic` is the periodic solve of the same
+/// scene.
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
@@ -92,7 +92,7 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
     style.explain(ui);
 }
 
-/// One chart. A click, or its line when it is dragged, chooses the cycle.
+/// One chart. A click, or a drag of its vertical line, chooses the cycle.
 fn plot(
     ui: &mut Ui,
     style: &PlotStyle,
@@ -130,7 +130,7 @@ fn plot(
         let bands: Vec<_> = means.iter().zip(&found).map(band).collect();
         plot.add(between(&bands, film.gamma_multiply(0.25)));
         plot.line(line(&means, film, 1.6, LineStyle::Solid));
-        // A dot where the cycle can be looked at.
+        // A dot marks a cycle that can be shown.
         let kept = startup.kept().filter_map(|kept| means.get(kept.wrapping_sub(1)).copied());
         plot.points(dots("", kept.collect(), film, 2.0));
         if let Some(at) = means.get(startup.chosen.wrapping_sub(1)) {

@@ -1,5 +1,5 @@
-//! The held plate: the plate above its stator, to be dragged; the force on it; the pressure below it; both against time, and
-//! pressure against gap with Boyle's hyperbola.
+//! The held plate: the plate above its stator, which can be dragged; the force on it; the pressure below it; both over time, and the
+//! pressure over the gap with Boyle's hyperbola.
 
 use super::field::{self, Stamp, y_labels};
 use super::inset::Inset;
@@ -20,23 +20,23 @@ use eframe::egui::epaint::Shape;
 use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::LineStyle;
 
-/// Parts of the drawing below the stator's face, and above the highest underside of the plate.
+/// Shares of the drawing below the stator's face, and above the highest position of the plate's underside.
 const BELOW: f64 = 0.10;
 const ABOVE: f64 = 0.20;
 /// Part of the drawing that is the plate.
 const PLATE: f32 = 0.15;
-/// Longest arrow, part of the drawing.
+/// Longest arrow, as a share of the drawing.
 const ARROW: f32 = 0.42;
-/// The drawing, the profile and the map, parts of what the charts leave; the charts, part of the height.
+/// The drawing, the profile and the map, as shares of the height that the charts leave; the charts, as a share of the whole height.
 const PARTS: [f32; 2] = [0.66, 0.34];
 const PARTS_WITH_MAP: [f32; 3] = [0.52, 0.26, 0.22];
 const CHARTS: f32 = 0.34;
-/// An area so many times as wide as high has the charts beside the plate, which takes this share of the width.
+/// If the area is this many times as wide as high, the charts are beside the plate, which takes this share of the width.
 const WIDE: f32 = 1.8;
 const BESIDE: f32 = 0.55;
 const SAMPLES: usize = 80;
 
-/// Draws into what is left of `ui`.
+/// Draws into the remaining area of `ui`.
 pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let Some(area) = room(ui) else { return };
     let style = PlotStyle::new(ui);
@@ -100,7 +100,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     style.explain(ui);
 }
 
-/// The drag that moves the plate: where it was taken it stays in the hand.
+/// The drag that moves the plate: the point where it was grabbed stays under the pointer.
 fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     let name = "Held plate: drag it up and down";
     let response = named(ui, axes.rect, name, Sense::drag());
@@ -108,11 +108,11 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     let id = response.id.with("in hand");
     if let Some(at) = response.interact_pointer_pos() {
         let wanted = if response.drag_started() {
-            // What the pointer has moved until it counted as a drag is the plate's too.
+            // The distance that the pointer moved before it counted as a drag is applied to the plate, too.
             let from = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
             Some(hold.target + per_point * f64::from(from.y - at.y))
         } else {
-            // From where it was, and not from where the drawing is: that may move under a still hand.
+            // The drag is relative to the position where it began, not to the drawing, which may move under a pointer that rests.
             ui.data(|data| data.get_temp::<f64>(id)).map(|gap| gap - per_point * f64::from(response.drag_delta().y))
         };
         if response.dragged()
@@ -125,7 +125,7 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     response.on_hover_and_drag_cursor(CursorIcon::Grab);
 }
 
-/// The unit of forces, one whatever the hand does: that of ambient pressure on a tenth of the plate.
+/// The unit of forces, which does not change during a drag: that for ambient pressure on a tenth of the plate.
 fn unit(plate: &Plate) -> (&'static str, f64) {
     load_unit(0.1 * plate.gas.ambient_pressure * plate.area(), plate.is_strip())
 }
@@ -149,7 +149,7 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
     film(inside, &axes, [under, wall], hold);
     let thickness = PLATE * rect.height();
     wall_and_plate(inside, &axes, &hold.plate, [wall, under], thickness);
-    // Where it was before it was taken.
+    // The position before the drag.
     let mean = axes.py(hold.plate.mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
     inside.painter.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, style.palette.quiet), 6.0, 5.0));
@@ -162,7 +162,7 @@ fn draw_plate(style: &PlotStyle, rect: Rect, hold: &HoldState) -> Axes {
 fn film(style: &PlotStyle, axes: &Axes, [top, bottom]: [f32; 2], hold: &HoldState) {
     let colour = colour_between(hold.pressure_range);
     let points: Vec<_> = profile_points(hold).collect();
-    // On either side of the hole of a ring.
+    // The film on both sides of the hole of a ring.
     let whole = hold.plate.spans().len() == 1;
     for right in if whole { &[true][..] } else { &[false, true] } {
         let there = points.iter().filter(|(x, _)| whole || (*x > 0.0) == *right);
@@ -183,13 +183,13 @@ fn profile_points(hold: &HoldState) -> impl Iterator<Item = (f64, f64)> {
 /// The force of the film on the plate: up where it pushes, down where it pulls.
 fn arrow(style: &PlotStyle, rect: Rect, from: f32, force: f64, hold: &HoldState) {
     let [low, high] = hold.force_range;
-    // A tenth of the ambient pressure is seen, and what was greatest is as long as there is room.
+    // A force of a tenth of the ambient pressure is visible, and the greatest force so far fills the available length.
     let greatest = high.max(-low).max(0.1 * hold.plate.gas.ambient_pressure * hold.plate.area());
     let length = ARROW * rect.height() * (force / greatest) as f32;
     let colour = style.palette.film;
     let at = pos2(rect.left() + 0.12 * rect.width(), from);
     style.painter.circle_filled(at, 4.0, colour);
-    // Below that the dot covers it.
+    // A shorter arrow would be hidden by the dot.
     if length.abs() > 6.0 {
         let tip = at - vec2(0.0, length);
         let size = style.row.min(length.abs());
@@ -267,7 +267,7 @@ impl Trail<'_> {
         let range = span(reach.into_iter().chain([of(&hold.now.reading)[0]])).map(|value| value / unit);
         let name = title.split(',').next().unwrap_or(title);
         style.title(rect, name, &[title], &[]);
-        // The dot at the present instant is whole.
+        // The clip rectangle leaves room for the whole dot at the present instant.
         let bounds = [[-hold.window(), 0.02 * hold.window()], with_margin(range, 0.08)];
         Inset { name: &format!("{name} of the held plate"), rect, bounds, below: None }.show(ui, style, |plot| {
             let at = |reading: &Reading| [reading.time - end, of(reading)[0] / unit];
@@ -291,7 +291,7 @@ fn time_labels(style: &PlotStyle, chart: Rect, window: f64) {
     style.write(pos2(chart.right(), top), Align2::RIGHT_TOP, "now", style.palette.quiet);
 }
 
-/// Mean pressure against the gap: the way just gone, and Boyle's hyperbola, which gas follows that has no time to leave.
+/// Mean pressure over the gap: the recent path, and Boyle's hyperbola, which gas without time to leave follows.
 fn boyle(ui: &mut Ui, style: &PlotStyle, rect: Rect, hold: &HoldState) {
     let [near, far] = hold.reach();
     let law = |gap: f64| hold.plate.gas.ambient_pressure * hold.plate.mean_gap / gap;

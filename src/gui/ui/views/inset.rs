@@ -31,19 +31,19 @@ impl<'a> Inset<'a> {
         let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
         let whole = Rect::from_min_max(pos2(rect.left() - gutter, rect.top()), low);
         let (row, height) = (style.row, rect.height());
-        // As many marks as the painter has, in drawings above and below.
+        // As many marks as the painted drawings above and below have.
         let columns = (rect.width() / (3.6 * row)).clamp(1.0, 12.0) as usize;
         let lines = (height / (2.2 * row)).clamp(1.0, 6.0) as usize;
         let hints = |hints: AxisHints<'a>, thick: f32| {
             hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
         };
-        // What is written below has the corner.
+        // The corner is reserved for the numbers below.
         let hidden = if below.is_some() { 0.35 * row / height } else { 0.0 };
         let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let above = (mark.value - range.start()) / (range.end() - range.start());
             if above < f64::from(hidden) { String::new() } else { tick(mark) }
         };
-        // The name has the left end, and a neighbour begins soon after the right one.
+        // The name is at the left end, and a neighbour begins soon after the right end.
         let spare = below.map_or(0.0, |name| gutter - 4.0 - style.width(name)).clamp(0.0, 0.6 * row);
         let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
             let text = tick(mark);
@@ -78,7 +78,7 @@ pub(super) fn chosen(ui: &egui::Ui, shown: &PlotResponse<Option<f64>>, line: Opt
     line.and_then(|x| dragged(ui, &shown.transform, x, name)).or(clicked)
 }
 
-/// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
+/// A vertical line of the chart `name` that can be dragged along x. Returns where it was dragged to. A double click goes to the chart.
 fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
     let place = pos2(at.position_from_point_x(x), at.frame().center().y);
     let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
@@ -98,7 +98,8 @@ fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64>
     Some(at.value_from_position(pointer).x)
 }
 
-/// Round marks, about `about`, and two at least beyond the share `hidden` of the axis at its beginning if it has room for `most`.
+/// Round marks, about `about` of them. If there is space for `most`, at least two lie beyond the share `hidden` at the beginning of the
+/// axis.
 fn several(input: &GridInput, hidden: f32, about: usize, most: f32) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     marks(Steps::several([from, to], from + f64::from(hidden) * (to - from), about, most.into()))

@@ -11,7 +11,7 @@ use egui_plot::{LineStyle, PlotResponse, PlotUi, Span};
 
 const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
 
-/// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
+/// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed for the whole cycle until it is zoomed.
 pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_, Motor>) -> PlotResponse<Option<f64>> {
     let width = shown.of.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
@@ -44,8 +44,8 @@ pub(super) fn draw(ui: &mut Ui, style: &PlotStyle, rect: Rect, shown: &Frame<'_,
     })
 }
 
-/// The line loads of all teeth as pressures \[kPa\], over a contact of this width \[m\], with these dashes, and an area of this opacity below; a
-/// metre is `metre` on the axis.
+/// The line loads of all teeth as pressures \[kPa\], for a contact of this width \[m\], with these dashes, and a filled area of this
+/// opacity. `metre` is the length of a metre on the axis.
 pub(super) fn pressure(
     plot: &mut PlotUi<'_>,
     (recording, width): (&Recording, f64),
@@ -53,7 +53,7 @@ pub(super) fn pressure(
     metre: f64,
     (colour, dash, opacity): (Color32, LineStyle, f32),
 ) {
-    // Nothing rather than a line at zero where a tooth does not touch.
+    // Where a tooth does not touch, nothing is drawn rather than a line at zero.
     let nodes = recording.x.len().max(1);
     for (tooth, loads) in loads.chunks(nodes).enumerate().filter(|(_, loads)| loads.iter().any(|load| *load != 0.0)) {
         let middle = tooth as f64 * recording.pitch;

@@ -1,4 +1,4 @@
-//! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
+//! The motor: wave, pressures and maps on one x axis, which begins half a pitch before tooth 0 so that this tooth is not cut.
 
 use super::frame::Frame;
 use super::pointer::{named, read_out, readout_height};
@@ -102,7 +102,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     style.explain(ui);
 }
 
-/// Velocity across the film under the pointer, or else over the middle of the followed tooth.
+/// Velocity across the film at the pointer, or else at the middle of the followed tooth.
 fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_, Motor>) {
     let (recording, motor) = (shown.recording, shown.of);
     let reach = recording.x.last().copied().unwrap_or(0.0);
@@ -122,7 +122,7 @@ fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_,
     of.draw(ui, style, place);
 }
 
-/// A row of values, as wide as it takes.
+/// A row of values, with the width of the longest.
 const LONGEST: [&str; 6] = [
     "x −00.00 mm",
     "tooth 00",

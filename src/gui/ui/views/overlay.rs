@@ -1,5 +1,5 @@
-//! Several runs at the same phase of their own cycles: surfaces, pressures and loads laid over each other, pressure maps
-//! beside each other with one scale of colours. Motors with motors, plates with plates: they have no axis in common.
+//! Several runs at the same phase of their own cycles: surfaces, pressures and loads are overlaid, pressure maps are beside each other with
+//! one colour scale. Motors and plates are drawn separately, because they have no axis in common.
 
 use super::field::{self, Stamp};
 use super::inset::Inset;
@@ -21,7 +21,7 @@ use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, Color32, CursorIcon, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::{LineStyle, PlotResponse};
 
-/// Wavelengths, or lengths of plates, that differ by less are the same.
+/// Relative difference below which wavelengths, or lengths of plates, are the same.
 const SAME: f64 = 1e-9;
 /// Heights of the drawings, in lines of text: least of a plot, of a map of a motor, of a map of a plate.
 const LEAST_PLOT: f32 = 3.8;
@@ -31,7 +31,7 @@ const PLATE_MAP: f32 = 7.0;
 
 /// A pinned motor or plate at the present instant.
 struct Pinned<'a, T> {
-    /// Its number, and scales and curves of its cycle.
+    /// The pin, with scales and curves of its cycle.
     pin: &'a Pin,
     label: &'a str,
     colour: Color32,
@@ -43,7 +43,8 @@ struct Pinned<'a, T> {
 }
 
 impl<T> Pinned<'_, T> {
-    /// Draws its map, between these x \[m\] and in colours of this range, with a strip of its own colour at the left. `name`: of the picture.
+    /// Draws its map over this range of x \[m\], with colours for this range, and a strip in the run's own colour at the left. `name` is
+    /// the name of the picture.
     fn map(&self, ui: &Ui, style: &PlotStyle, rect: Rect, name: &str, (x, range): ([f64; 2], [f64; 2])) -> Axes {
         let stamp = Stamp { run: (self.pin.id, Fidelity::Draft), place: self.place, tooth: 0, x, range };
         let axes = field::draw(ui, style, rect, self.recording, name, stamp);
@@ -60,7 +61,7 @@ impl<T> Pinned<'_, T> {
     }
 }
 
-/// Draws the pinned runs at the view's phase; scrolls if that takes more than there is room for.
+/// Draws the pinned runs at the view's phase; scrolls if there is not enough space.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let (mut motors, mut plates) = (Vec::new(), Vec::new());
     for (pin, run) in cx.state.pins.pins.iter().zip(&cx.state.pins.runs) {
@@ -100,7 +101,7 @@ fn take(ui: &mut Ui, height: f32) -> Rect {
     ui.allocate_exact_size(size, Sense::hover()).0
 }
 
-/// An x axis for lengths: in metres if they are all the same, else in lengths of each.
+/// An x axis for lengths: in metres if all runs have the same length, otherwise in lengths of each run.
 struct Along {
     alike: bool,
     first: f64,
@@ -127,8 +128,8 @@ impl Along {
         self.metre(self.first)
     }
 
-    /// Tells the other views where on the axis the pointer is, and shows the values of all `runs` there: `of` writes those of one, below `heads`.
-    /// `lengths`: what the axis is in if lengths differ.
+    /// Tells the other views where the pointer is on the axis, and shows the values of all `runs` there: `of` writes those of one run,
+    /// below `heads`. `lengths` is the unit of the axis if the lengths differ.
     fn read<T>(
         &self,
         (response, x): (Response, Option<f64>),
@@ -200,7 +201,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     inside.title_with_bar(maps[0], "Pressure map", &titles, range);
     for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
         let metre = along.metre(run.recording.length);
-        // In metres of this run: its own teeth are where its own x says.
+        // x is in metres of this run, so that its own teeth are found.
         let x = x.map(|x| x / metre);
         let axes = run.map(ui, &inside, *rect, &format!("overlaid motor {slot}"), (x, range));
         axes.cursor(&inside, cursor.map(|x| x / metre));
@@ -239,7 +240,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     }
 }
 
-/// The curves `of` all runs over the cycle, of which each has its own length.
+/// The curves `of` all runs over the cycle; the cycles have different lengths.
 fn over_cycle<T>(
     ui: &mut Ui,
     style: &PlotStyle,
@@ -369,7 +370,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let written = along.written();
     let bounds = [x.map(|x| x * written), with_margin(pressures, 0.06)];
     let name = "Plates along their length: point to read values";
-    // Of round ones the length is the diameter.
+    // For round plates the length is the diameter.
     let round = runs.iter().all(|run| run.recording.radial);
     let (below, lengths) = if round { ("x/D", "diameters") } else { ("x/length", "lengths") };
     let below = Some(if along.alike { "x, mm" } else { below });

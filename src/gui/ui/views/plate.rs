@@ -112,7 +112,7 @@ fn draw_gap(style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
     axes
 }
 
-/// The wall up to one height, and from another one on the plate, which keeps its thickness and moves.
+/// The wall below one height, and above another one the plate, which keeps its thickness and moves.
 pub(super) fn wall_and_plate(style: &PlotStyle, axes: &Axes, of: &Plate, [wall, under]: [f32; 2], thickness: f32) {
     let part = |x: Rangef, face: f32, heights: RangeInclusive<f32>, colour: Color32| {
         style.painter.rect_filled(Rect::from_x_y_ranges(x, heights), 0.0, style.solid(colour));
@@ -134,7 +134,7 @@ fn draw_profile(ui: &mut egui::Ui, style: &PlotStyle, rect: Rect, shown: &PlateF
     let title = if shown.of.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
     let (film, quiet) = (style.palette.film, style.palette.quiet);
     let behind = style.at_first(shown.first.as_ref());
-    // Both are grey; what the plate began with is the one to be told apart.
+    // Both are grey; the ambient line is fainter if the run for comparison is drawn too, so that they can be distinguished.
     let faint = if behind.is_some() { quiet.gamma_multiply(0.55) } else { quiet };
     let legend: Vec<_> = [("film", film)].into_iter().chain(behind).chain([("ambient", faint)]).collect();
     style.title(rect, "Film pressure", &[title, "p, kPa absolute"], &legend);
@@ -193,7 +193,7 @@ fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Plat
     of.draw(ui, style, place);
 }
 
-/// Mean gauge pressure against the gap, once round the cycle.
+/// Mean gauge pressure over the gap for one cycle.
 fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a PlateFrame<'a>) {
     let area = shown.of.area();
     let ranges = [shown.ranges.thickness.map(|gap| gap * 1e6), shown.ranges.tooth_load.map(|load| load / area * 1e-3)];
@@ -209,11 +209,11 @@ fn draw_loop<'a>(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &'a P
     show_loops(ui, style, place, ("gap, µm", ranges), (&loops, legend.as_slice()), shown.phase());
 }
 
-/// A curve over the phase, after its colour and its dashes.
+/// The colour and the dashes of a curve, and the curve over the phase.
 pub(super) type Loop<'a> = (Color32, LineStyle, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
 
-/// Curves of mean gauge pressure \[kPa\] against the gap over the phase, and where they are at `phase`.
-/// `along`: name of the axis of the gap, and the ranges of both.
+/// Curves of mean gauge pressure \[kPa\] over the gap for one cycle, with dots at `phase`. `along` is the name of the gap's axis, and the
+/// ranges of both axes.
 pub(super) fn show_loops(
     ui: &mut egui::Ui,
     style: &PlotStyle,

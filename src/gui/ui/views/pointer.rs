@@ -1,10 +1,10 @@
-//! Regions that are pointed at and clicked, and the row of values below a view.
+//! Areas that react to the pointer, and the row of values below a view.
 
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{Align2, Rect, Response, Role, Sense, Ui, pos2};
 
-/// A named region that is pointed at, clicked or dragged.
+/// A named area that can be pointed at, clicked or dragged.
 pub(super) fn named(ui: &Ui, rect: Rect, name: &str, sense: Sense) -> Response {
     ui.interact(rect, ui.scope_id().with(name), sense).called(Role::Image, name)
 }
@@ -27,7 +27,7 @@ pub(super) fn readout_height(values: &[&str], style: &PlotStyle, width: f32) -> 
     lines(values, style, width).len() as f32 * style.row + 4.0
 }
 
-/// Writes the values under the cursor; one alone is a hint.
+/// Writes the values under the pointer; a single text is a hint.
 pub(super) fn read_out(values: &[String], style: &PlotStyle, rect: Rect) {
     let mut at = pos2(rect.left(), rect.top() + 4.0);
     let colour = if values.len() == 1 { style.palette.quiet } else { style.text };

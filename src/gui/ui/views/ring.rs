@@ -1,5 +1,5 @@
-//! The whole ring beside the unrolled wave, on its scale of heights and with the colours of the pressure maps: all waves run round, and it is
-//! turned with the mouse or, once it has the keyboard, with the arrow keys. Where things are is in `derived::ring`.
+//! The whole ring beside the unrolled wave, with the same exaggeration of heights and the colours of the pressure maps. All waves are
+//! shown. It can be turned with the mouse or, when it has the keyboard focus, with the arrow keys. The geometry is in `derived::ring`.
 
 use super::frame::Frame;
 use super::pointer::named;
@@ -20,10 +20,10 @@ const NAME: &str = "The whole ring: drag to turn it, double-click to put it back
 /// Further description for screen readers.
 const ABOUT: &str = "All waves of the ring, with teeth coloured by the pressure of the film. The rotor is lifted off, and the ring is drawn wider than it \
      is. Arrow keys turn it while it has the keyboard, Home puts it back.";
-/// A key turns it by this much \[rad\].
+/// Angle by which a key turns the ring \[rad\].
 const STEP: f64 = 0.1;
 
-/// Draws the ring into `rect`, as the unrolled wave is drawn on `axes`.
+/// Draws the ring into `rect`, to match the unrolled wave on `axes`.
 pub(super) fn draw(
     ui: &Ui,
     style: &PlotStyle,
@@ -69,7 +69,7 @@ fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
         return Some(Orbit::default());
     }
     if response.dragged() {
-        // Half a turn from side to side: what is in front follows the pointer.
+        // Dragging from one side to the other is half a turn, so that the front follows the pointer.
         let part = response.drag_delta() * PI / response.rect.size();
         return Some(orbit.turned(-f64::from(part.x), f64::from(part.y)));
     }
@@ -86,7 +86,7 @@ fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
     })
 }
 
-/// The faces, `scale` points to a contact radius, round the middle of `rect`; `range`: pressures of the first and last colour.
+/// The faces, round the middle of `rect`, with `scale` points per contact radius. `range` is the pressures of the first and last colour.
 fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
     let coloured = pressure_colour(range);
     let palette = &style.palette;

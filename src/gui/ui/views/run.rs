@@ -9,8 +9,8 @@ use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use eframe::egui::Ui;
 
-/// Draws `run` at the view's phase, and behind it `first`, a run that it is compared with, on one scale; the axes have the ranges `within`, if it
-/// is one cycle of several.
+/// Draws `run` at the view's phase, and behind it `first`, a run for comparison, with common ranges of the axes. If `run` is one cycle of
+/// several, the axes have the ranges `within`.
 pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<Ranges>, first: Option<&SolvedScene>, cx: &DrawContext<'_>) {
     if !has_fields(&run.solution.recording) {
         return drop(ui.label("This run has no fields to show."));

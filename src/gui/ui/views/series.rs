@@ -1,4 +1,4 @@
-//! Small charts over the cycle, with a line at the present phase, which is dragged.
+//! Small charts over the cycle, with a vertical line at the present phase, which can be dragged.
 
 use super::inset::{Inset, chosen};
 use crate::gui::command::Command;
@@ -33,17 +33,17 @@ pub(super) struct Series<'a> {
     pub(super) traces: &'a [Trace<'a>],
     /// Range of the values.
     pub(super) range: [f64; 2],
-    /// Size of the unit in the title.
+    /// Value of the unit in the title.
     pub(super) unit: f64,
-    /// Period \[s\]; not a number for curves of several periods.
+    /// Period \[s\]; NaN for curves with different periods.
     pub(super) period: f64,
 }
 
 impl Series<'_> {
-    /// Draws the chart into `rect`, its title above, the time below and numbers in the gutter left of it. A click, or the line
-    /// when it is dragged, chooses the phase.
+    /// Draws the chart into `rect`, with its title above, the time below, and numbers in the gutter at the left. A click, or a drag of the
+    /// vertical line, chooses the phase.
     pub(super) fn show(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect, cx: &DrawContext<'_>) {
-        // Of nothing at all the unit is the scale.
+        // If all values are zero, the range is one unit.
         let range = if self.range == [0.0; 2] { [-0.5, 0.5] } else { self.range.map(|end| end / self.unit) };
         let (scale, below) = match self.period {
             period if period < 1e-3 => (1e6 * period, "t, µs"),

@@ -1,5 +1,5 @@
-//! A sweep: over one parameter a line with its error as a band, over two a map with lines of equal value. Points appear as
-//! they are solved; the nearest to the pointer is read out, and a click asks for its scene.
+//! A sweep: over one parameter, a line with its error as a band; over two, a map with contour lines. Points appear as they are solved; the
+//! point nearest to the pointer is read out, and a click makes its scene the present one.
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
@@ -34,22 +34,22 @@ use egui_plot::{
 };
 use std::ops::RangeInclusive;
 
-/// Radius of the ring round the point that is pointed at.
+/// Radius of the ring round the point under the pointer.
 const RING: f32 = 7.0;
 const NAME: &str = "Sweep: point to read a value, click to make its scene the present one";
-/// Least size of a mark that is no dot of the curve, as in printed figures \[pt\].
+/// Least size of a mark other than a dot of the curve, as in printed figures \[pt\].
 const MARK: f64 = 5.0;
-/// Significant digits of a value that is varied, at most.
+/// Most significant digits of a value that is varied.
 const DIGITS: usize = 6;
-/// Distance within which a point takes the pointer \[points\].
+/// Greatest distance from the pointer at which a point reacts to it \[points\].
 const NEAR: f32 = 40.0;
-/// Lines of equal value, about.
+/// Approximate number of contour lines.
 const LEVELS: usize = 7;
-/// An end of the colours that is less than this share of the range is zero.
+/// An end of the colour range below this share of the range is set to zero.
 const NOTHING: f64 = 1e-3;
-/// Values whose greatest is more than this many times the least have many sizes.
+/// Values count as of many orders of magnitude if the greatest is more than this many times the least.
 const MANY_SIZES: f64 = 300.0;
-/// An axis of values that reach below this share of the greatest begins at zero.
+/// If the least value is below this share of the greatest, the axis begins at zero.
 const FROM_ZERO: f64 = 0.6;
 
 /// A sweep to draw, the quantity shown, and the present scene.
@@ -64,7 +64,7 @@ pub struct Plotted<'a> {
 }
 
 impl Plotted<'_> {
-    /// The value at a row that converged.
+    /// The value of a row that converged.
     fn sound(&self, row: &SweepRow) -> Option<Estimate> {
         row.numbers.estimate(self.quantity).filter(|_| row.status == RunStatus::Converged)
     }
@@ -81,7 +81,7 @@ impl Plotted<'_> {
         lines.push(if value.is_empty() { format!("{name}: none") } else { format!("{name} {value} {unit}") });
         match &row.status {
             RunStatus::Converged if row.stopped_by == Some(StoppedBy::Budget) => {
-                lines.push("As far as time allowed".to_owned());
+                lines.push("Stopped by the time limit".to_owned());
             }
             RunStatus::Converged => {}
             other => lines.push(other.to_string()),
@@ -102,7 +102,7 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
         [x, y] => map(ui, plotted, [x, y]),
         _ => return,
     };
-    // The drawing follows the pointer of the frame before, which is this one while it rests.
+    // The drawing uses the pointer position of the previous frame, which is the present one while the pointer rests.
     if let Some(point) = clicked(ui, &response, pointed.map(|row| row.point)) {
         cx.push(SweepCommand::Open(point));
     }
@@ -112,7 +112,8 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
     });
 }
 
-/// The point that was clicked. In a chart that was moved or zoomed, which a double click brings back, a click waits for the second one.
+/// The point that was clicked. In a chart that was moved or zoomed, a double click resets the view; there a click therefore waits for a
+/// second one.
 fn clicked(ui: &Ui, response: &Response, pointed: Option<usize>) -> Option<usize> {
     let waiting = Id::unique("the point that was clicked");
     let (now, longest) =
@@ -156,9 +157,9 @@ fn curve<'a>(ui: &mut Ui, plotted: &Plotted<'a>, axis: &Axis) -> (Response, Opti
     }
     let [low, high] = span(swept.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value));
     let from_zero = low > 0.0 && low < FROM_ZERO * high || high < 0.0 && high > FROM_ZERO * low;
-    // The quantity is the title.
+    // The title names the quantity.
     panel.y = figure::Axis::new("", "").including(from_zero.then_some(0.0));
-    // What has no value is a cross at the axis.
+    // A point without a value is drawn as a cross at the axis.
     let bottom = figure::ends(&panel)[1][0];
     let failed = swept.rows.iter().filter(|row| row.numbers.get(quantity).is_none());
     let failed = failed.map(|row| [row.values[0], bottom]);
@@ -196,7 +197,8 @@ fn on_screen_as(exported: &Panel, x: &Axis) -> Panel {
     panel
 }
 
-/// Shows `panel` over the rest of `ui`, whose axis below is `x`, above what `ground` draws. The glossary explains the other axis under `word`.
+/// Shows `panel` in the remaining area of `ui`, with `x` as the axis below, over what `ground` draws. `word` is the glossary term of the
+/// other axis.
 fn chart<'p>(
     ui: &mut Ui,
     panel: &'p Panel,
@@ -214,7 +216,7 @@ fn chart<'p>(
     shown
 }
 
-/// Ascending places, and the edges of the cells round them.
+/// Positions in ascending order, and the edges of the cells round them.
 fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
     let mut places: Vec<f64> = axis.values.iter().map(|value| axis.scale.place(*value)).collect();
     places.sort_by(f64::total_cmp);
@@ -226,12 +228,13 @@ fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
     (places, edges)
 }
 
-/// Drawing data of a sweep over two parameters, places and values on their scales.
+/// Drawing data of a sweep over two parameters. Positions and values are on the scales of their axes.
 struct Drawn {
     panel: Panel,
     /// Least and greatest value.
     extent: [f64; 2],
-    /// Values of many sizes get colours by their logarithm, else all but the greatest look the same.
+    /// Whether the colours are logarithmic: if values of many orders of magnitude had linear colours, all except the greatest would look
+    /// the same.
     log: bool,
     /// Edges of the cells along x and y, and their values.
     edges: [Vec<f64>; 2],
@@ -256,7 +259,7 @@ impl Drawn {
         let [(xs, x_edges), (ys, y_edges)] = axes.map(cells);
         let range = span(values.iter().copied());
         let ticks = Steps::new(range, LEVELS);
-        // Where lines would be nearer to each other than values are told apart there are none.
+        // If contour lines would be closer to each other than the error of the values, there are none.
         let told_apart = log || ticks.step() > typical_error(&swept.rows, quantity);
         let levels = levels(ticks, range, log).filter(|_| told_apart);
         let lines = levels.map(|level| (level, contour(&xs, &ys, &values, level))).collect();
@@ -269,7 +272,7 @@ impl Drawn {
     }
 }
 
-/// Two parameters, as a map over all of `ui`: its response, and the row that is pointed at.
+/// Two parameters: a map that fills `ui`. Returns its response, and the row under the pointer.
 fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response, Option<&'a SweepRow>) {
     let (swept, quantity) = (plotted.swept, plotted.quantity);
     let key = (swept.number, swept.rows.len(), quantity);
@@ -297,7 +300,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
     let (transform, frame) = (shown.transform, *shown.transform.frame());
     let painter = ui.painter_at(frame);
     let at = |[x, y]: [f64; 2]| transform.position_from_point(&PlotPoint::new(x, y));
-    // On any colour.
+    // It has to be visible on any colour.
     for point in &swept.published {
         let at = at([x.scale.place(point.values[0]), y.scale.place(point.values[1])]);
         for (size, width, colour) in [(9.0, 1.8, Color32::BLACK), (12.0, 1.0, Color32::WHITE)] {
@@ -323,7 +326,7 @@ fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response,
     (shown.response, pointed)
 }
 
-/// Cells, by their corners, in their colours: one item, since a large map has too many.
+/// Coloured cells, given by their corners. All are one plot item, because a large map has too many cells for an item each.
 struct Cells {
     base: PlotItemBase,
     cells: Vec<([[f64; 2]; 2], Color32)>,
@@ -363,7 +366,7 @@ impl PlotItem for Cells {
     }
 }
 
-/// The cells of a map in their colours, and lines of equal value, each with its value once, in this font.
+/// The cells of a map in their colours, and contour lines, each with its value, in this font.
 fn ground(plot: &mut PlotUi<'_>, drawn: &Drawn, font: FontId) {
     let [low, high] = span(drawn.values.iter().copied());
     let part = |value: f64| if high > low { (value - low) / (high - low) } else { 0.0 };
@@ -395,14 +398,14 @@ fn ground(plot: &mut PlotUi<'_>, drawn: &Drawn, font: FontId) {
     }
 }
 
-/// Values that get a line: none so near to an end that it would follow what the error is of.
+/// The values of contour lines. None is so near to an end of the range that its line would follow the errors.
 fn levels(ticks: Steps, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
     let fraction = move |level: f64| (level - range[0]) / (range[1] - range[0]);
     let whole = move |level: &f64| !log || (level - level.round()).abs() < 1e-6;
     ticks.values().filter(move |level| is_contour(fraction(*level))).filter(whole)
 }
 
-/// A value, and the lines on which it is found.
+/// A value, and the lines along which the quantity has it.
 type Contour = (f64, Vec<Vec<[f64; 2]>>);
 
 #[cfg(test)]

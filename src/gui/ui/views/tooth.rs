@@ -10,7 +10,7 @@ use crate::problem::Motor;
 use eframe::egui::{Rect, Ui, pos2};
 use egui_plot::LineStyle;
 
-/// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
+/// Draws into `row`, including titles, charts and the axes below. Returns the areas of the two charts over the cycle.
 pub(super) fn draw(
     ui: &mut Ui,
     style: &PlotStyle,
@@ -42,7 +42,7 @@ pub(super) fn draw(
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
-    // The same tooth of the run that this one is compared with, behind it.
+    // The same tooth of the run for comparison is drawn behind it.
     let (quiet, dashed, solid) = (style.palette.quiet, LineStyle::dashed_dense(), LineStyle::Solid);
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
     let behind = style.at_first(first);

@@ -1,4 +1,4 @@
-//! Velocity of the gas across the film, from wall to wall, at one place: `film::velocity` drawn.
+//! Velocity of the gas across the film, from wall to wall, at one place, computed by `film::velocity`.
 
 use super::frame::Frame;
 use super::inset::Inset;
@@ -14,11 +14,11 @@ use eframe::egui::{Rect, Ui};
 use egui_plot::LineStyle;
 
 const POINTS: usize = 24;
-/// Instants of the cycle over which the axis is the same.
+/// Number of instants from which the fixed range of the axis is determined.
 const INSTANTS: usize = 48;
-/// Gas that is slower stands still \[m/s\]: the axis does not show the last digits of nothing.
+/// Gas slower than this \[m/s\] counts as at rest, so that the axis does not show rounding errors.
 const STILL: f64 = 1e-6;
-/// Room above and below the film, over the greatest thickness.
+/// Margin above and below the film, relative to the greatest thickness.
 const MARGIN: f64 = 0.12;
 
 /// A place of a film, at any instant.
@@ -41,7 +41,7 @@ impl<T> Place<'_, T> {
         Some(Velocity::new(self.gas, (self.thickness)(instant)?, pressure, gradient, (self.walls)(instant)))
     }
 
-    /// Least and greatest velocity over the cycle, rest included.
+    /// Least and greatest velocity over the cycle; 0 is included.
     fn range(&self) -> [f64; 2] {
         let frames = self.shown.recording.frames.max(1) as f64;
         let instants = (0..INSTANTS).filter_map(|i| self.at(frames * i as f64 / INSTANTS as f64));
@@ -50,7 +50,7 @@ impl<T> Place<'_, T> {
         if high - low < STILL { [-STILL, STILL] } else { [low, high] }
     }
 
-    /// Draws the profile at the instant shown into `rect`.
+    /// Draws the profile at the present instant into `rect`.
     pub(super) fn draw(&self, ui: &mut Ui, style: &PlotStyle, rect: Rect) {
         let key = (self.shown.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());

@@ -1,6 +1,6 @@
-//! The stator's travelling wave with its teeth, the rotor's deflected underside, the film between them, and where they
-//! touch. Heights are exaggerated; the factor and a scale bar are given. While the rotor turns, what drives it is drawn as well, on the scale of
-//! the heights: the way of the followed tooth's top round its ellipse, with its speed along the ring, and marks that the rotor takes along.
+//! The stator's travelling wave with its teeth, the rotor's deflected underside, the film between them, and the places where they touch.
+//! Heights are exaggerated; the factor and a scale bar are shown. While the rotor turns, the view also shows, on the scale of the heights,
+//! the elliptic path of the followed tooth's top with its speed along the ring, and marks that move with the rotor.
 
 use super::frame::Frame;
 use crate::gui::derived::format::times;
@@ -9,13 +9,13 @@ use crate::problem::Motor;
 use eframe::egui::{Align2, Pos2, Rect, Stroke, pos2, vec2};
 use std::f64::consts::TAU;
 
-/// Part of the height below the lowest stator top, and of the teeth in it.
+/// Share of the height below the lowest stator top, and the share of the teeth in it.
 const BELOW: f64 = 0.36;
 pub(super) const TOOTH: f32 = 0.15;
-/// Lines of text between two marks on a rotor that turns.
+/// Distance between two marks on a turning rotor, in lines of text.
 const MARKS: f32 = 3.0;
 const POINTS: u32 = 48;
-/// Part of the height above the highest point of the rotor's underside.
+/// Share of the height above the highest point of the rotor's underside.
 const ABOVE: f64 = 0.16;
 
 /// Draws the wave into `rect`, with the rotor's `underside` as in [`Lines::underside`](crate::recording::sample::Lines). Returns the axes, whose
@@ -65,7 +65,7 @@ fn stator(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
         let top: Vec<Pos2> = recording.x.iter().zip(heights).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
         let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
         let feet = [first, last].map(|end| pos2(axes.px(middle + end), body(middle + end)));
-        // A pixel below the body's edge, so that no seam shows.
+        // It begins a pixel below the body's edge, so that no seam shows.
         let foot = feet[0].y.max(feet[1].y) + 2.0;
         style.band(top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
         let followed = tooth == shown.tooth;
@@ -101,7 +101,7 @@ fn rotor(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>, underside: &[
     style.painter.line(underside, Stroke::new(1.5, colour));
 }
 
-/// Marks on the rotor above its underside, which goes from left to right; they move as it does.
+/// Marks on the rotor above its underside, which runs from left to right; they move with the rotor.
 fn marks(style: &PlotStyle, underside: &[Pos2], axes: &Axes, shown: &Frame<'_, Motor>) {
     let (Some(first), Some(last)) = (underside.first(), underside.last()) else { return };
     let (apart, scale) = (MARKS * style.row, axes.points_per_metre());
@@ -117,8 +117,8 @@ fn marks(style: &PlotStyle, underside: &[Pos2], axes: &Axes, shown: &Frame<'_, M
     }
 }
 
-/// While the rotor turns, the ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring. That of an outer
-/// tooth is wider than there is room in the view: it is drawn after all that is beside it.
+/// While the rotor turns: the elliptic path of the top of the followed tooth, its present position, and its speed along the ring. The
+/// ellipse of an outer tooth may extend beyond the view, so it is drawn last.
 pub(super) fn ellipse(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
     let motor = shown.of;
     if motor.rotor_speed == 0.0 {
@@ -140,7 +140,7 @@ pub(super) fn ellipse(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) 
     style.painter.arrow(top, vec2(along, 0.0), Stroke::new(2.5, style.palette.accent));
 }
 
-/// The tops of the teeth and the rotor's underside above them, of the motor that this one is compared with.
+/// The tops of the teeth and the rotor's underside above them, for the motor of the run for comparison.
 fn outline(style: &PlotStyle, axes: &Axes, first: &Frame<'_, Motor>) {
     let stroke = Stroke::new(1.5, style.palette.quiet);
     let (recording, lines) = (first.recording, &first.lines);
@@ -167,7 +167,7 @@ fn touching(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
             let mut points: Vec<Pos2> =
                 run.iter().map(|(i, k)| axes.at(middle + recording.x[*i], lines.stator[*k])).collect();
             if let ([only], [(i, _)]) = (&points[..], run) {
-                // One node stands for its length of tooth.
+                // Each node represents a length of the tooth.
                 let half = 0.5 * recording.node_length[*i];
                 let reach = vec2((axes.px(half) - axes.px(0.0)).max(1.0), 0.0);
                 points = vec![*only - reach, *only + reach];
