@@ -1,7 +1,6 @@
 //! Every number that a built-in lesson states, computed: a lesson must not say what the program does not.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::exact as exact_of_runs;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::{Cancel, Progress};
@@ -9,9 +8,10 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact;
 use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
+use squeezefilm::plate::harmonic;
 use squeezefilm::problem::{Outline, Problem, Scenario};
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::{Performance, PlateResult, Solution};
+use squeezefilm::solution::{Harmonic, Performance, PlateResult, Solution};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 use std::collections::BTreeMap;
@@ -176,7 +176,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     // Exact: slip, and where spring and damper meet.
     let small = ["plate.amplitude_um=0.1", "plate.frequency_khz=1.03"];
     let sigma = number("plate-crossover", &small, "squeeze_number");
-    let slip = sigma / exact_of_runs::effective_squeeze_number(&plate(&small));
+    let slip = sigma / harmonic::effective_squeeze_number(&plate(&small));
     states(3, "$Q = 1.38$", slip, 1.38, 0.005);
     states(3, "$\\sigma/Q = 10$, so $\\sigma = 14$", sigma, 14.0, 0.02);
     says(3, "The leak time is then just $1/\\omega$.");
@@ -190,7 +190,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     states(3, "Here $\\\\sigma$ is 2.7, at 0.2 kHz", before, 2.7, 0.01);
     states(3, "That is five times the", sigma / before, 5.0, 0.05);
     assert!((sigma / slip / 10.0 - 1.0).abs() < 0.01);
-    let linear = exact_of_runs::linear(10.0, Outline::Strip);
+    let linear = harmonic::linear(10.0, Outline::Strip);
     assert!((linear.spring / linear.damping - 1.0).abs() < 0.02, "{linear:?}");
     // Start-up: the first cycle, and the last.
     let cycles = |preset: &str| {
@@ -240,8 +240,8 @@ fn sensor(set: &[&str]) -> [f64; 3] {
     let problem = Problem::try_from(&scene.with(set).unwrap()).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
-    let found = exact_of_runs::solved(plate, &PlateResult::default(), &solution.recording).unwrap();
-    let unit = exact_of_runs::Harmonic::unit(plate);
+    let found = harmonic::solved(plate, &PlateResult::default(), &solution.recording).unwrap();
+    let unit = Harmonic::unit(plate);
     let knudsen = Numbers::of(&problem, &solution).get(Quantity::KnudsenNumber).unwrap();
     [found.spring.value * unit.spring, found.damping.value * unit.damping, knudsen]
 }

@@ -7,7 +7,8 @@ use crate::problem::{Plate, Problem, Scenario};
 use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::ops::AddAssign;
+use std::f64::consts::TAU;
+use std::ops::{AddAssign, Mul};
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -296,6 +297,31 @@ pub struct Model {
     pub decisions: Vec<Decision>,
 }
 
+/// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist. Or the same over the
+/// amplitude and over the greatest speed: stiffness \[N/m\] and damping \[N s/m\], of a strip per metre of width.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Harmonic<T> {
+    /// In phase with the approach: 1 for gas that cannot leave.
+    pub spring: T,
+    /// In phase with the speed of the approach.
+    pub damping: T,
+}
+
+impl<T: Mul<f64, Output = T>> Harmonic<T> {
+    /// Each in its [unit](Harmonic::unit).
+    pub fn times(self, unit: Harmonic<f64>) -> Self {
+        Self { spring: self.spring * unit.spring, damping: self.damping * unit.damping }
+    }
+}
+
+impl Harmonic<f64> {
+    /// Units of the spring and damping numbers \[N/m, N s/m; of a strip per metre of width\]: p_a A/h₀, and that over ω.
+    pub fn unit(plate: &Plate) -> Self {
+        let spring = plate.gas.ambient_pressure * plate.area() / plate.mean_gap;
+        Self { spring, damping: spring / (TAU * plate.frequency) }
+    }
+}
+
 /// Everything a solve returns.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Solution {
@@ -306,6 +332,8 @@ pub struct Solution {
     /// Torque, power and efficiency of a motor with its film, without the curve; `None` of a plate, and where no cycle was
     /// reached.
     pub performance: Option<Performance>,
+    /// First harmonic of a plate's load, over p_a · area · ε; `None` for a motor, and where nothing vibrates.
+    pub harmonic: Option<Harmonic<Estimate>>,
     /// Cost of the solve.
     pub stats: Stats,
     /// The model that was solved.

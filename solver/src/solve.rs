@@ -14,11 +14,11 @@ use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::{Decision, Plan};
-use crate::plate;
 use crate::plate::floating::{FloatError, float};
+use crate::plate::{self, harmonic};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
-use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Status, StoppedBy};
+use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Status, StoppedBy, settled};
 use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
@@ -296,6 +296,7 @@ fn told<R>(
         status: found.status,
         outcome: outcome(found.result),
         performance: None,
+        harmonic: None,
         stats: found.stats,
         model: Model {
             fidelity: plan.fidelity.clone(),
@@ -331,6 +332,7 @@ fn floated(
                 solution.accuracy = accuracy(&plan, error, value, cancel);
                 solution.warnings.extend(unstable(&floating));
             }
+            solution = performed(problem, solution);
             if settings.record == Record::Numbers {
                 solution.recording = Recording::default();
             }
@@ -355,14 +357,21 @@ fn unstable(floating: &Floating) -> Option<String> {
     Some(warning.to_owned())
 }
 
-/// The solution with torque, power and efficiency of a motor whose fields are kept.
+/// The solution with what its fields tell: torque, power and efficiency of a motor, and the first harmonic of a plate's load.
 fn performed(problem: &Problem, mut solution: Solution) -> Solution {
-    if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome)
-        && solution.recording.frames > 0
-    {
-        let found = Scaled::with_film(motor, result, &solution.recording).performance(&[]);
-        solution.warnings.extend(drive::warnings(motor, result, &found));
-        solution.performance = Some(found);
+    let problem = &*settled(problem, &solution.outcome);
+    match (&problem.scenario, &solution.outcome) {
+        _ if solution.recording.frames == 0 => {}
+        (Scenario::Motor(motor), Outcome::Motor(result)) => {
+            let found = Scaled::with_film(motor, result, &solution.recording).performance(&[]);
+            solution.warnings.extend(drive::warnings(motor, result, &found));
+            solution.performance = Some(found);
+        }
+        (Scenario::Plate(plate), Outcome::Plate(result)) => {
+            solution.harmonic = harmonic::solved(plate, result, &solution.recording);
+        }
+        // A solver answers in kind.
+        (Scenario::Motor(_), Outcome::Plate(_)) | (Scenario::Plate(_), Outcome::Motor(_)) => {}
     }
     solution
 }

@@ -9,50 +9,18 @@
 //! S is the *spring*, in phase with the approach, and D the *damping*, in phase with its speed. For ε → 0 both are known for
 //! every σ (`film::exact`); slip enters by its factor Q at the mean gap, as σ/Q.
 
-use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::film::exact::{linear_load, viscous_force};
+use crate::film::exact::viscous_force;
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
-use crate::plate::first_harmonic;
+use crate::plate::harmonic::{effective_squeeze_number, linear, solved};
 use crate::problem::{Outline, Plate};
 use crate::recording::Recording;
-use crate::solution::PlateResult;
+use crate::solution::{Harmonic, PlateResult};
 use std::f64::consts::TAU;
-use std::ops::Mul;
 
 /// Samples of a cycle for exact means, which converge spectrally.
 const SAMPLES: usize = 1024;
-/// Least errors of spring and damping, as shares of the mean error of the load over the cycle (calibrated: docs/validation.md).
-const SPRING_SHARE: f64 = 1.4;
-const DAMPING_SHARE: f64 = 0.4;
-/// Ratio of damping to spring below which the solve took the gas as trapped; the rest is rounding.
-const IN_PHASE: f64 = 1e-9;
-
-/// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist. Or the same over the
-/// amplitude and over the greatest speed: stiffness \[N/m\] and damping \[N s/m\], of a strip per metre of width.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Harmonic<T> {
-    /// In phase with the approach: 1 for gas that cannot leave.
-    pub spring: T,
-    /// In phase with the speed of the approach.
-    pub damping: T,
-}
-
-impl<T: Mul<f64, Output = T>> Harmonic<T> {
-    /// Each in its [unit](Harmonic::unit).
-    pub fn times(self, unit: Harmonic<f64>) -> Self {
-        Self { spring: self.spring * unit.spring, damping: self.damping * unit.damping }
-    }
-}
-
-impl Harmonic<f64> {
-    /// Units of the spring and damping numbers \[N/m, N s/m; of a strip per metre of width\]: p_a A/h₀, and that over ω.
-    pub fn unit(plate: &Plate) -> Self {
-        let spring = plate.gas.ambient_pressure * plate.area() / plate.mean_gap;
-        Self { spring, damping: spring / (TAU * plate.frequency) }
-    }
-}
 
 /// Unit names of stiffness and damping of a plate; for a strip they are per metre of width.
 pub fn units(plate: &Plate) -> [&'static str; 2] {
@@ -139,32 +107,6 @@ fn greatest_viscous(plate: &Plate) -> f64 {
     viscous_load(plate, low)
 }
 
-/// Spring and damping of a solve of `plate`, over p_a · area · ε; `None` if nothing vibrates.
-pub fn solved(plate: &Plate, result: &PlateResult, recording: &Recording) -> Option<Harmonic<Estimate>> {
-    let excursion = plate.amplitude / plate.mean_gap;
-    let scale = plate.gas.ambient_pressure * plate.area() * excursion;
-    let errors = &recording.film_load_error;
-    let of_load = errors.iter().sum::<f64>() / errors.len().max(1) as f64 / scale;
-    let of = |part: usize, share: f64| {
-        let found = recording.estimate(|lines| first_harmonic(&lines.film_loads())[part] / scale);
-        Estimate { error: found.error.max(share * of_load) + result.harmonic_error[part] / scale, ..found }
-    };
-    (excursion > 0.0 && !recording.film_load.is_empty()).then(|| {
-        let (mut spring, mut damping) = (of(0, SPRING_SHARE), of(1, DAMPING_SHARE));
-        // If the load is one peak, its first harmonic is twice its mean.
-        let peak = result.film_load * (2.0 / scale);
-        let share = (peak.value.abs() / spring.value.abs().max(f64::MIN_POSITIVE)).min(1.0);
-        spring.error = spring.error.max(share * peak.error);
-        if damping.value.abs() < IN_PHASE * spring.value.abs() {
-            // The neglected leakage causes damping, and softens the spring by as much; the effect is greatest at a small amplitude.
-            let leaks = linear(effective_squeeze_number(plate), plate.outline()).damping;
-            spring.error += leaks * spring.value.abs();
-            damping.error += leaks;
-        }
-        Harmonic { spring, damping }
-    })
-}
-
 /// σ/Q at which spring and damping of a small amplitude are about equal.
 pub fn crossover(outline: Outline) -> f64 {
     match outline {
@@ -172,18 +114,6 @@ pub fn crossover(outline: Outline) -> f64 {
         Outline::Disc => 6.0,
         Outline::Rectangle { aspect } => 10.0 * (1.0 + 1.0 / (aspect * aspect)),
     }
-}
-
-/// Spring and damping for ε → 0 at σ/Q.
-pub fn linear(effective_squeeze_number: f64, outline: Outline) -> Harmonic<f64> {
-    let load = linear_load(effective_squeeze_number, outline);
-    Harmonic { spring: -load.re, damping: -load.im }
-}
-
-/// σ over the slip's factor at the mean gap and ambient pressure.
-pub fn effective_squeeze_number(plate: &Plate) -> f64 {
-    let (mobility, _) = SlipLaw::of(&plate.gas).at(plate.mean_gap);
-    Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
 }
 
 /// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is

@@ -5,7 +5,7 @@ use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::problem::{Plate, Problem, Scenario, rpm};
 use crate::scene::Belongs;
-use crate::solution::{Outcome, PlateResult, Solution, Status, settled};
+use crate::solution::{Harmonic, Outcome, PlateResult, Solution, Status, settled};
 
 /// Defines an enum of numbers, and a struct of those that are known. Each number has its variant, name, description, unit, the scenes that
 /// have it, and possibly more.
@@ -125,6 +125,10 @@ numbers! {
     LoadRatioMinError "load_ratio_min_error" "error of the least load ratio" "" Plate;
     LoadRatioMax "load_ratio_max" "greatest load ratio" "" Plate;
     LoadRatioMaxError "load_ratio_max_error" "error of the greatest load ratio" "" Plate;
+    Stiffness "stiffness_n_per_m" "dynamic stiffness" "N/m" Plate;
+    StiffnessError "stiffness_error_n_per_m" "error of the dynamic stiffness" "N/m" Plate;
+    Damping "damping_n_s_per_m" "dynamic damping" "N·s/m" Plate;
+    DampingError "damping_error_n_s_per_m" "error of the dynamic damping" "N·s/m" Plate;
     MinGap "min_gap_nm" "least film thickness" "nm" Any;
     MinGapError "min_gap_error_nm" "error of the least film thickness" "nm" Any;
     MaxPressure "max_pressure_kpa" "highest pressure" "kPa" Any;
@@ -261,6 +265,10 @@ impl Numbers {
         let counts = [stats.film_steps, stats.cycles, stats.coupling_iterations, stats.contact_solves];
         for (quantity, count) in [FilmSteps, Cycles, Rounds, ContactSolves].into_iter().zip(counts) {
             numbers.set(quantity, count as f64);
+        }
+        if let (Scenario::Plate(plate), Some(found)) = (&problem.scenario, solution.harmonic) {
+            let found = found.times(Harmonic::unit(plate));
+            numbers.set_all([(Stiffness, found.spring), (Damping, found.damping)]);
         }
         if let (Scenario::Motor(motor), Some(found)) = (&problem.scenario, &solution.performance) {
             let rpm = rpm(1.0, motor.contact_radius);

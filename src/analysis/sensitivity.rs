@@ -14,11 +14,11 @@ mod output;
 mod uncertainty;
 
 pub use monte_carlo::{Draw, MonteCarlo, Spread};
-pub use output::Output;
 pub use uncertainty::{Propagated, Uncertainties, Uncertainty};
 
 use super::attempt::told;
 use super::error::AnalysisError;
+use super::quantity::Quantity;
 use super::variation::{Column, Jacobian, Slope, Variation};
 use crate::control::Cancel;
 use crate::estimate::Estimate;
@@ -27,7 +27,7 @@ use crate::scene::{Parameter, ParameterKind, Scene};
 use crate::solution::{Solution, Status};
 use crate::solve::near::{Centre, is_settled};
 use crate::solve::{Record, Settings, solve};
-use output::read;
+use output::{outputs, read};
 use rayon::prelude::*;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -45,7 +45,7 @@ pub struct Sensitivity {
     /// Warnings about that solve for the user.
     pub warnings: Vec<String>,
     /// The results, the headline first.
-    pub outputs: &'static [Output],
+    pub outputs: &'static [Quantity],
     /// Their values, with their numerical errors; not finite where the scene has none.
     pub values: Vec<Estimate>,
     /// Derivatives of all of them with respect to each key.
@@ -73,7 +73,7 @@ impl Sensitivity {
         let Some(Jacobian { numbers, columns }) = variation.jacobian(&centre, &read, cancel, solved) else {
             return Ok(None);
         };
-        let (outputs, values) = (Output::of(&problem), numbers.fine);
+        let (outputs, values) = (outputs(&problem), numbers.fine);
         let coarse = numbers.coarse.unwrap_or_else(|| values.clone());
         let Solution { status, warnings, .. } = centre.solved.fine;
         Ok(Some(Self { variation, settings: *settings, problem, status, warnings, outputs, values, columns, coarse }))
@@ -235,7 +235,7 @@ impl<'de> Deserialize<'de> for Sensitivity {
         let carried = <(Variation, _, _, _, _, _, _)>::deserialize(from)?;
         let (variation, settings, status, warnings, values, columns, coarse) = carried;
         let problem = Problem::try_from(&variation.scene).map_err(D::Error::custom)?;
-        let outputs = Output::of(&problem);
+        let outputs = outputs(&problem);
         Ok(Self { variation, settings, problem, status, warnings, outputs, values, columns, coarse })
     }
 }

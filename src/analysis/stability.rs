@@ -370,6 +370,7 @@ mod tests {
             status: Status::Converged,
             outcome: Outcome::Motor(result),
             performance: None,
+            harmonic: None,
             stats: Stats::default(),
             accuracy: Default::default(),
             model: Model::default(),

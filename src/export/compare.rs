@@ -39,7 +39,7 @@ pub fn status(run: &ComparedRun) -> String {
 /// How a solve ended, if the reader should see it at once: it did not converge, or its time limit was reached before the requested
 /// accuracy.
 pub fn mark(run: &ComparedRun) -> String {
-    run.solved.as_ref().map_or_else(|_| json::mark(&status(run)), mark_of)
+    run.solved.as_ref().map_or_else(|_| json::mark(&status(run)), |solution| mark_of(solution))
 }
 
 /// The object of `--json`: the runs, of which the first is the reference for differences, and the keys in which their scenes differ.

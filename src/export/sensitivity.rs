@@ -2,6 +2,7 @@
 
 use super::csv::number;
 use super::estimates::{self, finite};
+use crate::analysis::quantity::Quantity;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::Column;
 use crate::digits::significant;
@@ -134,7 +135,11 @@ impl SensitivityStudy<'_> {
     pub fn write_draws(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         let keys = self.uncertainties.iter().map(|(parameter, ..)| parameter.key);
-        let outputs = self.sensitivity.outputs.iter().flat_map(|output| [output.name(), output.error_name()]);
+        let outputs = self
+            .sensitivity
+            .outputs
+            .iter()
+            .flat_map(|output| [*output].into_iter().chain(output.error()).map(Quantity::name));
         writer.write_record(keys.chain(outputs))?;
         for draw in self.carlo.iter().flat_map(|carlo| &carlo.draws) {
             let number = |value: &f64| finite(*value).map_or_else(String::new, number);

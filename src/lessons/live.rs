@@ -1,14 +1,14 @@
 //! Numbers of tabs, which a run itself does not have: those of a plate held by hand, of a start-up, of a motor's curves over speed, and of a
 //! plate compared with exact results. The window, or [`super::trial`], fills them in.
 
-use crate::analysis::exact::{self, Harmonic};
 use crate::analysis::quantity::{Quantity, numbers};
 use crate::analysis::torque::TorqueCurves;
 use crate::export::startup::CycleRow;
+use crate::plate::harmonic;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
 use crate::scene::Belongs;
-use crate::solution::PlateResult;
+use crate::solution::{Harmonic, PlateResult};
 
 numbers! {
     /// One number of a tab. In the table below, the last entry is the name of the tab.
@@ -94,7 +94,7 @@ impl Readings {
 
     /// Takes the numbers of a plate that are compared with exact results.
     pub fn read_exact(&mut self, plate: &Plate, recording: &Recording) {
-        if let Some(found) = exact::solved(plate, &PlateResult::default(), recording) {
+        if let Some(found) = harmonic::solved(plate, &PlateResult::default(), recording) {
             self.set(Live::Spring, found.spring.value);
             self.set(Live::Damping, found.damping.value);
             let absolute = found.times(Harmonic::unit(plate));

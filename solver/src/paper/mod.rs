@@ -148,6 +148,7 @@ pub fn solve(
         status,
         outcome: Outcome::Motor(outcome),
         performance: None,
+        harmonic: None,
         stats,
         model: describe(motor, &mesh, &march),
         warnings,

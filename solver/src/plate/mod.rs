@@ -2,6 +2,7 @@
 
 pub mod floating;
 mod frames;
+pub mod harmonic;
 mod level;
 mod result;
 mod slow;
@@ -9,7 +10,6 @@ mod transient;
 
 pub(crate) use level::film_grid;
 pub use level::unit;
-pub use result::first_harmonic;
 pub use transient::PlateTransient;
 
 use crate::control::{Cancel, Observer, Reporter};

@@ -43,7 +43,7 @@ pub(super) fn numbers(loads: &[f64], pressures: &[f64]) -> [f64; 5] {
 }
 
 /// Parts of `load`, one value a frame, in phase with −cos τ and with sin τ, in the same unit.
-pub fn first_harmonic(load: &[f64]) -> [f64; 2] {
+pub(super) fn first_harmonic(load: &[f64]) -> [f64; 2] {
     let count = load.len().max(1) as f64;
     let (mut spring, mut damping) = (0.0, 0.0);
     for (frame, load) in load.iter().enumerate() {

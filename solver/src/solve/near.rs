@@ -66,7 +66,14 @@ impl Afloat {
 }
 
 /// The solution of a plate, with the gap at which it floats.
-fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: &Plan, cancel: &Cancel) -> Solution {
+fn told(
+    found: plate::Periodic,
+    problem: &Problem,
+    floating: Option<&Afloat>,
+    plate: &Plate,
+    plan: &Plan,
+    cancel: &Cancel,
+) -> Solution {
     let mut solution = of_plate(found, plan, cancel);
     if let (Some(afloat), Outcome::Plate(result)) = (floating, &mut solution.outcome) {
         let stiffness = afloat.stiffness;
@@ -78,7 +85,7 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
         result.harmonic_error = afloat.harmonic_error;
         result.min_film_thickness.error = mean_gap.error;
     }
-    solution
+    performed(problem, solution)
 }
 
 /// Number of solves at gaps near that of the centre until the film carries the load. If the stiffness has a relative error e, the last gap
@@ -151,7 +158,7 @@ impl Centre {
                     }
                 }
                 let Floated { solved, plate, plan } = found;
-                let of = |found| told(found, floating.as_ref(), &plate, &plan, cancel);
+                let of = |found| told(found, problem, floating.as_ref(), &plate, &plan, cancel);
                 let solved = solved.map(of);
                 Ok(Self { plan, warm: cold, problem: problem.clone(), solved, floating })
             }
@@ -195,7 +202,7 @@ impl Centre {
                 let left = |afloat: Afloat| afloat.next(&plate, plate.mean_gap, solved.fine.result.film_load.value);
                 let arrived = self.floating.is_none_or(|afloat| (left(afloat) / plate.mean_gap - 1.0).abs() < ARRIVED);
                 let near = arrived && is_settled(solved.fine.status) && alike(&self.plan, &plan);
-                let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);
+                let of = |found| told(found, problem, self.floating.as_ref(), &plate, &self.plan, cancel);
                 Ok(near.then(|| solved.map(of)))
             }
         }

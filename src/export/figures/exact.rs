@@ -3,10 +3,12 @@
 use super::plate::force;
 use super::series::{over_cycle, rest, span, with_margin};
 use super::unit::prefixed;
-use crate::analysis::exact::{ExactComparison, Harmonic, crossover, linear};
+use crate::analysis::exact::{ExactComparison, crossover};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
+use crate::plate::harmonic::linear;
 use crate::problem::Plate;
 use crate::recording::Recording;
+use crate::solution::Harmonic;
 
 /// Points of a curve.
 const SAMPLES: usize = 121;

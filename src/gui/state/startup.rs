@@ -166,6 +166,7 @@ fn as_solved(number: u64, posed: Posed, fidelity: Fidelity, outcome: Outcome, re
         status: Status::Converged,
         outcome,
         performance: None,
+        harmonic: None,
         stats: Stats::default(),
         accuracy: Default::default(),
         model: Model::default(),

@@ -1,6 +1,6 @@
 //! A solved plate beside its exact results: spring and damping over the squeeze number, the limits over the cycle, and the invariant.
 
-use crate::analysis::exact::{ExactComparison, Harmonic, units};
+use crate::analysis::exact::{ExactComparison, units};
 use crate::digits::{percent, raised, significant};
 use crate::estimate::Estimate;
 use crate::export::figures::exact::exact;
@@ -13,7 +13,7 @@ use crate::gui::ui::parts::{self, BESIDE_CHARTS, scrolled};
 use crate::gui::ui::rich::{self, Look};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
-use crate::solution::{Outcome, PlateResult};
+use crate::solution::{Harmonic, Outcome, PlateResult};
 use eframe::egui::{RichText, TextStyle, Ui};
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
