@@ -14,7 +14,8 @@ use squeezefilm::plan::{Choice, Plan};
 use squeezefilm::problem::{Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::recording::sample::Lines;
 use squeezefilm::rotor::Wave;
-use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::scene::Scene;
+use squeezefilm::solution::{Accuracy, Outcome, Status, StoppedBy};
 use squeezefilm::solve::{Settings, solve as solve_problem};
 
 /// α of the fundamental case without discretisation error: grids up to 128 × 64 intervals and 576 steps, extrapolated
@@ -343,6 +344,48 @@ fn a_small_share_with_an_error_as_large_as_itself_is_not_resolved() {
     let alpha = found.result.alpha;
     let Status::NotResolved { error } = found.status else { panic!("{:?}: {alpha}", found.status) };
     assert!(error > 1.0 && (error - alpha.error / alpha.value.abs()).abs() < 1e-12 && alpha.error < 0.01, "{alpha}");
+}
+
+/// A crowned tooth as long as the wave under a load from all round it, of which the coarsest grid of `standard` has no periodic state.
+#[test]
+fn where_finer_grids_fail_the_result_is_that_of_coarser_ones() {
+    let mut scene = Scene::motor();
+    for (key, value) in [
+        ("motor.contact_radius_mm", "8.35833"),
+        ("motor.load_per_wave_n", "1.3116"),
+        ("motor.waves", "2"),
+        ("stator.frequency_khz", "66.8146"),
+        ("stator.normal_amplitude_um", "3.84173"),
+        ("stator.tangential_amplitude_um", "4.55748"),
+        ("stator.teeth_per_wave", "1"),
+        ("stator.tooth_width_mm", "15.4482"),
+        ("stator.tooth_radius_m", "4.31006"),
+        ("rotor.contact_width_mm", "0.0545496"),
+        ("rotor.decay_length_mm", "6.41387"),
+        ("rotor.point_compliance_um_per_n", "1.08077"),
+        ("rotor.local_compliance_m2_per_n", "1.53849e-10"),
+        ("film.min_spacing_nm", "37.8461"),
+        ("film.ambient_pressure_kpa", "890.535"),
+        ("film.viscosity_upa_s", "9.45985"),
+        ("film.mean_free_path_nm", "33.2976"),
+        ("film.slip", "fukui-kaneko"),
+        ("film.shear", "false"),
+    ] {
+        scene.set(key, value).unwrap();
+    }
+    let problem = Problem::try_from(&scene).unwrap();
+    let solved = |fidelity| {
+        let settings = Settings { fidelity, ..Settings::default() };
+        solve_problem(&problem, &settings, &mut (), &Cancel::new()).unwrap()
+    };
+    let [draft, standard] = [Fidelity::Draft, Fidelity::Standard].map(solved);
+    assert_eq!((draft.status, standard.status), (Status::Converged, Status::Converged));
+    let Accuracy { asked, stated, stopped_by } = standard.accuracy;
+    assert_eq!((asked, stopped_by), (Fidelity::Standard.accuracy(), StoppedBy::Limit));
+    assert!(stated <= draft.accuracy.stated && stated > asked, "{stated}");
+    assert_eq!(standard.model.fidelity, "standard");
+    assert!(standard.model.remarks.iter().any(|remark| remark.starts_with("grids: those of draft")));
+    assert!(standard.stats.film_steps > draft.stats.film_steps);
 }
 
 #[test]

@@ -68,6 +68,7 @@ const RESULTS: [Quantity; 27] = [
     Quantity::StallTorque,
     Quantity::StallTorqueError,
     Quantity::MaxTorque,
+    Quantity::MaxTorqueError,
     Quantity::TeethInContact,
     Quantity::TeethInContactError,
     Quantity::MinGap,
@@ -115,6 +116,11 @@ impl Serialize for Summary {
             // Between the numbers are entries that are not numbers, or not numbers of every solve.
             match quantity {
                 Quantity::FilmLoad => map.serialize_entry("force_unit", force_unit(&self.problem))?,
+                // What the film has too much of the load, contact has too little.
+                Quantity::StallTorque => {
+                    let error = self.numbers.estimate(Quantity::ContactLoad).and_then(|load| finite(load.error));
+                    map.serialize_entry("contact_load_error_n", &error)?;
+                }
                 Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &dry)?,
                 Quantity::MinGap => map.serialize_entry("levitated", &levitated)?,
                 Quantity::LoadRatio => map.serialize_entry("floating", &floating)?,
