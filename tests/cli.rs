@@ -169,7 +169,7 @@ fn a_scene_outside_the_limits_of_the_model_says_so() {
     assert_eq!(names, ["gas-inertia", "isothermal", "thinness"]);
     let first = &result["validity"][0];
     assert!((first["value"].as_f64().unwrap() - 348.3).abs() < 0.1 && first["limit"] == 0.1);
-    assert!(first["text"].as_str().unwrap().starts_with("The gas has inertia"));
+    assert!(first["text"].as_str().unwrap().starts_with("The inertia of the gas matters"));
     let output = run(&[&["solve", "--fidelity", "draft"], &far[..]].concat());
     for words in ["Outside the limits of the model", "gas-inertia: 348, limit 0.1.", "isothermal: 38.5, limit 1."] {
         assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));

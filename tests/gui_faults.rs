@@ -285,6 +285,19 @@ fn pins_that_were_removed_together_come_back() {
     assert_eq!(window.known().pins.runs.len(), 2);
 }
 
+#[test]
+fn nothing_is_undone_behind_an_open_menu() {
+    let mut window = preset("fundamental");
+    window.type_into("Minimum spacing H_m in nm", "123");
+    let spacing = |window: &Window| window.known().document.scene().get("film.min_spacing_nm");
+    window.click_on("Presets");
+    window.ctrl(Key::Z);
+    assert_eq!(spacing(&window), Some(Value::Number(123.0)));
+    window.press(Key::Escape);
+    window.ctrl(Key::Z);
+    assert_eq!(spacing(&window), Some(Value::Number(200.0)));
+}
+
 fn saved_scene() -> String {
     presets::find("fundamental").unwrap().to_toml()
 }

@@ -272,7 +272,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let mut text = heading(&title);
     let mut columns = Columns::new();
     let before = found.before.map_or_else(
-        || "cannot be solved where the search began".to_owned(),
+        || "cannot be solved at the start of the search".to_owned(),
         |before| format!("{before} at the start of the search"),
     );
     columns.row([found.goal.quantity.name().to_owned(), found.value.to_string(), before]);

@@ -182,7 +182,7 @@ mod tests {
             ("#fundamental&film.min_spacing_nm=-1", "film.min_spacing_nm"),
             ("#fundamental&tab=torqe", "motion, compare"),
             ("#fundamental&torque", "key=value"),
-            ("#lesson=0", "from 1 on"),
+            ("#lesson=0", "at least 1"),
             ("#lesson=2&tab=hold", "step="),
         ] {
             let told = Link::read(link).unwrap_err();

@@ -141,12 +141,12 @@ fn asking_for(command: &Command) -> Option<&'static Shortcut> {
 
 /// The shortcuts pressed in this frame. `tab` decides whether the keys for the animation or for a held plate apply.
 pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
-    let text = ctx.text_edit_focused();
-    let idle = !obstacles.typing && !ctx.egui_wants_keyboard_input() && !Popup::is_any_open(ctx);
+    let (text, menu) = (ctx.text_edit_focused(), Popup::is_any_open(ctx));
+    let idle = !obstacles.typing && !ctx.egui_wants_keyboard_input() && !menu;
     let acts = |scope: Scope| match scope {
         Always => true,
         Window => !obstacles.modal,
-        History => !obstacles.modal && !text && !Popup::is_any_open(ctx),
+        History => !obstacles.modal && !text && !menu,
         Idle => !obstacles.modal && idle,
     };
     let mut found = Vec::new();

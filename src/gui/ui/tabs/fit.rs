@@ -310,8 +310,8 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawCo
             ui.end_row();
         };
         let before = found.before.map_or_else(
-            || "cannot be solved where the search began".to_owned(),
-            |before| format!("{before} where the search began"),
+            || "cannot be solved at the start of the search".to_owned(),
+            |before| format!("{before} at the start of the search"),
         );
         let value = found.value.to_string();
         row(ui, sought, "The result that is sought, with its numerical error", value, before);
