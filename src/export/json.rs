@@ -55,7 +55,7 @@ pub struct Summary {
 }
 
 /// The numbers of the object that are results of a solve, in its order.
-const RESULTS: [Quantity; 27] = [
+const RESULTS: [Quantity; 28] = [
     Quantity::Alpha,
     Quantity::AlphaError,
     Quantity::FilmLoad,
