@@ -930,7 +930,7 @@ fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
 
 #[test]
 fn what_is_told_after_a_task_follows_the_run_on_screen_or_says_that_it_does_not() {
-    const ANOTHER: &str = "which is not the one on screen";
+    const ANOTHER: &str = "not from the one on screen";
     let told = |window: &Window| work(window).readings["max_pressure_kpa"];
     let mut window = at("Pushing on trapped air", 2);
     let step = predicted(&mut window);

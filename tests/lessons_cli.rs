@@ -103,7 +103,7 @@ fn lessons_are_printed_a_page_for_each() {
             && !answers.contains("class=\"room\"")
     );
     // Braces are those of the text, not marks of an index.
-    let own = self::folder(&GOOD.replacen("pushing wins", r"\{the ratio\} at $h_0$", 1));
+    let own = self::folder(&GOOD.replacen("pushes more strongly", r"\{the ratio\} at $h_0$", 1));
     done(&["lessons", "print", own.path().to_str().unwrap(), "--out", own.path().join("out").to_str().unwrap()]);
     let own = std::fs::read_to_string(own.path().join("out/answers.html")).unwrap();
     assert!(own.contains("{the ratio} at h_0"), "{own}");
