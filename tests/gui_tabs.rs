@@ -325,7 +325,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     window.run_steps(10);
     assert_eq!(made(&window.ctx), before);
     window.open_list("Result shown");
-    window.click_on("Highest pressure, kPa");
+    window.click_on("Greatest load ratio");
     assert_eq!(made(&window.ctx), before + 1);
     window.click_on("Back to one parameter");
     assert!(window.query_by_role_and_label(Role::TextInput, "Values along y").is_none());
@@ -917,7 +917,7 @@ fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let about = told(&window).into_iter().find(|(_, name, _)| name == "Take roughness from it").unwrap().2.unwrap();
     let rounded = Value::Number(follows[0].1);
     assert!(about.contains(&format!("to {rounded} nm")) && about.contains("1/mm²"), "{about}");
-    assert!(!about.contains("Minimum spacing") && about.contains("pressed again"), "{about}");
+    assert!(!about.contains("Minimum spacing") && about.contains("press this again"), "{about}");
     window.click_on("Take roughness from it");
     for (key, value) in follows {
         let taken = window.known().document.scene().get(key);

@@ -226,7 +226,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     states(8, words, idle(&usual.with_film), 58.0, 0.009);
     states(8, words, idle(&usual.without_film), 57.0, 0.009);
     states(6, "as fast as a rotor at 62 rpm would be", usual.rpm(usual.stator_speed), 62.0, 0.005);
-    says(8, "friction that drives is back");
+    says(8, "more load presses metal on metal");
     let polished = merit("min-spacing-100nm", &[]);
     let narrow = merit("min-spacing-100nm", &["rotor.contact_width_mm=0.12"]);
     assert!(narrow.with_film.max_power.value > 1.2 * polished.with_film.max_power.value);
