@@ -453,7 +453,9 @@ fn an_optimum_keeps_its_limits() {
     // Without it the bound is reached, and said to be.
     let found = optimum(&motor, &[vary], ("film_load_n", true), &[], 1);
     assert_eq!((found.lines[0].at, found.lines[0].value), (Some(Bound::Lower), 100.0));
-    assert!(found.warnings[0].ends_with("is at its lower bound, 100 nm: a better value, if there is one, lies beyond it"));
+    assert!(
+        found.warnings[0].ends_with("is at its lower bound, 100 nm: a better value, if there is one, lies beyond it")
+    );
     // A key without a unit.
     let found = optimum(&motor, &["motor.dry_friction=0.1:0.3"], ("stall_torque_nm", true), &[], 1);
     assert!(found.warnings[0].contains("is at its upper bound, 0.3: a better"), "{:?}", found.warnings);

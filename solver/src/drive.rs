@@ -51,7 +51,7 @@ const OF_SPEED: f64 = 0.5;
 const OF_WIDTH: f64 = 2.0;
 /// Safety factor on the error of the film's power that the grids give (calibrated: docs/validation.md).
 const OF_POWER: f64 = 2.0;
-/// Least share of the load on the contact to which a change of it is related.
+/// Least share of the load on the contact that a change of the contact load is divided by.
 const LEAST_SHARE: f64 = 1e-6;
 /// Safety factor on the error that the grids give for contact without film (calibrated: docs/validation.md).
 const DRY: f64 = 1.3;

@@ -146,7 +146,8 @@ pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
     })
 }
 
-/// Extrapolates the means of three grids or more, with `error` of their changes as the error; fewer grids give a rougher estimate.
+/// Extrapolates the means of three grids or more, with `error` of their changes as the error. Two grids give a rougher estimate,
+/// and one gives none.
 fn extrapolate_by(means: &[Mean], error: impl Fn(&Changes) -> f64) -> Estimate {
     match *means {
         [] => Estimate { value: 0.0, error: f64::INFINITY },

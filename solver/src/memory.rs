@@ -101,7 +101,7 @@ fn grids(plan: &Plan) -> Vec<Grid> {
     grids
 }
 
-/// `plan`, with as few additional grids as [`REFINED`] and the budget require, even if its accuracy suffers; the grids of the plan itself
+/// `plan`, with no more additional grids than [`REFINED`] and the budget allow, even if its accuracy suffers; the grids of the plan itself
 /// are all kept.
 pub fn within(mut plan: Plan, need: impl Fn(&Plan) -> Need) -> Plan {
     while plan.most_grids > plan.grids.len() && need(&plan).bytes > REFINED.min(allowed()) {

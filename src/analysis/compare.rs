@@ -1,7 +1,7 @@
 //! Several scenes side by side: the differences between them, and between their results.
 //!
 //! Each run is a single solve of its scene: its numbers are those of [`solve`](crate::solve::solve) to the last bit, whatever it is
-//! compared with and however many threads there are. If a run fails, it has the reason, and the others go on. Differences are relative to
+//! compared with and however many threads there are. A run that fails gives the reason, and the others go on. Differences are relative to
 //! the first run.
 
 use super::attempt::{RunStatus, attempt};

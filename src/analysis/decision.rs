@@ -135,7 +135,7 @@ fn reason(chosen: Choice, weighed: &Weighed) -> String {
         _ => format!("could change α by up to {effect}"),
     };
     let coarse = if weighed.unresolved > 0.0 {
-        format!("; this grid is too coarse for it: its error would be up to {}", percent(weighed.unresolved))
+        format!("; this grid is too coarse for it: solving it has an error of up to {}", percent(weighed.unresolved))
     } else {
         String::new()
     };

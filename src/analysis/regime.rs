@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-6;
 const CLOSE: f64 = 0.5;
 
 /// The regime of the film in words, spring or damper: the distance from the edges within which gas leaks in a cycle, compared with the
-/// shorter side. For a rotor that floats, this is where the film is thinnest, because it never has the minimum spacing.
+/// shorter side. For a rotor that floats, it is that of the place where the film is thinnest, because the gap never is the minimum spacing.
 pub fn squeeze(problem: &Problem, outcome: &Outcome) -> String {
     if let (Scenario::Motor(motor), Outcome::Motor(result @ MotorResult { levitated: true, .. })) =
         (&problem.scenario, outcome)
@@ -103,8 +103,8 @@ pub fn bearing(numbers: &Dimensionless) -> &'static str {
     match (numbers.bearing_number, numbers.bearing_to_squeeze) {
         (0.0, _) => "nothing slides",
         (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in almost no gas",
-        (_, ratio) if ratio < 0.3 => "< σ: sliding carries less gas than squeezing displaces",
-        _ => "not ≪ σ: sliding carries as much gas as squeezing displaces",
+        (_, ratio) if ratio < 0.3 => "< σ: sliding carries a small part of the gas that squeezing displaces",
+        _ => "not ≪ σ: sliding carries about as much gas as squeezing displaces, or more",
     }
 }
 
@@ -131,7 +131,7 @@ pub fn knudsen(problem: &Problem, outcome: &Outcome) -> String {
         kn if (1.0..kn).contains(&SlipLaw::of(gas).knudsen_limit()) => {
             "the gas is so rarefied that its slip law is extrapolated"
         }
-        _ => "the gas is rarefied; of the slip laws only fukui-kaneko is valid here",
+        _ => "the gas is rarefied; of the slip laws only fukui-kaneko is made for this",
     };
     format!("{at}: {says}")
 }

@@ -142,7 +142,8 @@ pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "fai
 const ROUND_OFF: f64 = 1e-9;
 /// Tolerance of a share of the load, in addition to its stated error: the effect of any film is larger.
 const SHARE: f64 = 1e-6;
-/// Share of the load by which film and contact may miss it at an instant, in addition to the stated error.
+/// Allowed difference at an instant between the load and the sum of film and contact, as a share of the load, in addition to the stated
+/// error.
 const BALANCE: f64 = 2e-3;
 
 /// What is physically impossible in a motor's solution, in words.
@@ -238,8 +239,8 @@ impl Cell {
     }
 }
 
-/// Number of cycles after which the paper's method is stopped on its own mesh; more on finer meshes, in proportion. The method's own limit
-/// of 200 cycles takes minutes if its rounds do not converge.
+/// Number of cycles after which the paper's method is stopped on its own mesh. On a finer mesh it is stopped after fewer, for the same
+/// work, but not before [`FEWEST_CYCLES`]. The method's own limit of 200 cycles takes minutes if its rounds do not converge.
 const PAPER_CYCLES: usize = 60;
 const PAPER_WORK: usize = 51 * 11 * 180 * PAPER_CYCLES;
 const FEWEST_CYCLES: usize = 30;

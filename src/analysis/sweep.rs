@@ -2,7 +2,7 @@
 //!
 //! The points of a sweep are solved on rayon's pool, in chunks of neighbours. The chunks depend only on the points, so the results do not
 //! depend on the number of threads, to the last bit, and each agrees with a single solve of its scene. A point that fails or does not
-//! converge has this in its row, and the others go on.
+//! converge is marked in its row, and the others go on.
 //!
 //! A cancelled sweep keeps its rows. When they are passed to [`Sweep::run`] again, it solves the missing points, and the result is the same
 //! as without the interruption. [`Sweep::fingerprint`] shows whether rows on disk belong to the same sweep. A [`Part`] of a sweep can be

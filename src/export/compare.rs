@@ -252,7 +252,7 @@ pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
     if row.unit.is_none() && cell.found.is_some() { format!("{text} {}", cell.unit) } else { text }
 }
 
-/// `+3.2 ± 0.1 %`; for a value in another unit than that of the first run, a text that there is no difference.
+/// `+3.2 ± 0.1 %`; for a value in another unit than that of the first run, the two units in place of a difference: `N/m, not N`.
 pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     let first = row.cells.first().filter(|first| first.found.is_some() && cell.found.is_some());
     if let Some(first) = first.filter(|first| first.unit != cell.unit) {

@@ -395,7 +395,7 @@ pub fn startup(
     files.commit()
 }
 
-/// Writes the files of `squeezefilm startup --out` for a plate that is dropped into a folder. `wall_s` is the wall time by the caller's
+/// Writes into a folder the files of `squeezefilm startup --out` for a plate that is dropped. `wall_s` is the wall time by the caller's
 /// clock, or NaN.
 pub fn fall(
     folder: &Folder<'_>,

@@ -116,7 +116,7 @@ impl Serialize for Summary {
             // Between the numbers are entries that are not numbers, or not numbers of every solve.
             match quantity {
                 Quantity::FilmLoad => map.serialize_entry("force_unit", force_unit(&self.problem))?,
-                // What the film has too much of the load, contact has too little.
+                // If the film load is too large, the contact load is too small by as much.
                 Quantity::StallTorque => {
                     let error = self.numbers.estimate(Quantity::ContactLoad).and_then(|load| finite(load.error));
                     map.serialize_entry("contact_load_error_n", &error)?;

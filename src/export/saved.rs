@@ -70,7 +70,7 @@ pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], o
 const ANOTHER: &str = "it is of another sweep: another scene, range, setting, budget or version";
 
 /// Message about a file that is not part of a sweep.
-const NO_PART: &str = "it is no part of a sweep in the form that sweep --part saves";
+const NO_PART: &str = "it is no part of a sweep as sweep --part saves it";
 
 /// Message about a damaged file; lines are counted from 1.
 fn damaged(line: u64, fault: impl Display) -> String {
@@ -210,7 +210,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
         let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|error| fault(name, error))?;
         if rows.len() < points.len() {
             let solved = format!("{} of the {} points of part {part} are solved", rows.len(), points.len());
-            return Err(fault(name, format!("{solved}; the command that began it continues it")));
+            return Err(fault(name, format!("{solved}; to continue, repeat the command that began it")));
         }
         rows.sort_by_key(|row| row.point);
         if found[part.number() - 1].replace(rows).is_some() {
@@ -318,7 +318,8 @@ mod tests {
             assert_eq!(told(&parts[..2]), "parts are missing: 1/4, 2/4");
             assert_eq!(told(&[&parts[..], &parts[1..2]].concat()), "3/4.csv: part 3/4 was given before");
             let none = ("x.csv".to_owned(), saved(&ours, Part::all(4).last().unwrap(), &[]));
-            let told_none = "x.csv: 0 of the 3 points of part 4/4 are solved; the command that began it continues it";
+            let told_none =
+                "x.csv: 0 of the 3 points of part 4/4 are solved; to continue, repeat the command that began it";
             assert_eq!(told(std::slice::from_ref(&none)), told_none);
             let third = ("y.csv".to_owned(), saved(&ours, Part::all(3).next().unwrap(), &[]));
             assert_eq!(told(&[parts[3].clone(), third]), "y.csv: it is part 1/3, and the parts before it are of 4");

@@ -215,7 +215,7 @@ impl Between {
         Self { low, fraction: rest as f64 / fine as f64 }
     }
 
-    /// The position at the fraction `place` of the last of `nodes`.
+    /// The position among `nodes` at the fraction `place` of the coordinate of the last one.
     pub fn at(place: f64, nodes: &[f64]) -> Self {
         let place = place * nodes[nodes.len() - 1];
         let high = nodes.partition_point(|node| *node <= place).min(nodes.len() - 1);

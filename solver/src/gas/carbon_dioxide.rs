@@ -1,5 +1,5 @@
 //! Carbon dioxide. Viscosity by Fenghour, Wakeham and Vesovic (J. Phys. Chem. Ref. Data 27, 1998, 31), 200 K to 1500 K. Below −56 °C it is
-//! not a gas at all pressures that a scene may have: at −70 °C it freezes at 0.2 MPa.
+//! not gaseous at every pressure that a scene may have: at −70 °C it freezes at 0.2 MPa.
 
 use super::collision::Collision;
 use super::species::Species;

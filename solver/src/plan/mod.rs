@@ -89,7 +89,7 @@ pub struct Weighed {
     /// The number that decides: Λ/σ for the wedge term; otherwise the boundary layer over the distance between the two edges
     /// whose leakage is neglected (for the film in time, the shorter of tooth and contact width).
     pub number: f64,
-    /// Whether the scene's switch leaves the part out.
+    /// Whether the scene's switch decides, to solve the part or to leave it out.
     pub asked: bool,
     /// Bound of the effect of leaving the part out, relative to α.
     pub effect: f64,
@@ -149,8 +149,8 @@ pub struct Plan {
     pub clustering_in_time: f64,
     /// Frames of a recording for each step. Frames are uniform in time; clustered steps are not.
     pub frames_per_step: usize,
-    /// Whether a field is one polynomial across the width, on the same nodes on all grids, or finite volumes, which keep the pressure
-    /// positive.
+    /// Whether a field is one polynomial across the width, on the same nodes on all grids; otherwise the scheme has finite volumes, which
+    /// keep the pressure positive.
     pub spectral: bool,
     /// Whether a plate is solved turned by a quarter: one much wider than it is long has its polynomial along the length.
     pub turned: bool,

@@ -19,7 +19,7 @@ const LEAST_OPENING: f64 = 0.02;
 const UPWINDING: f64 = 1e-4;
 const UPWINDING_UNEVEN: f64 = 0.1;
 
-/// A candidate for a term to leave out, if its effect is small enough and the switch allows it.
+/// A term that is left out if its effect is small enough, unless the scene's switch decides.
 struct Reduction {
     /// For the whole model, and for the reduced one.
     choices: [Choice; 2],

@@ -68,7 +68,7 @@ impl<'a> Model<'a> {
         Ok(Self { scene, settings: *settings, unknowns, conditions: Vec::new(), solves: AtomicUsize::new(0) })
     }
 
-    /// Adds the conditions of a table, and computes what the table holds.
+    /// Adds the conditions of a table, with the numbers that are to be computed under each.
     ///
     /// # Errors
     /// Every line sets a key that is to be chosen, or a line sets a key that the scene does not accept.
@@ -94,7 +94,7 @@ impl<'a> Model<'a> {
         Ok(self)
     }
 
-    /// Computes these numbers of the scene itself.
+    /// Sets these numbers of the scene itself as those to be computed.
     pub(super) fn asking(mut self, asked: Vec<Observable>) -> Self {
         self.conditions = vec![Condition { scene: self.scene.clone(), chosen: vec![true; self.unknowns.len()], asked }];
         self

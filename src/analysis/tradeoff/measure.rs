@@ -18,7 +18,7 @@ const QUICK: f64 = 0.02;
 pub struct Effort {
     /// Runs of every setting; `None`: as many as fit into `seconds`, at least one and at most 31.
     pub repeats: Option<usize>,
-    /// Time for all runs together, shared equally \[s\]. The first run of each setting always ends.
+    /// Time for all runs together, shared equally \[s\]. Each setting has at least one run, whatever its time.
     pub seconds: f64,
     /// A run that takes longer than this \[s\] is given up.
     pub longest: f64,

@@ -379,7 +379,7 @@ mod tests {
             says_so(document.scene());
             assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
         }
-        // Edits made before the scene was saved do not make it the preset either; an unedited scene stays the preset.
+        // A scene that was edited before it was saved is not the preset either; an unedited scene is.
         let mut document = Document::fundamental().unwrap();
         for spacing in ["150", "140"] {
             document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);

@@ -218,7 +218,7 @@ impl State {
         let export = self.exports.running.as_ref().map(|running| format!("An export: {}", running.export.title()));
         let swept = self.sweep.swept.as_ref().filter(|swept| swept.running);
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows.len(), swept.sweep.len()));
-        let building = self.sweep.building().then(|| "A sweep: its points are being built".to_owned());
+        let building = self.sweep.building().then(|| "A sweep: its points are being prepared".to_owned());
         let fit = self.fit.work.running().then(|| "A fit".to_owned());
         let measured = self.tradeoff.as_ref().is_some_and(|measured| measured.work.running());
         let tradeoff = measured.then(|| "A measurement of the trade-off".to_owned());

@@ -88,7 +88,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
             cx.on_click(&button.hint(about), Command::CancelTab);
         }
         match running {
-            _ if building => drop(ui.label("The points are being built")),
+            _ if building => drop(ui.label("The points are being prepared")),
             Some(swept) => {
                 let text = format!("{} of {}", swept.rows.len(), swept.sweep.len());
                 cx.progress(ui, 190.0, swept.share(), &text, Some(swept.since()));
