@@ -384,3 +384,21 @@ fn what_does_not_converge_is_marked_and_the_rest_goes_on() {
     assert_eq!(solved["status"], "not resolved");
     assert_eq!(swept["rows"][0]["status"], solved["status"]);
 }
+
+#[test]
+fn stiffness_and_damping_of_a_strip_are_those_of_a_solve() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("out");
+    let sweep =
+        ["sweep", "plate-crossover", "--vary=plate.frequency_khz=1,2", "--quantity=stiffness_n_per_m", "--json"];
+    let swept = json(&done(&into(&sweep, &folder)));
+    for (row, frequency) in swept["rows"].as_array().unwrap().iter().zip(["1", "2"]) {
+        let set = format!("plate.frequency_khz={frequency}");
+        let solved = json(&done(&["solve", "plate-crossover", "--set", &set, "--json"]));
+        for name in ["stiffness_n_per_m", "damping_n_s_per_m"] {
+            let [one, other] = [&row[name], &solved["exact"][name]].map(|found| found.as_f64().unwrap());
+            assert!((one / other - 1.0).abs() < 1e-9, "{name} {one} {other}");
+        }
+    }
+    assert!(fs::read_to_string(folder.join("sweep.svg")).unwrap().contains("dynamic stiffness"));
+}

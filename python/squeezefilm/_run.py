@@ -92,9 +92,11 @@ class Run:
         film_load_min_error_n: float | None
         film_load_max_error_n: float | None
         contact_load_n: float | None
+        contact_load_error_n: float | None
         stall_torque_nm: float | None
         stall_torque_error_nm: float | None
         max_torque_nm: float | None
+        max_torque_error_nm: float | None
         dry_torque_nm: float | None
         teeth_in_contact: float | None
         teeth_in_contact_error: float | None

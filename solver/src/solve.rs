@@ -211,12 +211,21 @@ fn coarser(found: &Solution, settings: &Settings, cancel: &Cancel) -> Option<Fid
 
 /// The result `other` of a `coarser` level, which states a smaller error than the one `found` at the level asked for.
 fn in_place_of(found: Solution, mut other: Solution, coarser: Fidelity) -> Solution {
-    other.accuracy = Accuracy { asked: found.accuracy.asked, stopped_by: StoppedBy::Limit, ..other.accuracy };
+    let Accuracy { asked, .. } = found.accuracy;
+    let stopped_by = if other.accuracy.stated <= asked { StoppedBy::Accuracy } else { StoppedBy::Limit };
+    other.accuracy = Accuracy { asked, stopped_by, ..other.accuracy };
     other.stats.add_cost(&found.stats);
-    other.model.remarks.push(format!(
-        "grids: those of {coarser}, because finer ones, as asked for, left a larger error ({})",
-        percent(found.accuracy.stated)
-    ));
+    // The level may have been replaced by a still coarser one itself.
+    if other.model.remarks.is_empty() {
+        other.model.remarks.push(format!(
+            "grids: those of {coarser}, because finer ones, as asked for, left a larger error ({})",
+            percent(found.accuracy.stated)
+        ));
+    }
+    if found.status == Status::Converged {
+        let missed = found.warnings.into_iter().filter(|warning| !other.warnings.contains(warning));
+        other.warnings.extend(missed.collect::<Vec<_>>());
+    }
     other.model.fidelity = found.model.fidelity;
     other
 }

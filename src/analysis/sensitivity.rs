@@ -208,8 +208,7 @@ impl Sensitivity {
 
     fn solve_draw(&self, centre: Option<&Centre>, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
         let Some(centre) = centre else {
-            // Stiffness and damping follow from the line fields.
-            let settings = Settings { record: Record::Everything, ..self.settings };
+            let settings = Settings { record: Record::Numbers, ..self.settings };
             let found = told(|| solve(problem, &settings, &mut (), cancel))?;
             return if is_settled(found.status) {
                 Ok(read(problem, &found))

@@ -79,15 +79,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
 /// The error, with a hint at what may be missing on this system.
 fn no_window(reason: String) -> CliError {
-    let advice = if cfg!(windows) {
-        "\n(the window needs OpenGL 2.0 or Direct3D 12)"
+    let mut advice = String::new();
+    if cfg!(windows) {
+        advice.push_str("\n(the window needs OpenGL 2.0 or Direct3D 12)");
     } else if !cfg!(feature = "wgpu") && !no_display() {
-        "\n(the window needs OpenGL 2.0; built with --features wgpu it can be drawn by Vulkan or Metal as well)"
-    } else if Path::new("/etc/debian_version").exists() {
-        "\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
-    } else {
-        ""
-    };
+        advice.push_str(
+            "\n(the window needs OpenGL 2.0; built with --features wgpu it can be drawn by Vulkan or Metal as well)",
+        );
+    }
+    if Path::new("/etc/debian_version").exists() {
+        advice.push_str(
+            "\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)",
+        );
+    }
     CliError::System(format!(
         "no window can be opened: {reason}\nwithout a window, try squeezefilm solve fundamental or squeezefilm --help{advice}"
     ))

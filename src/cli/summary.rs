@@ -335,7 +335,7 @@ fn cost(summary: &Summary) -> String {
         let why = match stopped_by {
             StoppedBy::Accuracy => "",
             StoppedBy::Budget => "; the time allowed was up",
-            StoppedBy::Limit => "; no finer grid was tried",
+            StoppedBy::Limit => "; finer grids would not reduce it, or would take too long",
         };
         // For a share α below 0.01 the accuracy is relative to a hundredth of the load.
         let of =

@@ -223,7 +223,7 @@ fn slow_motion(recording: &Recording, seconds: f64) -> String {
     match rounded(seconds / recording.period, 2) {
         times @ ..1e4 => format!("slowed down {times:.0} times"),
         times @ ..1e6 => format!("slowed down {:.0} 000 times", times / 1e3),
-        times => format!("slowed down {:.0} million times", times / 1e6),
+        times => format!("slowed down {:.*} million times", usize::from(times < 1e7), times / 1e6),
     }
 }
 
@@ -444,6 +444,7 @@ mod tests {
         let said = |period: f64, seconds: f64| slow_motion(&Recording { period, ..Recording::default() }, seconds);
         assert_eq!(said(1e-3, 0.2512), "slowed down 250 times");
         assert_eq!(said(1.0 / 30e3, 3.03), "slowed down 91 000 times");
+        assert_eq!(said(1.0 / 30e3, 40.0), "slowed down 1.2 million times");
         assert_eq!(said(1e-9, 4.0), "slowed down 4000 million times");
     }
 

@@ -11,7 +11,7 @@ use super::ui::parts::FOLLOWED;
 use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
-use super::update::storage::{Entries, NOT_KEPT, UNSAVED, keep, read, write};
+use super::update::storage::{Entries, NOT_KEPT, Place, UNSAVED, keep, read, write};
 use super::update::updater::Updater;
 use crate::digits::parse_duration;
 use crate::platform::Instant;
@@ -45,7 +45,9 @@ pub struct App {
     title: String,
     /// The widget that had the keyboard focus when the last frame began.
     focused: Option<egui::Id>,
-    /// Why the last save failed; it is told once.
+    /// What the last save wrote into a file.
+    kept: Option<Entries>,
+    /// Why the last save failed; it is reported once.
     fault: Option<String>,
 }
 
@@ -63,8 +65,19 @@ impl App {
         let mut updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
         next.into_iter().for_each(|document| updater.carry_out(Command::Proceed(Next::Given(Box::new(document)))));
         let (after_text, address, title) = (Vec::new(), String::new(), String::new());
-        let (last_frame, focused, fault) = (None, None, None);
-        Ok(Self { updater, typing: false, after_text, last_frame, unwritten: false, address, title, focused, fault })
+        let (last_frame, focused, kept, fault) = (None, None, None, None);
+        Ok(Self {
+            updater,
+            typing: false,
+            after_text,
+            last_frame,
+            unwritten: false,
+            address,
+            title,
+            focused,
+            kept,
+            fault,
+        })
     }
 
     /// All that the window knows.
@@ -112,7 +125,7 @@ impl App {
     }
 
     /// What the next window begins with.
-    fn kept(&self) -> Entries {
+    fn to_keep(&self) -> Entries {
         let state = self.state();
         // The next window begins with the student's own scene, not with that of a lesson.
         let document = state.lessons.student_document(&state.document);
@@ -246,15 +259,29 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.unwritten = false;
-        let entries = self.kept();
-        let Some(path) = &self.updater.platform.storage else {
-            return entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text));
-        };
-        let fault = write(path, &entries).err().map(|error| format!("{NOT_KEPT}: {error}"));
-        if fault != self.fault {
-            fault.iter().for_each(|fault| self.updater.state.fail(fault.clone()));
-            self.fault = fault;
+        let entries = self.to_keep();
+        match &self.updater.platform.storage {
+            Place::Nowhere => {}
+            Place::Browser => entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text)),
+            // This is called again and again while a motion plays.
+            Place::File(_) if self.kept.as_ref() == Some(&entries) => {}
+            Place::File(path) => {
+                let fault = write(path, &entries).err().map(|error| format!("{NOT_KEPT}: {error}"));
+                // Earlier versions kept it there.
+                if fault.is_none() && storage.get_string("scene").is_some() {
+                    entries.keys().for_each(|name| storage.remove_string(name));
+                }
+                self.kept = fault.is_none().then_some(entries);
+                if fault != self.fault {
+                    fault.iter().for_each(|fault| self.updater.state.fail(fault.clone()));
+                    self.fault = fault;
+                }
+            }
         }
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        !matches!(self.updater.platform.storage, Place::Nowhere)
     }
 
     fn auto_save_interval(&self) -> Duration {
@@ -263,19 +290,21 @@ impl eframe::App for App {
 }
 
 /// The state that the last window was left in, with the scene `opened` if there is one. If the last window left unsaved changes, `opened`
-/// is returned beside that state, to be opened after a question. A `file` that can neither be read nor kept is not written to: it is taken away.
+/// is returned beside that state, to be opened after a question. A file at `place` that can neither be read nor kept is not written to.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
-    file: &mut Option<PathBuf>,
+    place: &mut Place,
 ) -> Result<(State, Option<Document>), Box<dyn std::error::Error + Send + Sync>> {
     let mut faults = Vec::new();
+    let file = if let Place::File(file) = place { Some(file.clone()) } else { None };
     let read = file
         .as_deref()
         .map_or(Ok(None), |file| read(file).map_err(|fault| faults.push(format!("{}: {fault}.", file.display()))));
     // A page keeps it in the browser, and so did earlier versions in a file of eframe.
     let stored = |key: &str| match &read {
         Ok(Some(entries)) => entries.get(key).cloned(),
+        Ok(None) if matches!(place, Place::Nowhere) => None,
         Ok(None) => storage?.get_string(key),
         Err(()) => None,
     };
@@ -314,7 +343,7 @@ fn restored(
             Ok(Some(copy)) => faults.push(format!("The state of the last window is kept in {}.", copy.display())),
             Ok(None) => {}
             Err(error) => {
-                *file = None;
+                *place = Place::Nowhere;
                 faults.push(format!(
                     "What the last window left stays as it is, because there can be no copy of it: {error}. {NOT_KEPT}."
                 ));

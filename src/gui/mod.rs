@@ -19,7 +19,7 @@ use state::link::Link;
 use std::path::PathBuf;
 use std::time::Duration;
 use update::platform::Platform;
-use update::storage::{NOT_KEPT, StorageFile, beside};
+use update::storage::{NOT_KEPT, Place, StorageFile, beside};
 
 /// Opens the window with a scene, or with the state of the last window, and returns when it is closed. `lessons` is a folder of lessons to
 /// add to the built-in ones, `link` the tab or lesson step to show. `fidelity` and `budget` set how exactly edits are solved, and how long
@@ -34,13 +34,15 @@ pub fn open(
     (fidelity, budget): (Option<Fidelity>, Option<Duration>),
 ) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
-    let (file, fault) = match window::storage_folder().map(|folder| StorageFile::claim(&folder)) {
-        Some(Ok(file)) => (Some(file), None),
-        Some(Err(error)) => (None, Some(error)),
-        None => (None, None),
+    let (file, storage, fault) = match window::storage_folder().map(|folder| StorageFile::claim(&folder)) {
+        Some(Ok(file)) => {
+            let place = Place::File(file.path.clone());
+            (Some(file), place, None)
+        }
+        Some(Err(error)) => (None, Place::Nowhere, Some(error)),
+        None => (None, Place::Browser, None),
     };
-    let storage = file.as_ref().map(|file| file.path.clone());
-    let of_eframe = storage.as_deref().map(beside);
+    let of_eframe = file.as_ref().map(|file| beside(&file.path));
     let start = move |context: &eframe::CreationContext<'_>| {
         let platform = Platform { storage, ..Platform::default() };
         let mut app = app::App::on_platform(context, opened, platform)?;

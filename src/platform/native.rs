@@ -62,7 +62,7 @@ pub mod window {
     use std::path::PathBuf;
     use std::rc::Rc;
 
-    /// Opens the window and returns when it is closed. In the file `storage` it keeps the state that the next window begins with.
+    /// Opens the window and returns when it is closed. In the file `storage` it keeps its size and place; without one it keeps nothing.
     ///
     /// It is drawn by OpenGL. Where there is no OpenGL, it is drawn by Direct3D on Windows, and elsewhere by Vulkan or Metal if the feature
     /// `wgpu` is built in.
@@ -100,6 +100,7 @@ pub mod window {
                 // This fits on a screen of 1366 × 768 at 125 %, beside the bars of the system.
                 .with_min_inner_size([800.0, 520.0])
                 .with_drag_and_drop(true),
+            persist_window: storage.is_some(),
             persistence_path: storage,
             // With the menu that winit makes on macOS, ⌘Q ends the program without a question. Without it ⌘Q is a shortcut of the window.
             #[cfg(target_os = "macos")]

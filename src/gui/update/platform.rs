@@ -1,11 +1,11 @@
 //! What the window uses of its surroundings: clock and date, file dialogs, and the effort of measurements. Tests replace them.
 
+use super::storage::Place;
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::platform::window::Parent;
 use crate::platform::{Asked, FileDialog, HAS_FILES, Instant, SystemTime};
 use crate::problem::Problem;
-use std::path::PathBuf;
 use std::time::Duration;
 
 /// The clock, the file dialogs and the effort of measurements.
@@ -17,8 +17,8 @@ pub struct Platform {
     pub date: fn() -> SystemTime,
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
-    /// The file that keeps the state for the next window; `None` if no file is used.
-    pub storage: Option<PathBuf>,
+    /// Where the state is kept for the next window.
+    pub storage: Place,
     /// Settings to measure for the trade-off, and the effort.
     pub measure: fn(&Problem) -> (Vec<Candidate>, Effort),
 }
@@ -38,7 +38,7 @@ impl Default for Platform {
             now: Instant::now,
             date: SystemTime::now,
             ask: native_dialog,
-            storage: None,
+            storage: Place::Browser,
             measure: |problem| (candidates(problem), Effort::default()),
         }
     }

@@ -16,6 +16,17 @@ pub const UNSAVED: &str = "unsaved";
 /// Begins the message that nothing is kept, before the reason.
 pub const NOT_KEPT: &str = "What you change is not kept for the next start of the window";
 
+/// Where a window keeps its state.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// In the browser, by eframe.
+    Browser,
+    /// In this file.
+    File(PathBuf),
+    /// Nowhere, because that is impossible.
+    Nowhere,
+}
+
 /// What a window keeps, by name.
 pub type Entries = BTreeMap<String, String>;
 

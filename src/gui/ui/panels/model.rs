@@ -33,6 +33,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             None => fixed(ui, decision, cx),
         });
     }
+    run.solution.model.remarks.iter().for_each(|remark| cx.note(ui, capitalised(remark)));
     ui.add_space(4.0);
 }
 
