@@ -198,7 +198,7 @@ pub fn solve_from(
     }
 }
 
-/// The next coarser level, if the result `found` is so much less accurate than that level promises that it may do better: on finer grids
+/// The next coarser level, if the result `found` is less accurate than that level promises, so that it may do better: on finer grids
 /// contact may open, or a coarse one have no periodic state.
 fn coarser(found: &Solution, settings: &Settings, cancel: &Cancel) -> Option<Fidelity> {
     let Accuracy { asked, stated, stopped_by } = found.accuracy;
@@ -206,7 +206,7 @@ fn coarser(found: &Solution, settings: &Settings, cancel: &Cancel) -> Option<Fid
     let short = ended && asked > 0.0 && stopped_by == StoppedBy::Limit && !cancel.has_budget();
     let levels = settings.fidelity.and_coarser();
     let (_, coarser) = levels.split_last().filter(|_| short && settings.method == Method::Auto)?;
-    coarser.last().copied().filter(|level| stated > 2.0 * level.accuracy())
+    coarser.last().copied().filter(|level| stated > level.accuracy())
 }
 
 /// The result `other` of a `coarser` level, which states a smaller error than the one `found` at the level asked for.

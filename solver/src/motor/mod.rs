@@ -198,7 +198,7 @@ impl GridSolver for Search<'_> {
     type Level = MotorLevel;
     type Error = MotorError;
     const WIDTH_AIM: f64 = 0.3;
-    const MOST_WORK: f64 = 2.5e5;
+    const MOST_WORK: f64 = 1e6;
 
     fn solve(
         &mut self,

@@ -143,7 +143,7 @@ impl GridSolver for Search<'_> {
     /// Small, so that spring and damping are as accurate as the mean.
     const WIDTH_AIM: f64 = 0.02;
     /// Large, because without contact a few rounds are enough.
-    const MOST_WORK: f64 = 4e5;
+    const MOST_WORK: f64 = 1.8e6;
 
     fn solve(
         &mut self,
