@@ -92,7 +92,7 @@ pub fn write(path: &Path, entries: &Entries) -> Result<(), WriteError> {
     write_file(path, |file| Ok(serde_json::to_writer_pretty(file, entries)?))
 }
 
-/// What [`write`] wrote; `None` if there is no file.
+/// What [`write()`] wrote; `None` if there is no file.
 ///
 /// # Errors
 /// Why it cannot be read.
