@@ -34,7 +34,8 @@ pub fn open(
     (fidelity, budget): (Option<Fidelity>, Option<Duration>),
 ) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
-    let (file, storage, fault) = match window::storage_folder().map(|folder| StorageFile::claim(&folder)) {
+    let claim = |folder: PathBuf| StorageFile::claim(&folder).map_err(|error| format!("{}: {error}", folder.display()));
+    let (file, storage, fault) = match window::storage_folder().map(claim) {
         Some(Ok(file)) => {
             let place = Place::File(file.path.clone());
             (Some(file), place, None)
