@@ -54,10 +54,10 @@ fn rings() -> Vec<(&'static str, Section, Band)> {
 #[test]
 fn a_ring_takes_what_is_estimated() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    for (name, section, band) in rings() {
-        let need = [rotor::need(&section, band).unwrap(), rotor::need_of_frequencies(&section).unwrap()];
+    for ((name, section, band), times) in rings().into_iter().zip([4, 1, 1]) {
+        let need = [rotor::need(&section, band, times).unwrap(), rotor::need_of_frequencies(&section).unwrap()];
         let compliances = || {
-            section.compliances(band, 7, 200, &Cancel::new()).unwrap();
+            section.compliances(band, 7, 200, times, &Cancel::new()).unwrap();
             need[0].bytes
         };
         let frequencies = || {

@@ -427,6 +427,14 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     assert!((ring.alpha.value - table.alpha.value).abs() < table.alpha.error, "{} {}", ring.alpha, table.alpha);
     assert!(ring.alpha.error > rotor.effect * ring.alpha.value, "{ring:?} {rotor:?}");
 
+    // For a higher accuracy its meshes are finer.
+    let fine = Settings { fidelity: Fidelity::Fine, ..settings.clone() };
+    let Outcome::Motor(fine) = solve_problem(&problem, &fine, &mut (), &Cancel::new()).unwrap().outcome else {
+        panic!("a motor")
+    };
+    assert!(fine.alpha.error < 1e-3 * fine.alpha.value, "{}", fine.alpha);
+    assert!((ring.alpha.value - fine.alpha.value).abs() < ring.alpha.error, "{} {}", ring.alpha, fine.alpha);
+
     // Where the stator touches nothing.
     let beside = Motor { contact_radius: 0.025, ..motor.clone() };
     let beside = Problem { scenario: Scenario::Motor(beside), ..problem.clone() };

@@ -81,7 +81,7 @@ impl RotorCurves {
         let bent = match &motor.rotor {
             RotorCompliance::Ring(section) => {
                 let band = motor.wave().band;
-                let _taken = budget::take(rotor::need(section, band)?, cancel)?;
+                let _taken = budget::take(rotor::need(section, band, 1)?, cancel)?;
                 let mesh = section.mesh(band)?;
                 let orders: Vec<u32> = (1..=BENDING).map(|n| n * motor.waves).collect();
                 let harmonics = section.deflections(band, &orders, cancel)?;

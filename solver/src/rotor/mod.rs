@@ -27,15 +27,29 @@ const LOCAL: f64 = 1e9;
 pub const MOST_HARMONICS: usize = 2500;
 /// Harmonics for which the natural frequencies of a ring are computed.
 pub const RESONANCES: usize = 3;
+/// Below which relative accuracy of α the meshes of a ring have how many times the usual number of elements, so that those of the preset
+/// `ring-rotor` are fine enough. Where memory does not suffice for them, coarser ones are taken.
+const DENSITIES: [(f64, usize); 3] = [(8e-4, 20), (4e-3, 4), (f64::INFINITY, 1)];
 /// Number of rings whose results are kept for the next solve of the same ring.
 const KEPT: usize = 64;
 
 impl RotorCompliance {
-    /// Compliances of the first `count` harmonics of `wave`.
+    /// Compliances of the first `count` harmonics of `wave`, those of a ring on its usual meshes.
     ///
     /// # Errors
     /// [`RotorError`] of a ring that the wave does not touch, or that nothing holds, or if it is cancelled.
     pub fn resolve(&self, wave: &Wave, count: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
+        self.resolve_for(f64::INFINITY, wave, count, cancel)
+    }
+
+    /// As [`Self::resolve`], those of a ring on meshes for a relative `accuracy` of α.
+    fn resolve_for(
+        &self,
+        accuracy: f64,
+        wave: &Wave,
+        count: usize,
+        cancel: &Cancel,
+    ) -> Result<Compliances, RotorError> {
         let waves = |at: &dyn Fn(f64) -> f64| Compliances {
             wavelength: wave.length,
             harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
@@ -52,7 +66,17 @@ impl RotorCompliance {
             }
             Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
             Self::Green(rows) => green::resolve(rows, wave, count)?,
-            Self::Ring(section) => of_ring(section, wave, cancel)?,
+            Self::Ring(section) => {
+                let mut fitting = DENSITIES.iter().filter(|(least, times)| *times == 1 || accuracy < *least).peekable();
+                loop {
+                    let times = fitting.next().map_or(1, |(_, times)| *times);
+                    match of_ring(section, wave, times, cancel) {
+                        // Coarser meshes state a larger error, but have an answer.
+                        Err(RotorError::Memory(_)) if fitting.peek().is_some() => {}
+                        found => break found?,
+                    }
+                }
+            }
         })
     }
 }
@@ -69,7 +93,15 @@ impl Motor {
     /// # Errors
     /// See [`RotorCompliance::resolve`].
     pub fn compliances(&self, count: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
-        self.rotor.resolve(&self.wave(), count, cancel)
+        self.compliances_for(f64::INFINITY, count, cancel)
+    }
+
+    /// As [`Self::compliances`], but a ring is solved on meshes that are fine enough for a relative `accuracy` of α.
+    ///
+    /// # Errors
+    /// See [`RotorCompliance::resolve`].
+    pub fn compliances_for(&self, accuracy: f64, count: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
+        self.rotor.resolve_for(accuracy, &self.wave(), count, cancel)
     }
 
     /// Lowest natural frequency of the shape of each of the first harmonics of the wave \[Hz\]; `None` of a rotor whose mass is not known.
@@ -120,12 +152,12 @@ fn bytes(elements: usize) -> u64 {
     (elements * (8e3 + 2.4e3 * elements.log2())) as u64
 }
 
-/// Memory that a ring needs while its compliances under a contact band are computed.
+/// Memory that a ring needs while its compliances under a contact band are computed, on meshes with so many times the usual number of elements.
 ///
 /// # Errors
 /// [`RotorError`] of a ring that has no mesh.
-pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
-    let elements = section.elements(Some(band))?;
+pub fn need(section: &Section, band: Band, times: usize) -> Result<Need, RotorError> {
+    let elements = section.elements(Some(band), times)?;
     Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) })
 }
 
@@ -134,18 +166,18 @@ pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
 /// # Errors
 /// As [`need`].
 pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
-    let elements = section.elements(None)?;
+    let elements = section.elements(None, 1)?;
     Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
 }
 
-static RINGS: Cache<(Section, Wave), Compliances> = Cache::new();
+static RINGS: Cache<(Section, Wave, usize), Compliances> = Cache::new();
 static RESONATING: Cache<(Section, u32), [f64; RESONANCES]> = Cache::new();
 
-fn of_ring(section: &Section, wave: &Wave, cancel: &Cancel) -> Result<Compliances, RotorError> {
-    RINGS.or((section.clone(), *wave), |_| {
-        let _taken = budget::take(need(section, wave.band)?, cancel)?;
+fn of_ring(section: &Section, wave: &Wave, times: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
+    RINGS.or((section.clone(), *wave, times), |_| {
+        let _taken = budget::take(need(section, wave.band, times)?, cancel)?;
         let ring::RingCompliances { harmonics: found, resolved } =
-            section.compliances(wave.band, wave.waves, MOST_HARMONICS, cancel)?;
+            section.compliances(wave.band, wave.waves, MOST_HARMONICS, times, cancel)?;
         let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
         let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
         Ok(Compliances {

@@ -97,11 +97,12 @@ impl Halved {
     }
 }
 
-/// Elements of the coarser mesh, which is halved to make the finer one.
+/// Elements of the coarser mesh, which is halved to make the finer one. A finer pair has a multiple of them.
 const COARSE: usize = 500;
-/// Most elements of that mesh, if the grid lines alone need more than `COARSE`.
+/// Most elements of that mesh, if the grid lines alone need more than are asked for.
 const MOST: usize = 4 * COARSE;
-/// Size of elements at a line, as a fraction of the narrower interval beside it.
+/// Size of elements at a line, as a fraction of the narrower interval beside it. With more elements it is less: in proportion to 1/√elements,
+/// so that those at a corner shrink faster than the others.
 const AT_LINE: f64 = 0.03;
 /// Size of elements at the contact, in shares of its width or of the height of the part that is in contact.
 const AT_CONTACT: f64 = 0.1;
@@ -114,21 +115,21 @@ impl Section {
     /// # Errors
     /// [`RingError`] if the band is not within the lowest face or the mesh would be too large.
     pub fn mesh(&self, band: Band) -> Result<Mesh, RingError> {
-        Mesh::new(self, Some(band), COARSE, 2)
+        Mesh::new(self, Some(band), 1, 2)
     }
 
-    /// How many elements the finer mesh has, with a contact band or without.
+    /// How many elements the finer mesh has, with a contact band or without, of a pair with so many times the usual number.
     ///
     /// # Errors
     /// As [`Self::mesh`].
-    pub fn elements(&self, band: Option<Band>) -> Result<usize, RingError> {
-        let Divided { grid, pattern, scale } = Divided::new(self, band, COARSE)?;
+    pub fn elements(&self, band: Option<Band>, times: usize) -> Result<usize, RingError> {
+        let Divided { grid, pattern, scale } = Divided::new(self, band, times)?;
         Ok(4 * pattern.as_ref().unwrap_or(&grid).elements(scale))
     }
 
-    /// A mesh and that with every element halved both ways.
-    pub(super) fn meshes(&self, band: Option<Band>) -> Result<[Mesh; 2], RingError> {
-        let of = |halves| Mesh::new(self, band, COARSE, halves);
+    /// A mesh with so many times the usual number of elements, and that with every element halved both ways.
+    pub(super) fn meshes(&self, band: Option<Band>, times: usize) -> Result<[Mesh; 2], RingError> {
+        let of = |halves| Mesh::new(self, band, times, halves);
         let (coarse, fine) = rayon::join(|| of(1), || of(2));
         Ok([coarse?, fine?])
     }
@@ -162,15 +163,16 @@ impl Lines {
     /// Points of the trapezoidal rule.
     const POINTS: usize = 128;
 
-    /// Of `edges` in any order, those that are one counted once; `fine` are lines with elements no larger than given.
-    fn new(mut edges: Vec<f64>, fine: &[(f64, f64)]) -> Self {
+    /// Of `edges` in any order, those that are one counted once; elements at a line have the share `at_line` of the interval beside it, and
+    /// `fine` are lines with elements no larger than given.
+    fn new(mut edges: Vec<f64>, at_line: f64, fine: &[(f64, f64)]) -> Self {
         edges.sort_by(f64::total_cmp);
         edges.dedup_by(|a, b| same(*a, *b));
         let gap = |i: usize| edges.get(i + 1).map_or(f64::INFINITY, |next| next - edges[i]);
         let size = |i: usize| {
             let narrower = gap(i).min(if i > 0 { gap(i - 1) } else { f64::INFINITY });
             let asked = fine.iter().filter(|(line, _)| same(*line, edges[i])).map(|(_, size)| *size);
-            asked.fold(AT_LINE * narrower, f64::min)
+            asked.fold(at_line * narrower, f64::min)
         };
         let sizes: Vec<f64> = (0..edges.len()).map(size).collect();
         let density = |x: f64| {
@@ -219,14 +221,9 @@ impl Lines {
 }
 
 impl Mesh {
-    /// About `elements` elements, each divided into `halves` both ways.
-    pub(super) fn new(
-        section: &Section,
-        band: Option<Band>,
-        elements: usize,
-        halves: usize,
-    ) -> Result<Self, RingError> {
-        let Divided { grid, pattern, scale } = Divided::new(section, band, elements)?;
+    /// About so many times the usual number of elements, each divided into `halves` both ways.
+    pub(super) fn new(section: &Section, band: Option<Band>, times: usize, halves: usize) -> Result<Self, RingError> {
+        let Divided { grid, pattern, scale } = Divided::new(section, band, times)?;
         grid.mesh(section, pattern.as_ref().unwrap_or(&grid), scale, halves)
     }
 
@@ -279,7 +276,7 @@ impl Section {
     /// # Errors
     /// [`RingError`] if a band is not within the lowest face.
     pub fn is_meshed_like(&self, band: Band, other: &Self, of: Band) -> Result<bool, RingError> {
-        Ok(Grid::of(self, Some(band))?.is_like(&Grid::of(other, Some(of))?))
+        Ok(Grid::of(self, Some(band), AT_LINE)?.is_like(&Grid::of(other, Some(of), AT_LINE)?))
     }
 
     /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part
@@ -302,10 +299,11 @@ struct Divided {
 }
 
 impl Divided {
-    /// For about `elements` elements.
-    fn new(section: &Section, band: Option<Band>, elements: usize) -> Result<Self, RingError> {
-        let grid = Grid::of(section, band)?;
-        let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)))).transpose()?;
+    /// For about so many times the usual number of elements.
+    fn new(section: &Section, band: Option<Band>, times: usize) -> Result<Self, RingError> {
+        let (elements, at_line) = (COARSE * times, AT_LINE / (times as f64).sqrt());
+        let grid = Grid::of(section, band, at_line)?;
+        let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)), at_line)).transpose()?;
         let pattern = pattern.filter(|pattern| pattern.is_like(&grid));
         let lines = pattern.as_ref().unwrap_or(&grid);
         // The smallest elements of which there are no more than asked for, within a hundredth.
@@ -316,7 +314,7 @@ impl Divided {
         }
         let least = lines.elements(few);
         if least > elements.max(MOST) {
-            return Err(RingError::Elements { elements: least, most: MOST });
+            return Err(RingError::Elements { elements: least, most: elements.max(MOST) });
         }
         Ok(Self { grid, pattern, scale: few })
     }
@@ -332,7 +330,7 @@ struct Grid {
 
 impl Grid {
     /// Of a section with a contact band or without.
-    fn of(section: &Section, band: Option<Band>) -> Result<Self, RingError> {
+    fn of(section: &Section, band: Option<Band>, at_line: f64) -> Result<Self, RingError> {
         let (mut along, mut up) = (Vec::new(), Vec::new());
         for part in section.parts() {
             along.extend([part.inner_radius, part.outer_radius]);
@@ -357,7 +355,7 @@ impl Grid {
             fine_along.extend([(inner, size), (outer, size)]);
             fine_up.push((section.contact_height(), size));
         }
-        let (along, up) = (Lines::new(along, &fine_along), Lines::new(up, &fine_up));
+        let (along, up) = (Lines::new(along, at_line, &fine_along), Lines::new(up, at_line, &fine_up));
         let within = |ends: &[f64], (low, high): (f64, f64)| (low..high).contains(&(0.5 * (ends[0] + ends[1])));
         let mut parts = Vec::new();
         for high in up.at.windows(2) {

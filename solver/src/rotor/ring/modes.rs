@@ -37,7 +37,7 @@ impl Section {
         count: usize,
         cancel: &Cancel,
     ) -> Result<Vec<Vec<Estimate>>, RingError> {
-        let meshes = self.meshes(None)?;
+        let meshes = self.meshes(None, 1)?;
         let [coarse, fine] = &meshes;
         let equations = |mesh: &Mesh| cancelled(cancel).and_then(|()| System::new(self, mesh));
         let (first, second) = rayon::join(|| equations(coarse), || equations(fine));
