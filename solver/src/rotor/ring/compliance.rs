@@ -557,7 +557,7 @@ mod tests {
         let (section, band) = rotor();
         let found = section.compliances(band, 7, 100, 1, &Cancel::new()).unwrap();
         let denser = section.compliances(band, 7, 100, 4, &Cancel::new()).unwrap();
-        let mesh = Mesh::new(&section, Some(band), 20, 2).unwrap();
+        let mesh = Mesh::new(&section, Some(band), 8000, 2).unwrap();
         let system = System::new(&section, &mesh).unwrap();
         let load = contact_load(&section, &mesh, band);
         for n in [1, 2, 3, 5, 8, 16, 32, 64, 100] {

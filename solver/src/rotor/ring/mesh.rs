@@ -115,7 +115,7 @@ impl Section {
     /// # Errors
     /// [`RingError`] if the band is not within the lowest face or the mesh would be too large.
     pub fn mesh(&self, band: Band) -> Result<Mesh, RingError> {
-        Mesh::new(self, Some(band), 1, 2)
+        Mesh::new(self, Some(band), COARSE, 2)
     }
 
     /// How many elements the finer mesh has, with a contact band or without, of a pair with so many times the usual number.
@@ -123,13 +123,13 @@ impl Section {
     /// # Errors
     /// As [`Self::mesh`].
     pub fn elements(&self, band: Option<Band>, times: usize) -> Result<usize, RingError> {
-        let Divided { grid, pattern, scale } = Divided::new(self, band, times)?;
+        let Divided { grid, pattern, scale } = Divided::new(self, band, COARSE * times)?;
         Ok(4 * pattern.as_ref().unwrap_or(&grid).elements(scale))
     }
 
     /// A mesh with so many times the usual number of elements, and that with every element halved both ways.
     pub(super) fn meshes(&self, band: Option<Band>, times: usize) -> Result<[Mesh; 2], RingError> {
-        let of = |halves| Mesh::new(self, band, times, halves);
+        let of = |halves| Mesh::new(self, band, COARSE * times, halves);
         let (coarse, fine) = rayon::join(|| of(1), || of(2));
         Ok([coarse?, fine?])
     }
@@ -221,9 +221,14 @@ impl Lines {
 }
 
 impl Mesh {
-    /// About so many times the usual number of elements, each divided into `halves` both ways.
-    pub(super) fn new(section: &Section, band: Option<Band>, times: usize, halves: usize) -> Result<Self, RingError> {
-        let Divided { grid, pattern, scale } = Divided::new(section, band, times)?;
+    /// About `elements` elements, each divided into `halves` both ways.
+    pub(super) fn new(
+        section: &Section,
+        band: Option<Band>,
+        elements: usize,
+        halves: usize,
+    ) -> Result<Self, RingError> {
+        let Divided { grid, pattern, scale } = Divided::new(section, band, elements)?;
         grid.mesh(section, pattern.as_ref().unwrap_or(&grid), scale, halves)
     }
 
@@ -299,9 +304,9 @@ struct Divided {
 }
 
 impl Divided {
-    /// For about so many times the usual number of elements.
-    fn new(section: &Section, band: Option<Band>, times: usize) -> Result<Self, RingError> {
-        let (elements, at_line) = (COARSE * times, AT_LINE / (times as f64).sqrt());
+    /// For about `elements` elements.
+    fn new(section: &Section, band: Option<Band>, elements: usize) -> Result<Self, RingError> {
+        let at_line = AT_LINE * (COARSE as f64 / elements as f64).sqrt().min(1.0);
         let grid = Grid::of(section, band, at_line)?;
         let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)), at_line)).transpose()?;
         let pattern = pattern.filter(|pattern| pattern.is_like(&grid));
