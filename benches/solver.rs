@@ -95,7 +95,7 @@ fn ring_compliances(bencher: Bencher<'_, '_>) {
     ];
     let section = Section::new(parts, Vec::new()).unwrap_or_else(|fault| panic!("{fault}"));
     let band = Band { radius: 29e-3, width: 0.3e-3 };
-    bencher.bench_local(|| black_box(&section).compliances(band, 7, 96, &Cancel::new()));
+    bencher.bench_local(|| black_box(&section).compliances(band, 7, 96, 1, &Cancel::new()));
 }
 
 /// The fundamental case, all three grids and the error estimate.
