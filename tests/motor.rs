@@ -428,7 +428,7 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     assert!(ring.alpha.error > rotor.effect * ring.alpha.value, "{ring:?} {rotor:?}");
 
     // For a higher accuracy its meshes are finer.
-    let fine = Settings { fidelity: Fidelity::Fine, ..settings.clone() };
+    let fine = Settings { fidelity: Fidelity::Fine, ..settings };
     let Outcome::Motor(fine) = solve_problem(&problem, &fine, &mut (), &Cancel::new()).unwrap().outcome else {
         panic!("a motor")
     };
