@@ -10,6 +10,7 @@ use crate::export::files::Folder;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input::{self, ReadError};
+use crate::job::export::BESIDE_DATA;
 use crate::memory;
 use crate::platform::{on_interrupt, timed};
 use crate::scene::{Parameter, Scene, Value, presets};
@@ -315,7 +316,7 @@ pub(super) struct OutputOptions {
     pub(super) out: Option<PathBuf>,
 
     /// Formats of the figures in --out: svg, png, pdf; none for no figures; for solve also vtk, the film at each instant for ParaView
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_names())]
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = BESIDE_DATA.iter().map(|format| format.name()), value_parser = figure_names())]
     figures: Vec<String>,
 }
 
@@ -376,7 +377,7 @@ impl CommonOptions {
 }
 
 fn figure_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]))
+    PossibleValuesParser::new(Format::WRITTEN.iter().map(|format| format.name()).chain(["none", "vtk"]))
 }
 
 /// Reads a number within limits; `kind`: what it is, in words.
