@@ -18,8 +18,8 @@ use super::lines::LineSolver;
 use super::system::{Across, Coupling};
 use super::vectorised;
 
-/// Calls a function with the number of columns as a constant where it is at most 24, as far as a plan goes, so that its loops are unrolled and
-/// vectorised, and with the constant 0 (take it at run time) where it is not.
+/// Calls a function with the number of columns as a constant where it is at most 24, the most that a plan takes across half the width, so that
+/// its loops are unrolled and vectorised, and with the constant 0 (take it at run time) where it is not.
 macro_rules! with_columns {
     ($columns:expr, $constant:ident => $call:expr) => {
         with_columns!(@ $columns, $constant => $call; 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24)

@@ -52,7 +52,7 @@ impl Plan {
         let finest = spec.harmonic_fraction / (1 << (2 * MORE_GRIDS)) as f64;
         let harmonics = in_layer.max(most_harmonics(finest));
         let film = motor.least_thickness() / (motor.gas.ambient_pressure * motor.contact_width);
-        // Within a time, what the meshes of a ring take cannot be chosen.
+        // Finer meshes of a ring may take longer than a budget of time allows.
         let accuracy = if cancel.has_budget() { f64::INFINITY } else { spec.target_error };
         let rotor = motor.compliances_for(accuracy, harmonics.min(MOST_HARMONICS), cancel)?.at_least(RIGID * film);
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;

@@ -28,8 +28,8 @@ pub const MOST_HARMONICS: usize = 2500;
 /// Harmonics for which the natural frequencies of a ring are computed.
 pub const RESONANCES: usize = 3;
 /// Below which relative accuracy of α the meshes of a ring have how many times the usual number of elements, so that those of the preset
-/// `ring-rotor` are fine enough. Where memory does not suffice for them, coarser ones are taken.
-const DENSITIES: [(f64, usize); 3] = [(8e-4, 20), (4e-3, 4), (f64::INFINITY, 1)];
+/// `ring-rotor` are fine enough.
+const FINER: [(f64, usize); 2] = [(8e-4, 20), (4e-3, 4)];
 /// Number of rings whose results are kept for the next solve of the same ring.
 const KEPT: usize = 64;
 
@@ -67,15 +67,10 @@ impl RotorCompliance {
             Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
             Self::Green(rows) => green::resolve(rows, wave, count)?,
             Self::Ring(section) => {
-                let mut fitting = DENSITIES.iter().filter(|(least, times)| *times == 1 || accuracy < *least).peekable();
-                loop {
-                    let times = fitting.next().map_or(1, |(_, times)| *times);
-                    match of_ring(section, wave, times, cancel) {
-                        // Coarser meshes state a larger error, but have an answer.
-                        Err(RotorError::Memory(_)) if fitting.peek().is_some() => {}
-                        found => break found?,
-                    }
-                }
+                let on = |times| of_ring(section, wave, times, cancel);
+                let mut finer = FINER.iter().filter(|(below, _)| accuracy < *below).map(|(_, times)| on(*times));
+                // Where memory is short, coarser meshes have an answer too, and state a larger error.
+                finer.find(|found| !matches!(found, Err(RotorError::Memory(_)))).unwrap_or_else(|| on(1))?
             }
         })
     }
