@@ -35,7 +35,7 @@ pub use page::Solver;
 pub use thread::Solver;
 
 use crate::analysis::attempt::caught;
-use crate::analysis::validity::{Excess, outside};
+use crate::analysis::validity::{ExceededLimit, outside};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
@@ -63,7 +63,7 @@ pub struct SolvedScene {
     /// The result.
     pub solution: Solution,
     /// The limits of the model that the scene exceeds.
-    pub validity: Vec<Excess>,
+    pub validity: Vec<ExceededLimit>,
     /// Wall time of this fidelity's solve \[s\].
     pub wall_s: f64,
     /// The convergence history: the residual of each round, all grids, in order.

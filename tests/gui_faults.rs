@@ -12,7 +12,7 @@ use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::tradeoff::TradeoffState;
 use squeezefilm::gui::update::platform::{DialogStart, Platform};
-use squeezefilm::gui::update::storage::Place;
+use squeezefilm::gui::update::storage::StoragePlace;
 use squeezefilm::job::task::BackgroundTask;
 use squeezefilm::scene::{Scene, Value, presets};
 use std::collections::BTreeMap;
@@ -325,7 +325,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("app.json");
     let open = || {
-        let storage = Place::File(file.clone());
+        let storage = StoragePlace::File(file.clone());
         let platform = Platform { storage, ask: |_, _| Answer::Cancelled, ..Platform::default() };
         let mut window = reopen(Memory::default(), 900.0, platform);
         window.run_steps(2);
@@ -375,7 +375,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
 #[test]
 fn what_a_window_cannot_keep_is_told_once() {
     let folder = tempfile::tempdir().unwrap();
-    let storage = Place::File(folder.path().join("absent/app.json"));
+    let storage = StoragePlace::File(folder.path().join("absent/app.json"));
     let mut window = reopen(Memory::default(), 900.0, Platform { storage, ..Platform::default() });
     window.run_steps(2);
     let told = |window: &Window| window.query_by_label_contains("is not kept for the next start").is_some();

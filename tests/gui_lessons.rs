@@ -23,7 +23,7 @@ use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::job::SolvedScene;
 use squeezefilm::lessons::live::Live;
 use squeezefilm::lessons::work::{Score, Stage, StepWork};
-use squeezefilm::lessons::{self, Act, Doing, Kind, Lesson, LessonError, Prediction, Question, Step, text};
+use squeezefilm::lessons::{self, Act, Doing, Lesson, LessonError, Prediction, Question, QuestionKind, Step, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -212,7 +212,7 @@ fn show_me(window: &mut Window) {
 fn predict(window: &mut Window, step: &Step) {
     let Some(question) = &step.question else { return };
     let why = first_line(window, &question.why, true);
-    let button = if question.kind == Kind::Calculate { "This is my result" } else { "This is my prediction" };
+    let button = if question.kind == QuestionKind::Calculate { "This is my result" } else { "This is my prediction" };
     assert!(!window.shows(&why) && !window.shows("Your turn"), "{}: shown before the prediction", step.title);
     let disabled = window.get_by_label(button).accesskit_node().is_disabled();
     assert!(disabled, "{}: nothing is predicted yet", step.title);
@@ -328,7 +328,7 @@ fn walk(lesson: usize) {
             }
             if let Some(question) = &step.question {
                 let why = first_line(&window, &question.why, true);
-                let title = if question.kind == Kind::Calculate { "✔ Right" } else { "As you expected" };
+                let title = if question.kind == QuestionKind::Calculate { "✔ Right" } else { "As you expected" };
                 assert!(window.shows(&why) && window.shows(title), "{name}");
             }
         }
@@ -626,7 +626,7 @@ fn slow_clock() -> Instant {
 fn a_number_that_is_still_being_typed_is_given_with_one_click() {
     let mut window = window::preset("fundamental", 1700.0, platform());
     let calculation =
-        |window: &Window| step(window).1.question.is_some_and(|question| question.kind == Kind::Calculate);
+        |window: &Window| step(window).1.question.is_some_and(|question| question.kind == QuestionKind::Calculate);
     let found = (1..=6).any(|step| {
         window.state_mut().updater.follow(Link::Lesson { lesson: 1, step });
         solved(&mut window);

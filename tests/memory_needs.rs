@@ -6,7 +6,7 @@
 mod scenes;
 
 use scenes::problem;
-use squeezefilm::budget::Purpose;
+use squeezefilm::budget::MemoryUse;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::files::{self, Control, Folder, Solved};
 use squeezefilm::export::json::Summary;
@@ -182,7 +182,7 @@ fn what_needs_too_much_is_refused_before_it_is_allocated() {
     assert!(allocated.bytes_max < 1_000_000, "{allocated:?}");
     let Some(SolveError::Memory(excess)) = told else { panic!("{told:?}") };
     assert_eq!(check(&problem, &settings), Err(SolveError::Memory(excess)));
-    let Purpose::Film { along, across, teeth, .. } = excess.need.what else { panic!("{excess:?}") };
+    let MemoryUse::Film { along, across, teeth, .. } = excess.need.what else { panic!("{excess:?}") };
     // Of finite volumes across, rounded up so that half and a quarter of the intervals are whole.
     assert_eq!((along, across, teeth), (2001, 505, 64));
     assert!(excess.need.bytes > excess.allowed && excess.allowed == memory::allowed(), "{excess:?}");

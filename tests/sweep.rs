@@ -7,7 +7,7 @@ use program::{done, err, json, out, refused, run, squeezefilm};
 use serde_json::Value;
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::sweep::{Part, Sweep, SweepRow, Vary};
+use squeezefilm::analysis::sweep::{Sweep, SweepPart, SweepRow, Vary};
 use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::atomic::Lock;
 use squeezefilm::control::Cancel;
@@ -47,7 +47,7 @@ fn csv_of(sweep: &Sweep, rows: &[SweepRow]) -> String {
 }
 
 /// What is kept of a part, or of the whole that is not complete.
-fn saved_text(sweep: &Sweep, part: Part, rows: &[SweepRow]) -> String {
+fn saved_text(sweep: &Sweep, part: SweepPart, rows: &[SweepRow]) -> String {
     let mut text = Vec::new();
     saved::write(sweep, part, rows, &[], &mut text).unwrap();
     String::from_utf8(text).unwrap()
@@ -120,7 +120,7 @@ fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
         });
         assert!((after..sweep.len()).contains(&some.len()), "{}", some.len());
         // By way of the file.
-        let kept = saved::read(&sweep, Part::WHOLE, &saved_text(&sweep, Part::WHOLE, &some)).unwrap();
+        let kept = saved::read(&sweep, SweepPart::WHOLE, &saved_text(&sweep, SweepPart::WHOLE, &some)).unwrap();
         assert_eq!(kept, some);
         let told = AtomicUsize::new(0);
         let rest = sweep.run(&kept, &Cancel::new(), &|_| {
@@ -228,7 +228,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
     fs::create_dir(&again).unwrap();
     let left = again.join("sweep.incomplete.csv");
     let ours = sweep("fundamental", &["stator.frequency_khz=10:50:5"]);
-    let saved = saved_text(&ours, Part::WHOLE, &with_threads(2, &ours)[..2]);
+    let saved = saved_text(&ours, SweepPart::WHOLE, &with_threads(2, &ours)[..2]);
     fs::write(&left, &saved).unwrap();
     assert!(err(&done(&into(&COMMAND, &again))).contains("2 of 5 points were solved before"));
     assert_eq!(fs::read_to_string(again.join("sweep.csv")).unwrap(), text);
@@ -254,9 +254,9 @@ fn rows_of_another_budget_are_not_gone_on_with() {
     let mut hasty = ours.clone();
     hasty.budget = Some(Duration::from_millis(1));
     let rows = with_threads(2, &ours);
-    let text = saved_text(&hasty, Part::WHOLE, &rows);
-    assert!(saved::read(&ours, Part::WHOLE, &text).unwrap_err().contains("budget"));
-    assert_eq!(saved::read(&hasty, Part::WHOLE, &text).unwrap(), rows);
+    let text = saved_text(&hasty, SweepPart::WHOLE, &rows);
+    assert!(saved::read(&ours, SweepPart::WHOLE, &text).unwrap_err().contains("budget"));
+    assert_eq!(saved::read(&hasty, SweepPart::WHOLE, &text).unwrap(), rows);
     assert_eq!(saved::join(&[("whole".to_owned(), text)]).unwrap().sweep.budget, hasty.budget);
 }
 
@@ -265,9 +265,9 @@ fn parts_solved_one_by_one_and_joined_are_the_whole_byte_by_byte() {
     let map = sweep("fundamental", &["film.min_spacing_nm=80:400:3:log", "stator.frequency_khz=10:50:6"]);
     let whole = with_threads(2, &map);
     for of in [1, 2, 5, 9] {
-        let rows_of = |part: Part| map.run_part(part, &[], &Cancel::new(), &|_| ());
-        let part = |part: Part| (part.to_string(), saved_text(&map, part, &rows_of(part)));
-        let joined = saved::join(&Part::all(of).map(part).collect::<Vec<_>>()).unwrap();
+        let rows_of = |part: SweepPart| map.run_part(part, &[], &Cancel::new(), &|_| ());
+        let part = |part: SweepPart| (part.to_string(), saved_text(&map, part, &rows_of(part)));
+        let joined = saved::join(&SweepPart::all(of).map(part).collect::<Vec<_>>()).unwrap();
         assert_eq!(joined.rows, whole, "{of} parts");
         assert_eq!(csv_of(&joined.sweep, &joined.rows), csv_of(&map, &whole), "{of} parts");
     }
@@ -298,7 +298,7 @@ fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() 
     let file = |part: &str| folder.join(format!("sweep.part-{part}.csv"));
     let command = ["sweep", "fundamental", "--fidelity=draft", "--vary=stator.frequency_khz=10:50:13"];
     let ours = sweep("fundamental", &["stator.frequency_khz=10:50:13"]);
-    let second: Part = "2/3".parse().unwrap();
+    let second: SweepPart = "2/3".parse().unwrap();
     let rows = ours.run_part(second, &[], &Cancel::new(), &|_| ());
     fs::create_dir(&folder).unwrap();
     fs::write(file("2-of-3"), saved_text(&ours, second, &rows[..1])).unwrap();

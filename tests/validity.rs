@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::validity::{Excess, NAMES, mach, names, of_outcome, outside};
+use squeezefilm::analysis::validity::{ExceededLimit, NAMES, mach, names, of_outcome, outside};
 use squeezefilm::control::Cancel;
 use squeezefilm::estimate::Estimate;
 use squeezefilm::fidelity::Fidelity;
@@ -14,21 +14,21 @@ use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solution::{MotorResult, Outcome, Solution};
 use squeezefilm::solve::{Settings, solve};
 
-fn of(scene: &Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
+fn of(scene: &Scene, changes: &[(&str, &str)]) -> Vec<ExceededLimit> {
     of_outcome(&Problem::try_from(&scene.with(changes).unwrap()).unwrap(), None, &[])
 }
 
 /// 1 mm long, 1 µm ± 0.5 µm, 30 kHz, unless changed.
-fn plate(changes: &[(&str, &str)]) -> Vec<Excess> {
+fn plate(changes: &[(&str, &str)]) -> Vec<ExceededLimit> {
     of(&Scene::plate(), changes)
 }
 
-fn motor(changes: &[(&str, &str)]) -> Vec<Excess> {
+fn motor(changes: &[(&str, &str)]) -> Vec<ExceededLimit> {
     of(&Scene::motor(), changes)
 }
 
 #[track_caller]
-fn check(found: &[Excess], name: &str, value: f64, limit: f64) {
+fn check(found: &[ExceededLimit], name: &str, value: f64, limit: f64) {
     let excess = found.iter().find(|excess| excess.name == name).unwrap_or_else(|| panic!("{name}: {found:?}"));
     assert!((excess.value / value - 1.0).abs() < 2e-3, "{excess:?}");
     assert!((excess.limit / limit - 1.0).abs() < 2e-3, "{excess:?}");
@@ -103,7 +103,7 @@ fn gas_inertia() {
     assert!(found[0].text.contains("1.66 times the mean load"), "{found:?}");
 }
 
-fn names_of(found: Vec<Excess>) -> Vec<&'static str> {
+fn names_of(found: Vec<ExceededLimit>) -> Vec<&'static str> {
     found.into_iter().map(|excess| excess.name).collect()
 }
 

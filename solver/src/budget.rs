@@ -22,14 +22,14 @@ const LOOK: Duration = Duration::from_millis(50);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need {
     /// What the memory is for.
-    pub what: Purpose,
+    pub what: MemoryUse,
     /// Bytes.
     pub bytes: u64,
 }
 
-/// Purpose of the memory, with the sizes that it follows from.
+/// What the memory is for, with the sizes that it follows from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
+pub enum MemoryUse {
     /// The film.
     Film {
         /// Film nodes of the finest grid along a tooth or plate …
@@ -50,18 +50,18 @@ pub enum Purpose {
 
 /// More memory than is allowed. The message names the keys that determine the need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Excess {
+pub struct MemoryExcess {
     /// The memory that is needed.
     pub need: Need,
     /// Memory allowed for all solves together \[bytes\].
     pub allowed: u64,
 }
 
-impl fmt::Display for Excess {
+impl fmt::Display for MemoryExcess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (bytes, allowed) = (size(self.need.bytes), size(self.allowed));
         match self.need.what {
-            Purpose::Film { along, across, steps, teeth } => {
+            MemoryUse::Film { along, across, steps, teeth } => {
                 let teeth = if teeth > 1 { format!(" on {teeth} teeth") } else { String::new() };
                 write!(
                     f,
@@ -70,7 +70,7 @@ impl fmt::Display for Excess {
                      more with --memory"
                 )
             }
-            Purpose::Ring { elements } => write!(
+            MemoryUse::Ring { elements } => write!(
                 f,
                 "rotor.model = \"ring\": {elements} elements of its section need {bytes} of memory: allowed {allowed}; allow more with \
                  --memory, or take another rotor.model"
@@ -79,7 +79,7 @@ impl fmt::Display for Excess {
     }
 }
 
-impl std::error::Error for Excess {}
+impl std::error::Error for MemoryExcess {}
 
 /// `1.2 GB`, `350 MB`: bytes for people.
 pub fn size(bytes: u64) -> String {
@@ -136,7 +136,7 @@ impl Pool {
         *self.lock().0.get_or_insert_with(|| of_this_machine().map_or(UNKNOWN, |all| all / SHARE))
     }
 
-    fn take(&self, need: Need, cancel: &Cancel) -> Result<Taken<'_>, Excess> {
+    fn take(&self, need: Need, cancel: &Cancel) -> Result<Taken<'_>, MemoryExcess> {
         self.check(need)?;
         let bytes = need.bytes;
         let mut state = self.lock();
@@ -151,9 +151,9 @@ impl Pool {
         Ok(Taken { pool: self, bytes })
     }
 
-    fn check(&self, need: Need) -> Result<(), Excess> {
+    fn check(&self, need: Need) -> Result<(), MemoryExcess> {
         let allowed = self.allowed();
-        if need.bytes > allowed { Err(Excess { need, allowed }) } else { Ok(()) }
+        if need.bytes > allowed { Err(MemoryExcess { need, allowed }) } else { Ok(()) }
     }
 }
 
@@ -170,16 +170,16 @@ pub fn allowed() -> u64 {
 /// Whether `need` is within what is allowed.
 ///
 /// # Errors
-/// [`Excess`] if it is not.
-pub fn check(need: Need) -> Result<(), Excess> {
+/// [`MemoryExcess`] if it is not.
+pub fn check(need: Need) -> Result<(), MemoryExcess> {
     POOL.check(need)
 }
 
 /// Takes the memory that a solve needs, as soon as other solves have left enough.
 ///
 /// # Errors
-/// [`Excess`] if it is more than the whole budget.
-pub fn take(need: Need, cancel: &Cancel) -> Result<Taken<'static>, Excess> {
+/// [`MemoryExcess`] if it is more than the whole budget.
+pub fn take(need: Need, cancel: &Cancel) -> Result<Taken<'static>, MemoryExcess> {
     POOL.take(need, cancel)
 }
 
@@ -198,13 +198,13 @@ mod tests {
     use std::sync::mpsc::channel;
 
     fn of(bytes: u64) -> Need {
-        Need { what: Purpose::Ring { elements: 3 }, bytes }
+        Need { what: MemoryUse::Ring { elements: 3 }, bytes }
     }
 
     #[test]
     fn what_is_left_is_shared_and_what_is_too_much_is_refused() {
         let pool = Pool::new(Some(100));
-        assert_eq!(pool.take(of(101), &Cancel::new()).unwrap_err(), Excess { need: of(101), allowed: 100 });
+        assert_eq!(pool.take(of(101), &Cancel::new()).unwrap_err(), MemoryExcess { need: of(101), allowed: 100 });
         let first = pool.take(of(60), &Cancel::new()).unwrap();
         let second = pool.take(of(40), &Cancel::new()).unwrap();
         assert_eq!(pool.lock().1, 100);

@@ -81,7 +81,7 @@ struct Frames {
 struct Line {
     /// φ at t = 0.
     offset: f64,
-    steps: Vec<Step>,
+    steps: Vec<FrameInterval>,
     /// ∫ c Δx dt/T over the cycle \[N\].
     sum: f64,
     /// The same for c cos 2πφ \[N\].
@@ -90,14 +90,14 @@ struct Line {
 
 /// From one frame to the next, c Δx being linear in between.
 #[derive(Clone, Copy, Debug)]
-struct Step {
+struct FrameInterval {
     /// c Δx at the frame, times how many teeth it stands for \[N\].
     load: f64,
     /// Increase of `load` to the next frame \[N\].
     rise: f64,
     /// ∫ c Δx dt/T from the first frame to this one \[N\].
     sum: f64,
-    /// The same for c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
+    /// The same for c cos 2πφ, less [`FrameInterval::primitive`] at the frame \[N\].
     forward: f64,
 }
 
@@ -274,7 +274,7 @@ impl Line {
         let (mut sum, mut forward) = (0.0, 0.0);
         let mut steps = Vec::with_capacity(frames);
         for (frame, (from, to)) in load.iter().zip(load.iter().cycle().skip(1)).enumerate() {
-            let mut next = Step { load: *from, rise: to - from, sum, forward };
+            let mut next = FrameInterval { load: *from, rise: to - from, sum, forward };
             if *from != 0.0 || *to != 0.0 {
                 next.forward -= next.primitive(frames, 0.0, phase(turns[frame]));
                 forward = next.forward + next.primitive(frames, 1.0, phase(turns[frame + 1]));
@@ -304,7 +304,7 @@ impl Line {
     }
 }
 
-impl Step {
+impl FrameInterval {
     /// A primitive of c cos 2πφ over t/T, at the fraction `share` of the step after the frame, where 2πφ has this sine and cosine.
     fn primitive(&self, frames: usize, share: f64, (sin, cos): (f64, f64)) -> f64 {
         let turn = 1.0 / TAU;

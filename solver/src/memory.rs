@@ -3,8 +3,8 @@
 //! An estimate adds up the arrays that grow with the grid, at the moment when their total is largest. `tests/memory_needs.rs` compares it
 //! with the memory that is actually allocated.
 
-use crate::budget::Purpose;
-pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
+use crate::budget::MemoryUse;
+pub use crate::budget::{MemoryExcess, Need, Taken, allow, allowed, check, size, take};
 use crate::ladder::EXACTING;
 use crate::numerics::system::MANY_COLUMNS;
 use crate::plan::{Grid, Plan};
@@ -128,7 +128,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
 }
 
 fn need(numbers: u64, (along, across, steps, teeth): (usize, usize, usize, usize)) -> Need {
-    Need { what: Purpose::Film { along, across, steps, teeth }, bytes: numbers * size_of::<f64>() as u64 }
+    Need { what: MemoryUse::Film { along, across, steps, teeth }, bytes: numbers * size_of::<f64>() as u64 }
 }
 
 fn of_motor(motor: &Motor, plan: &Plan, numbers: u64) -> Need {

@@ -10,7 +10,7 @@ use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
 use crate::ladder::Periodic;
-use crate::memory::{self, Excess};
+use crate::memory::{self, MemoryExcess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::{Decision, Plan};
@@ -85,7 +85,7 @@ pub enum SolveError {
     PaperSurface,
     /// It needs more memory than is allowed.
     #[error(transparent)]
-    Memory(#[from] Excess),
+    Memory(#[from] MemoryExcess),
 }
 
 impl SolveError {

@@ -23,7 +23,7 @@ const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of
 
 /// One model of the rotor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Curve {
+pub struct ModelCompliance {
     /// Name of the model.
     pub name: Cow<'static, str>,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
@@ -48,7 +48,7 @@ pub struct Bent {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RotorCurves {
     /// The present model, followed by the other models with the same wave: the beam fitted to Table I and the ring of the preset.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<ModelCompliance>,
     /// Estimated error of the present model's deflection under a point load, relative.
     pub relative_error: f64,
     /// Lowest natural frequencies of the first harmonics \[Hz\], of a ring.
@@ -100,7 +100,7 @@ fn reference(model: &str) -> Option<RotorCompliance> {
     Some(Problem::try_from(&scene).ok()?.scenario.motor()?.rotor.clone())
 }
 
-fn curve(name: &'static str, rotor: &Compliances) -> Curve {
+fn curve(name: &'static str, rotor: &Compliances) -> ModelCompliance {
     let compliance: Vec<f64> = (1..=HARMONICS).map(|n| rotor.harmonic(n)).collect();
     let length = rotor.wavelength();
     let green = |i: usize| {
@@ -110,7 +110,7 @@ fn curve(name: &'static str, rotor: &Compliances) -> Curve {
         let terms = (1..).zip(&compliance).map(|(n, c)| share(n) * c * (TAU * f64::from(n) * turn).cos());
         [turn * length, 2.0 / length * terms.sum::<f64>()]
     };
-    Curve { name: name.into(), green: (0..=HARMONICS).map(green).collect(), compliance }
+    ModelCompliance { name: name.into(), green: (0..=HARMONICS).map(green).collect(), compliance }
 }
 
 impl Bent {

@@ -19,7 +19,7 @@ pub use uncertainty::{Propagated, Uncertainties, Uncertainty};
 use super::attempt::told;
 use super::error::AnalysisError;
 use super::quantity::Quantity;
-use super::variation::{Column, Jacobian, Slope, Variation};
+use super::variation::{Jacobian, KeyDerivatives, Slope, Variation};
 use crate::control::Cancel;
 use crate::estimate::Estimate;
 use crate::problem::Problem;
@@ -49,7 +49,7 @@ pub struct Sensitivity {
     /// Their values, with their numerical errors; not finite where the scene has none.
     pub values: Vec<Estimate>,
     /// Derivatives of all of them with respect to each key.
-    pub columns: Vec<Column>,
+    pub columns: Vec<KeyDerivatives>,
     /// The values extrapolated without the finest grid.
     coarse: Vec<Estimate>,
 }
@@ -99,7 +99,7 @@ impl Sensitivity {
     }
 
     /// By what share of itself an output changes with a key: for a change of the key by as large a share of its own scale
-    /// ([`Column::scale`]), or by one unit of a key that has none. Its error by the grids is how it changes itself without the finest one, which is
+    /// ([`KeyDerivatives::scale`]), or by one unit of a key that has none. Its error by the grids is how it changes itself without the finest one, which is
     /// less than that of the derivative where that is off as the output is. `None` if it is not known, or the output is nothing but its
     /// error.
     pub fn elasticity(&self, output: usize, column: usize) -> Option<Estimate> {

@@ -5,14 +5,14 @@
 //! converge is marked in its row, and the others go on.
 //!
 //! A cancelled sweep keeps its rows. When they are passed to [`Sweep::run`] again, it solves the missing points, and the result is the same
-//! as without the interruption. [`Sweep::fingerprint`] shows whether rows on disk belong to the same sweep. A [`Part`] of a sweep can be
+//! as without the interruption. [`Sweep::fingerprint`] shows whether rows on disk belong to the same sweep. A [`SweepPart`] of a sweep can be
 //! solved elsewhere; the rows of all parts are those of the whole.
 
 mod axis;
 mod part;
 
 pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, Values, Vary, spaced};
-pub use part::Part;
+pub use part::SweepPart;
 use part::{CHUNK, chunk, count};
 
 use super::attempt::{RunStatus, told};
@@ -95,11 +95,11 @@ impl Sweep {
     /// # Errors
     /// [`AnalysisError`], with the key, the value and what is allowed; if no point can be solved, the error of the first.
     pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, AnalysisError> {
-        Self::of_part(scene, vary, settings, Part::WHOLE)
+        Self::of_part(scene, vary, settings, SweepPart::WHOLE)
     }
 
     /// A sweep of which only one part is to be solved: the limit on the number of points applies to that part.
-    pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, AnalysisError> {
+    pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: SweepPart) -> Result<Self, AnalysisError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
             let found = vary.len();
             return Err(AnalysisError::Input(format!("vary: {found} keys given: allowed 1 to {MOST_KEYS}")));
@@ -242,19 +242,19 @@ impl Sweep {
     /// Solves every point that is not in `done`, several at a time on rayon's pool. Returns all rows, including those in `done`, in the
     /// order of the points; there are fewer than [`Sweep::len`] if it was cancelled. `finished` is called for each new row, on any thread.
     pub fn run(&self, done: &[SweepRow], cancel: &Cancel, finished: &(dyn Fn(&SweepRow) + Sync)) -> Vec<SweepRow> {
-        self.run_part(Part::WHOLE, done, cancel, finished)
+        self.run_part(SweepPart::WHOLE, done, cancel, finished)
     }
 
     /// The points of a part. A part consists of whole chunks, each of which is solved from one cold start, so the parts together give the
     /// same rows as the whole, to the last bit. A part of a small sweep can be empty.
-    pub fn points_of(&self, part: Part) -> Range<usize> {
+    pub fn points_of(&self, part: SweepPart) -> Range<usize> {
         part.points(&self.axes)
     }
 
     /// As [`Sweep::run`], but only for the points of a part.
     pub fn run_part(
         &self,
-        part: Part,
+        part: SweepPart,
         done: &[SweepRow],
         cancel: &Cancel,
         finished: &(dyn Fn(&SweepRow) + Sync),
@@ -473,7 +473,7 @@ mod tests {
     fn chunks_cover_every_point_once_and_stay_on_a_line() {
         let sweep = sweep("fundamental", &["motor.waves=1:3:3", "film.min_spacing_nm=100:150:6"]).unwrap();
         let chunks: Vec<Range<usize>> =
-            Part::WHOLE.chunks(sweep.axes()).map(|number| chunk(sweep.axes(), number)).collect();
+            SweepPart::WHOLE.chunks(sweep.axes()).map(|number| chunk(sweep.axes(), number)).collect();
         assert_eq!(chunks.iter().cloned().flatten().collect::<Vec<_>>(), (0..18).collect::<Vec<_>>());
         assert!(chunks.iter().all(|chunk| chunk.start / 6 == (chunk.end - 1) / 6));
         assert_eq!((sweep.values(0), sweep.values(7)), (vec![1.0, 100.0], vec![2.0, 110.0]));

@@ -10,7 +10,7 @@
 mod limits;
 
 pub(super) use limits::known_names;
-pub use limits::{Excess, NAMES, mach};
+pub use limits::{ExceededLimit, NAMES, mach};
 
 use crate::plan::{Choice, Decision};
 use crate::problem::{Motor, Plate, Problem, Scenario};
@@ -20,13 +20,13 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// The limits that a scene exceeds, from its solution; empty if it exceeds none.
-pub fn outside(problem: &Problem, solution: &Solution) -> Vec<Excess> {
+pub fn outside(problem: &Problem, solution: &Solution) -> Vec<ExceededLimit> {
     of_outcome(problem, Some(&solution.outcome), &solution.model.decisions)
 }
 
 /// The limits that a scene exceeds, from an outcome and the decisions made for it. Without an outcome, they follow from the scene alone;
 /// the closed film of a motor then has the minimum spacing, and there is no contact.
-pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
+pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<ExceededLimit> {
     let problem = &*outcome.map_or(Cow::Borrowed(problem), |outcome| settled(problem, outcome));
     match &problem.scenario {
         Scenario::Motor(motor) => of_motor(motor, outcome, decisions),
@@ -35,7 +35,7 @@ pub fn of_outcome(problem: &Problem, outcome: Option<&Outcome>, decisions: &[Dec
 }
 
 /// Their names, without repetitions.
-pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
+pub fn names(exceeded: &[ExceededLimit]) -> Vec<&'static str> {
     let mut names: Vec<&'static str> = exceeded.iter().map(|excess| excess.name).collect();
     // Entries with the same name are adjacent.
     names.dedup();
@@ -43,12 +43,12 @@ pub fn names(exceeded: &[Excess]) -> Vec<&'static str> {
 }
 
 /// Note beside a headline: `outside the limits of the model: sound, thinness`; `None` if no limit is exceeded.
-pub fn beside_headline(exceeded: &[Excess]) -> Option<String> {
+pub fn beside_headline(exceeded: &[ExceededLimit]) -> Option<String> {
     let names: Vec<String> = names(exceeded).iter().map(|name| name.replace('-', " ")).collect();
     (!names.is_empty()).then(|| format!("outside the limits of the model: {}", names.join(", ")))
 }
 
-fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<Excess> {
+fn of_motor(motor: &Motor, outcome: Option<&Outcome>, decisions: &[Decision]) -> Vec<ExceededLimit> {
     let result = outcome.and_then(Outcome::motor);
     let closed =
         result.map(|result| result.min_film_thickness.value).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
@@ -90,7 +90,7 @@ fn highest_pressure(outcome: Option<&Outcome>) -> f64 {
     })
 }
 
-fn of_plate(plate: &Plate, outcome: Option<&Outcome>) -> Vec<Excess> {
+fn of_plate(plate: &Plate, outcome: Option<&Outcome>) -> Vec<ExceededLimit> {
     let film = Film {
         gas: &plate.gas,
         omega: TAU * plate.frequency,

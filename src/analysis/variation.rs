@@ -93,7 +93,7 @@ impl Slope {
 
 /// The derivatives of all numbers with respect to one key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Column {
+pub struct KeyDerivatives {
     /// The key.
     pub parameter: &'static Parameter,
     /// Its value in the middle, in its unit.
@@ -112,7 +112,7 @@ pub struct Jacobian {
     /// The numbers in the middle, with their stated errors.
     pub numbers: Nested<Vec<Estimate>>,
     /// The derivatives with respect to each key, in the order of the variation.
-    pub columns: Vec<Column>,
+    pub columns: Vec<KeyDerivatives>,
 }
 
 /// Reads numbers, with their stated errors, from a problem and its solution, which has no pressure maps.
@@ -219,7 +219,13 @@ impl Variation {
                 let relative = centre.left_out() / step * if smooth { STEP } else { one_sided };
                 Ok(slopes(*sides, *step, relative, &middle, &solved))
             });
-            Column { parameter: self.parameters[column], at: values[column], step: *step, sides: *sides, slopes }
+            KeyDerivatives {
+                parameter: self.parameters[column],
+                at: values[column],
+                step: *step,
+                sides: *sides,
+                slopes,
+            }
         });
         let columns = columns.collect();
         Some(Jacobian { numbers: middle, columns })
@@ -322,7 +328,7 @@ fn slopes(
     (0..middle.fine.len()).map(number).collect()
 }
 
-impl Column {
+impl KeyDerivatives {
     /// The scale of the key to which an elasticity refers, in its unit: the size of its value; for a temperature, the value above absolute
     /// zero. `None` if the value is 0 and the key is not a temperature.
     pub fn scale(&self) -> Option<f64> {

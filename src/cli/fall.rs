@@ -5,7 +5,7 @@ use super::exit::{CliError, Exit};
 use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
-use crate::analysis::validity::{Excess, beside_headline};
+use crate::analysis::validity::{ExceededLimit, beside_headline};
 use crate::control::Cancel;
 use crate::digits::{counted, duration, percent, significant, with_error};
 use crate::estimate::Estimate;
@@ -59,7 +59,7 @@ fn text(
     ended: &Fall,
     (most, tolerance): (usize, f64),
     floats: Option<Estimate>,
-    validity: &[Excess],
+    validity: &[ExceededLimit],
 ) -> String {
     let rests = cycles.last().is_some_and(|cycle| cycle.rests);
     let told = counted(ended.cycles, "cycle", "cycles");

@@ -8,7 +8,7 @@ use super::progress::Bar;
 use super::summary::limits;
 use super::terminal;
 use crate::analysis::quantity::{Quantity, force_unit};
-use crate::analysis::validity::{Excess, beside_headline};
+use crate::analysis::validity::{ExceededLimit, beside_headline};
 use crate::digits::{counted, duration, percent, significant};
 use crate::estimate::Estimate;
 use crate::export::files;
@@ -121,7 +121,7 @@ const SHOWN: usize = 8;
 fn text(
     (scene, problem): (&Scene, &Problem),
     rows: &[CycleRow],
-    (ended, validity): (&Startup, &[Excess]),
+    (ended, validity): (&Startup, &[ExceededLimit]),
     steady: Option<Estimate>,
 ) -> String {
     let how = match ended.status {

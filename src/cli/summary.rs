@@ -6,7 +6,7 @@ use crate::analysis::exact::{ExactComparison, units};
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
-use crate::analysis::validity::{Excess, beside_headline};
+use crate::analysis::validity::{ExceededLimit, beside_headline};
 use crate::digits::{as_given, duration, percent, short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -308,7 +308,7 @@ fn number_rows(columns: &mut Columns, problem: &Problem, outcome: &Outcome) {
 }
 
 /// Limits of the model that are exceeded; empty if none.
-pub(super) fn limits(validity: &[Excess]) -> String {
+pub(super) fn limits(validity: &[ExceededLimit]) -> String {
     let mut text = String::new();
     for (i, excess) in validity.iter().enumerate() {
         if i == 0 {

@@ -9,7 +9,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::decision::effort;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Part, Sweep, SweepRow, Values, Vary};
+use crate::analysis::sweep::{Axis, Sweep, SweepPart, SweepRow, Values, Vary};
 use crate::atomic::{Lock, WriteError, remove_file, write_file};
 use crate::digits::{duration, significant};
 use crate::estimate::Estimate;
@@ -78,7 +78,7 @@ pub(super) struct Arguments {
     /// for byte. The same command continues an interrupted part. At most 100 000 points can be in a part, or be joined; all parts
     /// together may have more.
     #[arg(long, value_name = "NUMBER/COUNT", requires = "out")]
-    part: Option<Part>,
+    part: Option<SweepPart>,
 
     /// Starts again and discards what a cancelled sweep left in the folder of --out
     #[arg(long, requires = "out")]
@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let varied: Vec<&str> = arguments.vary.iter().map(|vary| vary.key.as_str()).collect();
     let scene = arguments.common.scene.scene_varied(&arguments.preset, &varied)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
-    let part = arguments.part.unwrap_or(Part::WHOLE);
+    let part = arguments.part.unwrap_or(SweepPart::WHOLE);
     let mut sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;
     sweep.budget = arguments.common.solve.accuracy.budget;
     let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
@@ -215,7 +215,7 @@ const SAVE_EVERY: Duration = Duration::from_secs(5);
 const UNFINISHED: &str = ".incomplete.csv";
 
 /// Name of the file with the points solved so far of the whole sweep, or with those of a part.
-fn unfinished(part: Option<Part>) -> String {
+fn unfinished(part: Option<SweepPart>) -> String {
     match part {
         None => format!("sweep{UNFINISHED}"),
         Some(part) => format!("sweep.part-{}-of-{}.csv", part.number(), part.of()),
@@ -226,7 +226,7 @@ fn unfinished(part: Option<Part>) -> String {
 struct Saved<'a> {
     out: Folder<'a>,
     sweep: &'a Sweep,
-    part: Option<Part>,
+    part: Option<SweepPart>,
     /// `None` only while being dropped.
     lock: Option<Lock>,
     /// Whether this command made the folder, and has to remove it again if it stays empty.
@@ -235,7 +235,7 @@ struct Saved<'a> {
 
 impl<'a> Saved<'a> {
     /// Locks the folder before anything is solved; an error if another sweep is being saved there.
-    fn open(out: Folder<'a>, sweep: &'a Sweep, part: Option<Part>) -> Result<Self, CliError> {
+    fn open(out: Folder<'a>, sweep: &'a Sweep, part: Option<SweepPart>) -> Result<Self, CliError> {
         let path = out.path;
         let made = !path.exists();
         let failed = |source| WriteError { path: path.to_owned(), source };
@@ -260,12 +260,12 @@ impl<'a> Saved<'a> {
             return Ok(Vec::new());
         }
         let text = read_text(&path, LARGEST).map_err(|error| fault(error.to_string()))?;
-        saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault)
+        saved::read(self.sweep, self.part.unwrap_or(SweepPart::WHOLE), &text).map_err(fault)
     }
 
     fn save_unfinished(&self, rows: &[SweepRow]) -> Result<PathBuf, WriteError> {
         let path = self.out.path.join(unfinished(self.part));
-        let part = self.part.unwrap_or(Part::WHOLE);
+        let part = self.part.unwrap_or(SweepPart::WHOLE);
         write_file(&path, |out| saved::write(self.sweep, part, rows, self.out.command, out))?;
         Ok(path)
     }

@@ -8,14 +8,14 @@ use super::error::ExportError;
 use super::estimates;
 use super::figure::{Figure, Provenance, Style};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
-use super::html::{Kind, Page, Table, shell};
+use super::html::{CellKind, Page, Table, shell};
 use super::json::{self, TIME_UP, accuracy_entries, beside_limit, mark_of, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::{effort, exactness, sentences};
 use crate::analysis::quantity::{Quantity, force_unit, labelled};
 use crate::analysis::regime;
 use crate::analysis::torque::with_film;
-use crate::analysis::validity::{Excess, outside};
+use crate::analysis::validity::{ExceededLimit, outside};
 use crate::control::Cancel;
 use crate::digits::{capitalised, change, raised, significant, with_error};
 use crate::estimate::Estimate;
@@ -385,10 +385,10 @@ pub fn report(
 }
 
 /// Limits of the model that are exceeded; empty if none.
-pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
+pub(super) fn limits(page: &mut Page, validity: &[ExceededLimit]) {
     if !validity.is_empty() {
         page.warning("Outside the limits of the model:");
-        let name = |excess: &Excess| capitalised(&excess.name.replace('-', " "));
+        let name = |excess: &ExceededLimit| capitalised(&excess.name.replace('-', " "));
         page.list(validity.iter().map(|excess| format!("{}: {}. {}", name(excess), beside_limit(excess), excess.text)));
     }
 }
@@ -439,45 +439,45 @@ pub const LIMITS: &str = "limits exceeded";
 const BESIDE: usize = 2;
 
 fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
-    let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
-    let names = ["parameter", "key"].map(|head| (Kind::Words, head.to_owned()));
+    let labels = runs.iter().map(|run| (CellKind::Number, run.label.clone()));
+    let names = ["parameter", "key"].map(|head| (CellKind::Words, head.to_owned()));
     let mut table = Table::default().heads(names.into_iter().chain(labels));
     for row in rows {
         // Values that differ from the first run are marked.
         let values = row.values.iter().enumerate().map(|(place, value)| match value {
-            Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
-            Some(shown) => (Kind::Strong, shown.to_string()),
-            None => (Kind::Quiet, row.missing(place).to_owned()),
+            Some(shown) if *value == row.values[0] => (CellKind::Number, shown.to_string()),
+            Some(shown) => (CellKind::Strong, shown.to_string()),
+            None => (CellKind::Quiet, row.missing(place).to_owned()),
         });
         let name = capitalised(&labelled(&row.parameter.words(), row.parameter.unit));
-        table.row([(Kind::Words, name), (Kind::Quiet, row.parameter.key.to_owned())].into_iter().chain(values));
+        table.row([(CellKind::Words, name), (CellKind::Quiet, row.parameter.key.to_owned())].into_iter().chain(values));
     }
     table
 }
 
 fn result_table(runs: &[ComparedRun]) -> Table {
     let beside = runs.len() <= BESIDE;
-    let mut heads = vec![(Kind::Words, "result".to_owned())];
+    let mut heads = vec![(CellKind::Words, "result".to_owned())];
     for (i, run) in runs.iter().enumerate() {
-        heads.push((Kind::Number, run.label.clone()));
+        heads.push((CellKind::Number, run.label.clone()));
         if beside && i > 0 {
-            heads.push((Kind::Number, "difference".to_owned()));
+            heads.push((CellKind::Number, "difference".to_owned()));
         }
     }
     let mut table = Table::default().heads(heads);
     for (quantity, name, texts) in result_texts(runs) {
         let kind = match quantity {
-            Some(quantity) if Quantity::HEADLINES.contains(&quantity) => Kind::Strong,
-            Some(_) => Kind::Number,
-            None => Kind::Words,
+            Some(quantity) if Quantity::HEADLINES.contains(&quantity) => CellKind::Strong,
+            Some(_) => CellKind::Number,
+            None => CellKind::Words,
         };
-        let mut cells = vec![(Kind::Words, name)];
+        let mut cells = vec![(CellKind::Words, name)];
         for (i, [value, difference]) in texts.into_iter().enumerate() {
             // The limits are given in words.
             let value = if quantity.is_none() { value.replace('-', " ") } else { raised(&value) };
             let difference = raised(&difference);
             match (beside, i) {
-                (true, 1..) => cells.extend([(kind, value), (Kind::Number, difference)]),
+                (true, 1..) => cells.extend([(kind, value), (CellKind::Number, difference)]),
                 _ => cells.push((kind, format!("{value}\n{difference}").trim_end().to_owned())),
             }
         }

@@ -2,7 +2,7 @@
 
 use super::json::kind;
 use super::startup::periodic;
-use crate::analysis::validity::{Excess, of_outcome};
+use crate::analysis::validity::{ExceededLimit, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Figure, Line, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -43,7 +43,7 @@ pub fn object(problem: &Problem, fidelity: Fidelity, ended: &Fall, cycles: &[Cyc
 
 /// The limits of the model that are exceeded where the plate floats or, if it does not float, where it would rest. If it is thrown up
 /// higher than it was dropped from, they are those at its greatest height.
-pub fn validity(problem: &Problem, ended: &Fall, cycles: &[Cycle]) -> Vec<Excess> {
+pub fn validity(problem: &Problem, ended: &Fall, cycles: &[Cycle]) -> Vec<ExceededLimit> {
     let mut problem = problem.clone();
     let heights = || cycles.iter().map(|cycle| cycle.height.value);
     let highest = heights().fold(0.0, f64::max);

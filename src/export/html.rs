@@ -23,7 +23,7 @@ pub struct Page {
 
 /// Alignment and look of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CellKind {
     /// Text, on the left.
     Words,
     /// A number, on the right, with digits aligned.
@@ -36,7 +36,7 @@ pub enum Kind {
     Alarm,
 }
 
-impl Kind {
+impl CellKind {
     fn class(self) -> &'static str {
         match self {
             Self::Words => "w",
@@ -52,8 +52,8 @@ impl Kind {
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     groups: Vec<(usize, String)>,
-    heads: Vec<(Kind, String)>,
-    rows: Vec<Vec<(Kind, String)>>,
+    heads: Vec<(CellKind, String)>,
+    rows: Vec<Vec<(CellKind, String)>>,
 }
 
 impl Table {
@@ -66,13 +66,13 @@ impl Table {
 
     /// Adds a head for each column.
     #[must_use]
-    pub fn heads<S: Into<String>>(mut self, heads: impl IntoIterator<Item = (Kind, S)>) -> Self {
+    pub fn heads<S: Into<String>>(mut self, heads: impl IntoIterator<Item = (CellKind, S)>) -> Self {
         self.heads = heads.into_iter().map(|(kind, words)| (kind, words.into())).collect();
         self
     }
 
     /// Adds a row.
-    pub fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = (Kind, S)>) {
+    pub fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = (CellKind, S)>) {
         self.rows.push(cells.into_iter().map(|(kind, words)| (kind, words.into())).collect());
     }
 }
@@ -195,7 +195,7 @@ impl Page {
         self.body.push_str("</tbody>\n</table></div>\n");
     }
 
-    fn cells(&mut self, tag: &str, cells: &[(Kind, String)]) {
+    fn cells(&mut self, tag: &str, cells: &[(CellKind, String)]) {
         self.body.push_str("<tr>");
         for (kind, words) in cells {
             let _ = write!(self.body, "<{tag} class=\"{}\">{}</{tag}>", kind.class(), escaped(words));
@@ -305,8 +305,9 @@ mod tests {
             page.section(section);
             page.text("words");
         }
-        let mut table = Table::default().groups([(1, ""), (1, "g")]).heads([(Kind::Words, "h"), (Kind::Number, "n")]);
-        table.row([(Kind::Words, "<b>"), (Kind::Strong, "1")]);
+        let mut table =
+            Table::default().groups([(1, ""), (1, "g")]).heads([(CellKind::Words, "h"), (CellKind::Number, "n")]);
+        table.row([(CellKind::Words, "<b>"), (CellKind::Strong, "1")]);
         page.table(&table);
         page.figures([("Fig. 1", &Figure::new("f").panel(panel))]);
         page.picture(b"GIF89a", "\"a\"", "", "c");

@@ -7,7 +7,7 @@ use crate::analysis::decision::sentences;
 use crate::analysis::exact::ExactComparison;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::torque::TorqueCurves;
-use crate::analysis::validity::{self, Excess};
+use crate::analysis::validity::{self, ExceededLimit};
 use crate::digits::{short, significant};
 use crate::motor::MotorError;
 use crate::problem::{Plate, Problem, Scenario};
@@ -47,7 +47,7 @@ pub struct Summary {
     /// The model that was solved; in the object with a sentence for each decision.
     pub model: Model,
     /// Limits of the model that the scene exceeds; empty if it exceeds none.
-    pub validity: Vec<Excess>,
+    pub validity: Vec<ExceededLimit>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// The command line, word by word; empty if there was none.
@@ -319,7 +319,7 @@ pub fn text(object: &impl Serialize) -> String {
 }
 
 /// `348, limit 0.1`
-pub fn beside_limit(excess: &Excess) -> String {
+pub fn beside_limit(excess: &ExceededLimit) -> String {
     let unit = if excess.unit.is_empty() { String::new() } else { format!(" {}", excess.unit) };
     format!("{}{unit}, limit {}{unit}", significant(excess.value, 3), short(excess.limit, 3))
 }

@@ -10,7 +10,7 @@ use shiguredo_mp4::bitstream::av1::{
 use shiguredo_mp4::boxes::{Brand, FreeBox, FtypBox, SampleEntry, UnknownBox};
 use shiguredo_mp4::mux::{Mp4FileMuxer, Mp4FileMuxerOptions, Sample, estimate_maximum_moov_box_size};
 use shiguredo_mp4::{BoxSize, BoxType, Encode, TrackKind};
-use squeezefilm_video::{Picture, encode};
+use squeezefilm_video::{FrameSource, encode};
 use std::io::{self, Write};
 use std::num::NonZeroU32;
 
@@ -28,7 +28,7 @@ const SHORTEST: f64 = 0.02;
 /// after each picture.
 pub(super) fn write(
     (size, count, seconds): ([u32; 2], usize, f64),
-    picture: &Picture<'_>,
+    picture: &FrameSource<'_>,
     comment: &str,
     out: &mut dyn Write,
     done: &dyn Fn(),

@@ -8,7 +8,7 @@ use super::sweep::{BETWEEN, FIRST, STOPPED_BY, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::analysis::sweep::{MOST_POINTS, Part, Sweep, SweepRow, Vary, digest};
+use crate::analysis::sweep::{MOST_POINTS, Sweep, SweepPart, SweepRow, Vary, digest};
 use crate::analysis::validity::NAMES;
 use crate::input::csv_fault;
 use crate::scene::Scene;
@@ -44,7 +44,13 @@ struct Head {
 }
 
 /// Writes rows of a part of a sweep, to be continued or joined. `command` is the command line that solves the whole, if there is one.
-pub fn write(sweep: &Sweep, part: Part, rows: &[SweepRow], command: &[String], out: &mut dyn Write) -> io::Result<()> {
+pub fn write(
+    sweep: &Sweep,
+    part: SweepPart,
+    rows: &[SweepRow],
+    command: &[String],
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let fingerprint = sweep.fingerprint();
     let head = Head {
         sweep: fingerprint.clone(),
@@ -88,7 +94,7 @@ fn head(text: &str) -> Result<Head, String> {
 ///
 /// # Errors
 /// Why these are not such rows. A row that is not expected, occurs twice, or was changed after it was written, counts as damage.
-pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<SweepRow>, String> {
+pub fn read(sweep: &Sweep, part: SweepPart, text: &str) -> Result<Vec<SweepRow>, String> {
     let (fingerprint, head) = (sweep.fingerprint(), head(text)?);
     if head.sweep != fingerprint {
         return Err(ANOTHER.to_owned());
@@ -185,7 +191,8 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
     }
     let Some((first, text)) = parts.first() else { return Err("parts are missing: all".to_owned()) };
     let begun = head(text).map_err(|error| fault(first, error))?;
-    let part_of = |name: &str, head: &Head| head.part.parse::<Part>().map_err(|error| fault(name, damaged(1, error)));
+    let part_of =
+        |name: &str, head: &Head| head.part.parse::<SweepPart>().map_err(|error| fault(name, damaged(1, error)));
     let part = part_of(first, &begun)?;
     let of = part.of();
     let sweep = begun.sweep(part).map_err(|error| fault(first, error))?;
@@ -217,8 +224,8 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
             return Err(fault(name, format!("part {part} was given before")));
         }
     }
-    let missing: Vec<Part> =
-        Part::all(of).zip(&found).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part).collect();
+    let missing: Vec<SweepPart> =
+        SweepPart::all(of).zip(&found).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part).collect();
     if !missing.is_empty() {
         let mut parts: Vec<String> = missing.iter().take(NAMED).map(ToString::to_string).collect();
         if missing.len() > NAMED {
@@ -231,7 +238,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, String> {
 
 impl Head {
     /// The sweep that the header describes, of which this part is small enough.
-    fn sweep(&self, part: Part) -> Result<Sweep, AnalysisError> {
+    fn sweep(&self, part: SweepPart) -> Result<Sweep, AnalysisError> {
         let scene = Scene::from_toml(&self.scene_toml, "the scene of the part")?;
         let vary = self.vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
         let mut sweep = Sweep::of_part(&scene, &vary, &self.settings, part)?;
@@ -245,7 +252,7 @@ mod tests {
     use super::*;
     use crate::export::sweep::tests::{rows, sweep};
 
-    fn saved(sweep: &Sweep, part: Part, rows: &[SweepRow]) -> String {
+    fn saved(sweep: &Sweep, part: SweepPart, rows: &[SweepRow]) -> String {
         let mut text = Vec::new();
         write(sweep, part, rows, &["squeezefilm".to_owned()], &mut text).unwrap();
         String::from_utf8(text).unwrap()
@@ -254,8 +261,8 @@ mod tests {
     #[test]
     fn rows_read_back_to_the_same_bits() {
         let sweep = sweep("stator.frequency_khz=3:100:3:log");
-        let text = saved(&sweep, Part::WHOLE, &rows(&sweep));
-        assert_eq!(read(&sweep, Part::WHOLE, &text).unwrap(), rows(&sweep));
+        let text = saved(&sweep, SweepPart::WHOLE, &rows(&sweep));
+        assert_eq!(read(&sweep, SweepPart::WHOLE, &text).unwrap(), rows(&sweep));
         let second = text.lines().nth(1).unwrap();
         assert!(
             second.starts_with(
@@ -268,12 +275,12 @@ mod tests {
     #[test]
     fn rows_of_another_sweep_and_damage_are_told() {
         let ours = sweep("stator.frequency_khz=3:100:3");
-        let text = saved(&ours, Part::WHOLE, &rows(&ours));
-        let read = |sweep: &Sweep, text: &str| super::read(sweep, Part::WHOLE, text);
+        let text = saved(&ours, SweepPart::WHOLE, &rows(&ours));
+        let read = |sweep: &Sweep, text: &str| super::read(sweep, SweepPart::WHOLE, text);
         assert_eq!(read(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ANOTHER.to_owned()));
         assert_eq!(read(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ANOTHER.to_owned()));
         assert_eq!(read(&ours, ""), Err(NO_PART.to_owned()));
-        let other = Part::all(2).last().unwrap();
+        let other = SweepPart::all(2).last().unwrap();
         assert_eq!(super::read(&ours, other, &text), Err("it is part 1/1 of the sweep, not 2/2".to_owned()));
         let cut = &text[..text.len() - 20];
         assert!(read(&ours, cut).unwrap_err().starts_with("line 6: "), "{:?}", read(&ours, cut));
@@ -303,7 +310,7 @@ mod tests {
             let ours = sweep(vary);
             let mut all = rows(&ours);
             all.sort_by_key(|row| row.point);
-            let mut parts: Vec<(String, String)> = Part::all(4)
+            let mut parts: Vec<(String, String)> = SweepPart::all(4)
                 .map(|part| {
                     let rows: Vec<SweepRow> =
                         all.iter().filter(|row| ours.points_of(part).contains(&row.point)).cloned().collect();
@@ -317,14 +324,14 @@ mod tests {
             let told = |parts: &[(String, String)]| join(parts).unwrap_err();
             assert_eq!(told(&parts[..2]), "parts are missing: 1/4, 2/4");
             assert_eq!(told(&[&parts[..], &parts[1..2]].concat()), "3/4.csv: part 3/4 was given before");
-            let none = ("x.csv".to_owned(), saved(&ours, Part::all(4).last().unwrap(), &[]));
+            let none = ("x.csv".to_owned(), saved(&ours, SweepPart::all(4).last().unwrap(), &[]));
             let told_none =
                 "x.csv: 0 of the 3 points of part 4/4 are solved; to continue, repeat the command that began it";
             assert_eq!(told(std::slice::from_ref(&none)), told_none);
-            let third = ("y.csv".to_owned(), saved(&ours, Part::all(3).next().unwrap(), &[]));
+            let third = ("y.csv".to_owned(), saved(&ours, SweepPart::all(3).next().unwrap(), &[]));
             assert_eq!(told(&[parts[3].clone(), third]), "y.csv: it is part 1/3, and the parts before it are of 4");
             let other = sweep("film.min_spacing_nm=100:200:3");
-            let other = ("z.csv".to_owned(), saved(&other, Part::WHOLE, &[]));
+            let other = ("z.csv".to_owned(), saved(&other, SweepPart::WHOLE, &[]));
             assert!(told(&[parts[3].clone(), other]).starts_with("z.csv: it is of another sweep"));
         }
         assert_eq!(join(&[]).unwrap_err(), "parts are missing: all");

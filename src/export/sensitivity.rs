@@ -4,7 +4,7 @@ use super::csv::number;
 use super::estimates::{self, finite};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
-use crate::analysis::variation::Column;
+use crate::analysis::variation::KeyDerivatives;
 use crate::digits::significant;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
@@ -89,7 +89,7 @@ impl SensitivityStudy<'_> {
     /// A result with respect to a key, a row of the CSV. Errors are estimated and absolute.
     fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Value {
         let sensitivity = self.sensitivity;
-        let Column { parameter, at, step, sides, slopes } = &sensitivity.columns[column];
+        let KeyDerivatives { parameter, at, step, sides, slopes } = &sensitivity.columns[column];
         let slope = slopes.as_ref().ok().map(|slopes| slopes[output]);
         let relative = sensitivity.columns[column].scale().and_then(|_| sensitivity.elasticity(output, column));
         let contribution =

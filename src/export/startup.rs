@@ -4,7 +4,7 @@ use super::csv;
 use super::estimates::finite;
 use super::json::kind;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
-use crate::analysis::validity::{Excess, of_outcome};
+use crate::analysis::validity::{ExceededLimit, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Marker, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
@@ -102,7 +102,7 @@ pub fn object(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[C
 }
 
 /// The limits of the model that its last cycle exceeds; without a cycle, those that the scene exceeds by itself.
-pub fn validity(problem: &Problem, ended: &Startup) -> Vec<Excess> {
+pub fn validity(problem: &Problem, ended: &Startup) -> Vec<ExceededLimit> {
     of_outcome(problem, (ended.cycles > 0).then_some(&ended.outcome), &ended.decisions)
 }
 

@@ -11,7 +11,7 @@ use super::ui::parts::FOLLOWED;
 use super::ui::taps::Taps;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
-use super::update::storage::{Entries, NOT_KEPT, Place, UNSAVED, keep, read, write};
+use super::update::storage::{Entries, NOT_KEPT, StoragePlace, UNSAVED, keep, read, write};
 use super::update::updater::Updater;
 use crate::digits::parse_duration;
 use crate::platform::Instant;
@@ -261,11 +261,11 @@ impl eframe::App for App {
         self.unwritten = false;
         let entries = self.to_keep();
         match &self.updater.platform.storage {
-            Place::Nowhere => {}
-            Place::Browser => entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text)),
+            StoragePlace::Nowhere => {}
+            StoragePlace::Browser => entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text)),
             // This is called again and again while a motion plays.
-            Place::File(_) if self.kept.as_ref() == Some(&entries) => {}
-            Place::File(path) => {
+            StoragePlace::File(_) if self.kept.as_ref() == Some(&entries) => {}
+            StoragePlace::File(path) => {
                 let fault = write(path, &entries).err().map(|error| format!("{NOT_KEPT}: {error}"));
                 // Earlier versions kept it there.
                 if fault.is_none() && storage.get_string("scene").is_some() {
@@ -281,7 +281,7 @@ impl eframe::App for App {
     }
 
     fn persist_egui_memory(&self) -> bool {
-        !matches!(self.updater.platform.storage, Place::Nowhere)
+        !matches!(self.updater.platform.storage, StoragePlace::Nowhere)
     }
 
     fn auto_save_interval(&self) -> Duration {
@@ -294,17 +294,17 @@ impl eframe::App for App {
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
-    place: &mut Place,
+    place: &mut StoragePlace,
 ) -> Result<(State, Option<Document>), Box<dyn std::error::Error + Send + Sync>> {
     let mut faults = Vec::new();
-    let file = if let Place::File(file) = place { Some(file.clone()) } else { None };
+    let file = if let StoragePlace::File(file) = place { Some(file.clone()) } else { None };
     let read = file
         .as_deref()
         .map_or(Ok(None), |file| read(file).map_err(|fault| faults.push(format!("{}: {fault}.", file.display()))));
     // A page keeps it in the browser, and so did earlier versions in a file of eframe.
     let stored = |key: &str| match &read {
         Ok(Some(entries)) => entries.get(key).cloned(),
-        Ok(None) if matches!(place, Place::Nowhere) => None,
+        Ok(None) if matches!(place, StoragePlace::Nowhere) => None,
         Ok(None) => storage?.get_string(key),
         Err(()) => None,
     };
@@ -343,7 +343,7 @@ fn restored(
             Ok(Some(copy)) => faults.push(format!("The state of the last window is kept in {}.", copy.display())),
             Ok(None) => {}
             Err(error) => {
-                *place = Place::Nowhere;
+                *place = StoragePlace::Nowhere;
                 faults.push(format!(
                     "What the last window left stays as it is, because there can be no copy of it: {error}. {NOT_KEPT}."
                 ));

@@ -19,7 +19,7 @@ use state::link::Link;
 use std::path::PathBuf;
 use std::time::Duration;
 use update::platform::Platform;
-use update::storage::{NOT_KEPT, Place, StorageFile, beside};
+use update::storage::{NOT_KEPT, StorageFile, StoragePlace, beside};
 
 /// Opens the window with a scene, or with the state of the last window, and returns when it is closed. `lessons` is a folder of lessons to
 /// add to the built-in ones, `link` the tab or lesson step to show. `fidelity` and `budget` set how exactly edits are solved, and how long
@@ -37,11 +37,11 @@ pub fn open(
     let claim = |folder: PathBuf| StorageFile::claim(&folder).map_err(|error| format!("{}: {error}", folder.display()));
     let (file, storage, fault) = match window::storage_folder().map(claim) {
         Some(Ok(file)) => {
-            let place = Place::File(file.path.clone());
+            let place = StoragePlace::File(file.path.clone());
             (Some(file), place, None)
         }
-        Some(Err(error)) => (None, Place::Nowhere, Some(error)),
-        None => (None, Place::Browser, None),
+        Some(Err(error)) => (None, StoragePlace::Nowhere, Some(error)),
+        None => (None, StoragePlace::Browser, None),
     };
     let of_eframe = file.as_ref().map(|file| beside(&file.path));
     let start = move |context: &eframe::CreationContext<'_>| {

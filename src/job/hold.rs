@@ -10,7 +10,7 @@ mod page;
 #[cfg(not(target_arch = "wasm32"))]
 mod thread;
 
-use follower::Target;
+use follower::HandTarget;
 pub use follower::{SNAPSHOTS, Snapshot, slowed};
 #[cfg(target_arch = "wasm32")]
 pub use page::HeldPlate;
@@ -24,7 +24,7 @@ impl HeldPlate {
     /// Moves the plate to the gap `gap` \[m\], or to the nearest one that is allowed.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| *target = Target { gap, free: None, paused: false, ..*target });
+        self.ask(|target| *target = HandTarget { gap, free: None, paused: false, ..*target });
     }
 
     /// Stops the plate, the film and their clock, or lets them go on from where they are, with the same speed.
@@ -44,6 +44,6 @@ impl HeldPlate {
 
     /// Puts the plate and the film to rest at the mean gap.
     pub fn reset(&self) {
-        self.ask(|target| *target = Target { reset: true, ..Target::first(&self.plate, target.slowed) });
+        self.ask(|target| *target = HandTarget { reset: true, ..HandTarget::first(&self.plate, target.slowed) });
     }
 }

@@ -27,13 +27,13 @@ thread_local! {
 
 /// One fidelity of a request, as it is sent.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Step {
+pub(super) struct RequestStep {
     posed: Posed,
     fidelity: Fidelity,
     budget: Option<Duration>,
 }
 
-impl Work for Step {
+impl Work for RequestStep {
     const NAME: &'static str = "solve";
     type Message = Progress;
     type Output = Timed;
@@ -163,7 +163,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
         return advance(shared);
     };
     (running.at, running.history) = ((fidelity, now), Vec::new());
-    let work = Step { posed: running.request.posed.clone(), fidelity, budget: running.request.budget };
+    let work = RequestStep { posed: running.request.posed.clone(), fidelity, budget: running.request.budget };
     let theirs = Rc::downgrade(shared);
     let told = move |told| {
         if let Some(shared) = theirs.upgrade() {

@@ -5,7 +5,7 @@ use super::export::Files;
 use super::face::FaceWork;
 use super::fit::FitWork;
 use super::new_motor::NewMotorWork;
-use super::page::Step;
+use super::page::RequestStep;
 use super::pin::PinWork;
 use super::rotor::RotorWork;
 use super::sensitivity::{Derivatives, Draws};
@@ -34,7 +34,7 @@ type Serve = fn(&[u8]);
 
 /// All kinds of work that a worker can do.
 const WORKS: &[(&str, Serve)] = &[
-    (Step::NAME, run::<Step>),
+    (RequestStep::NAME, run::<RequestStep>),
     (PinWork::NAME, run::<PinWork>),
     (TorqueWork::NAME, run::<TorqueWork>),
     (StartupWork::NAME, run::<StartupWork>),

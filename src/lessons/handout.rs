@@ -1,7 +1,7 @@
 //! Lessons on paper: for each lesson a worksheet with space for predictions and axes for sketches, and a sheet with the answers.
 
 use super::check::Reading;
-use super::lesson::{Answer, Kind, Lesson, Question, Step};
+use super::lesson::{Answer, Lesson, Question, QuestionKind, Step};
 use super::text::{Block, Inline, filled, plain};
 use super::trial::{Quoted, quoted};
 use crate::control::Cancel;
@@ -64,8 +64,8 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
         pieces.extend(lines(&task.ask, &known.before).map(Piece::Text));
         let sketch = step.look.iter().find_map(|place| SKETCHES.iter().find(|(known, _)| known == place));
         if let (Some((_, axes)), false) = (sketch, answers) {
-            let kind = step.question.as_ref().map_or(Kind::Predict, |question| question.kind);
-            let before = if kind == Kind::Predict { "dashed what you expect, " } else { "" };
+            let kind = step.question.as_ref().map_or(QuestionKind::Predict, |question| question.kind);
+            let before = if kind == QuestionKind::Predict { "dashed what you expect, " } else { "" };
             pieces.push(Piece::Text(format!("Sketch: {before}solid what you saw.")));
             pieces.push(Piece::Axes(axes.map(str::to_owned)));
         }

@@ -59,7 +59,7 @@ pub struct Step {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// How the answer is found.
-    pub kind: Kind,
+    pub kind: QuestionKind,
     /// The text of the question.
     pub ask: Vec<Block>,
     /// The answer.
@@ -72,7 +72,7 @@ pub struct Question {
 
 /// How an answer is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum QuestionKind {
     /// By a reasoned guess. There is one try, and a wrong guess has no consequences.
     Predict,
     /// By arithmetic. There are two tries.

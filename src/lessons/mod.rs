@@ -19,7 +19,9 @@ pub mod trial;
 pub mod work;
 
 pub use error::LessonError;
-pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
+pub use lesson::{
+    Act, Answer, Changes, Choice, Doing, Lesson, Prediction, Question, QuestionKind, Step, Task, WindowNames,
+};
 
 use crate::input::{self, ReadError};
 use crate::scene::Scene;

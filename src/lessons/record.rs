@@ -1,8 +1,8 @@
 //! The record of a student's answers as a file, CSV or JSON lines with the verbs of xAPI, and a summary of the records of a class.
 
-use super::lesson::{Kind, Lesson, Prediction};
+use super::lesson::{Lesson, Prediction, QuestionKind};
 use super::work::{Stage, StepWork};
-use crate::export::html::{Kind as Cell, Page, Table};
+use crate::export::html::{CellKind as Cell, Page, Table};
 use crate::input::{csv_fault, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -60,7 +60,7 @@ pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
         };
         if let (Some(question), Some(given), true) = (&step.question, work.prediction, work.committed) {
             let right = question.answer.is_right(given);
-            let kind = if question.kind == Kind::Calculate { "calculation" } else { "prediction" };
+            let kind = if question.kind == QuestionKind::Calculate { "calculation" } else { "prediction" };
             let response = question.answer.words(given);
             add(kind, "answered", response, Some(right), work.wrong + usize::from(right), times.question);
         }

@@ -78,7 +78,7 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     if above(step).chain(readings(step.told())).next().is_none() {
         return Ok(Quoted::default());
     }
-    let start = Tried::of(step, &step.scene, cancel)?;
+    let start = TrialRun::of(step, &step.scene, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
     known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
@@ -114,14 +114,14 @@ fn replies(step: &Step) -> Vec<Finding> {
 }
 
 /// A run, and the numbers of the tabs that belong to it.
-struct Tried {
+struct TrialRun {
     scene: Scene,
     problem: Problem,
     numbers: Numbers,
     live: Readings,
 }
 
-impl Tried {
+impl TrialRun {
     /// The run of `scene`, with what is used in `step`.
     fn of(step: &Step, scene: &Scene, cancel: &Cancel) -> Result<Self, String> {
         let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
@@ -155,7 +155,7 @@ impl Tried {
 }
 
 /// The result of actions on a task.
-struct Outcome {
+struct TaskOutcome {
     /// Why the check does not hold; `None` if it held at any time.
     unmet: Option<String>,
     too_far: bool,
@@ -164,7 +164,7 @@ struct Outcome {
 }
 
 fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, String> {
-    let start = Tried::of(step, &step.scene, cancel)?;
+    let start = TrialRun::of(step, &step.scene, cancel)?;
     let mut findings = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
@@ -193,11 +193,11 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
 }
 
 /// Carries out actions, and evaluates the check whenever something has changed.
-fn act(step: &Step, task: &Task, doing: &Doing, start: &Tried, cancel: &Cancel) -> Result<Outcome, String> {
+fn act(step: &Step, task: &Task, doing: &Doing, start: &TrialRun, cancel: &Cancel) -> Result<TaskOutcome, String> {
     let scene = step.scene.with(&doing.changes).map_err(|error| error.to_string())?;
-    let run = Tried::of(step, &scene, cancel)?;
-    let outcome = Outcome { unmet: Some(String::new()), too_far: false, known: BTreeMap::new() };
-    let mut look = Look { task, step, run: &run, start, began: start.live, outcome };
+    let run = TrialRun::of(step, &scene, cancel)?;
+    let outcome = TaskOutcome { unmet: Some(String::new()), too_far: false, known: BTreeMap::new() };
+    let mut look = TaskCheck { task, step, run: &run, start, began: start.live, outcome };
     look.at(&run.live);
     for act in &doing.acts {
         match act {
@@ -209,17 +209,17 @@ fn act(step: &Step, task: &Task, doing: &Doing, start: &Tried, cancel: &Cancel) 
 }
 
 /// Evaluates the check while actions go on. Once it has held, the task is fulfilled.
-struct Look<'a> {
+struct TaskCheck<'a> {
     task: &'a Task,
     step: &'a Step,
-    run: &'a Tried,
-    start: &'a Tried,
+    run: &'a TrialRun,
+    start: &'a TrialRun,
     /// The numbers of the tabs when the step began.
     began: Readings,
-    outcome: Outcome,
+    outcome: TaskOutcome,
 }
 
-impl Look<'_> {
+impl TaskCheck<'_> {
     fn at(&mut self, live: &Readings) {
         if self.outcome.unmet.is_none() {
             return;
@@ -229,12 +229,12 @@ impl Look<'_> {
         let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
         let quoted = unmet.is_none().then(|| readings(self.step.told())).into_iter().flatten();
         let known = quoted.filter_map(|of| Some((of.source.clone(), of.value(now, start)?))).collect();
-        self.outcome = Outcome { unmet, too_far, known };
+        self.outcome = TaskOutcome { unmet, too_far, known };
     }
 }
 
 /// Pushes the plate of a run to the gap `gap` \[m\] and holds it there.
-fn hold(run: &Tried, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
+fn hold(run: &TrialRun, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
     let Scenario::Plate(plate) = &run.problem.scenario else { return Err("a motor is not held".to_owned()) };
     let mut held = Hold::new(plate, &Plan::plate(plate, FIDELITY, &Numerics::default()));
     let leak = leak_time(plate, plate.mean_gap);
@@ -251,7 +251,7 @@ fn hold(run: &Tried, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), St
 }
 
 /// Starts a run from rest.
-fn start_up(run: &Tried, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), String> {
+fn start_up(run: &TrialRun, look: &mut TaskCheck<'_>, cancel: &Cancel) -> Result<(), String> {
     let settings = startup::Settings { fidelity: FIDELITY, ..startup::Settings::default() };
     // A cycle may be computed again on finer grids: it then replaces the earlier one.
     let mut cycles = BTreeMap::new();

@@ -1,6 +1,6 @@
 //! A student's work in a lesson, step by step: answers, tasks, and steps that were skipped. It is kept when the window is closed.
 
-use super::lesson::{Kind, Prediction, Question, Step};
+use super::lesson::{Prediction, Question, QuestionKind, Step};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -132,7 +132,7 @@ impl StepWork {
     /// Makes the answer final. After a first wrong calculation there is another try, with another number.
     pub fn commit(&mut self, question: &Question) {
         let Some(given) = self.prediction.filter(|_| !self.committed && !self.refused) else { return };
-        let wrong = question.kind == Kind::Calculate && !question.answer.is_right(given);
+        let wrong = question.kind == QuestionKind::Calculate && !question.answer.is_right(given);
         self.wrong += usize::from(wrong);
         self.refused = wrong;
         self.committed = !wrong || self.wrong >= TRIES;
@@ -173,7 +173,7 @@ impl Score {
         for (step, work) in steps {
             if let Some(question) = &step.question {
                 let right = work.committed && work.prediction.is_some_and(|given| question.answer.is_right(given));
-                let calculated = question.kind == Kind::Calculate;
+                let calculated = question.kind == QuestionKind::Calculate;
                 count(if calculated { &mut score.calculations } else { &mut score.predictions }, right);
             }
             if let Some(observe) = &step.observe {

@@ -25,7 +25,7 @@ pub fn timed(cancel: &Cancel, budget: Duration) -> Cancel {
 
 /// The kind of file that a dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum DialogKind {
     /// A file that exists.
     File,
     /// A folder.
@@ -38,7 +38,7 @@ pub enum Asked {
 #[derive(Clone, Copy, Debug)]
 pub struct FileDialog<'a> {
     /// The kind of file that it asks for.
-    pub asked: Asked,
+    pub asked: DialogKind,
     /// Its title.
     pub title: &'a str,
     /// The name of a file format, and its extensions.

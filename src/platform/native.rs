@@ -56,7 +56,7 @@ pub fn hand_out(_: &Path, _: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
 /// The window.
 #[cfg(feature = "gui")]
 pub mod window {
-    use super::super::{Asked, FileDialog};
+    use super::super::{DialogKind, FileDialog};
     use eframe::egui;
     use std::cell::Cell;
     use std::path::PathBuf;
@@ -172,9 +172,9 @@ pub mod window {
                 None => native,
             };
             match dialog.asked {
-                Asked::File => native.pick_file(),
-                Asked::Folder => native.pick_folder(),
-                Asked::NewFile => native.set_file_name(dialog.name).save_file(),
+                DialogKind::File => native.pick_file(),
+                DialogKind::Folder => native.pick_folder(),
+                DialogKind::NewFile => native.set_file_name(dialog.name).save_file(),
             }
         }
     }

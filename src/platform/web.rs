@@ -198,7 +198,7 @@ pub mod worker {
 /// The window, which fills the page.
 #[cfg(feature = "gui")]
 pub mod window {
-    use super::super::{Asked, FileDialog};
+    use super::super::{DialogKind, FileDialog};
     use super::{ARRIVED, HANDED_OVER};
     use eframe::egui;
     use eframe::egui::accesskit::{Role, Toggled};
@@ -372,8 +372,8 @@ pub mod window {
         /// one that is dropped on the page.
         pub fn ask(&self, dialog: &FileDialog<'_>) -> Option<PathBuf> {
             match dialog.asked {
-                Asked::NewFile | Asked::Folder => Some(PathBuf::from(dialog.name)),
-                Asked::File => {
+                DialogKind::NewFile | DialogKind::Folder => Some(PathBuf::from(dialog.name)),
+                DialogKind::File => {
                     let asked = rfd::AsyncFileDialog::new().set_title(dialog.title);
                     let asked = match dialog.filter {
                         Some((kind, extensions)) => asked.add_filter(kind, extensions),

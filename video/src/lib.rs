@@ -34,7 +34,7 @@ const SHORTEST: usize = 16;
 const BACKGROUND: [u8; 3] = [255; 3];
 
 /// A frame by its number, from 0: red, green, blue, a byte each, row by row from the top. Called from several threads.
-pub type Picture<'a> = dyn Fn(usize) -> io::Result<Cow<'a, [u8]>> + Sync + 'a;
+pub type FrameSource<'a> = dyn Fn(usize) -> io::Result<Cow<'a, [u8]>> + Sync + 'a;
 
 /// Encodes `count` frames of `size` pixels (across, down), each shown for `step` \[s\], a fraction: of each the OBUs. The first can be decoded
 /// alone, and the first of each later part of a long cycle; all others refer to those before. `done` is called after each; once `cancelled` says
@@ -44,7 +44,7 @@ pub type Picture<'a> = dyn Fn(usize) -> io::Result<Cow<'a, [u8]>> + Sync + 'a;
 /// Those of the encoder; an interruption if it was cancelled.
 pub fn encode(
     count: usize,
-    picture: &Picture<'_>,
+    picture: &FrameSource<'_>,
     size: [u32; 2],
     step: [u32; 2],
     done: &dyn Fn(),
@@ -104,7 +104,7 @@ pub fn encode(
 /// The packets of some frames, the first a key frame. `told` gets a message for each.
 fn part(
     mut frames: Range<usize>,
-    picture: &Picture<'_>,
+    picture: &FrameSource<'_>,
     source: [usize; 2],
     settings: EncoderConfig,
     told: &mpsc::Sender<()>,

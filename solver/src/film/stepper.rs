@@ -160,7 +160,7 @@ struct FaceRow {
 
 /// The face between two neighbouring nodes along x.
 #[derive(Clone, Copy)]
-struct Face {
+struct CellFace {
     /// Coefficient Δt M h₀h₁/Δ \[m\] of its flux; 0 where nothing flows.
     coefficient: f64,
     /// Half the gaps on either side of the face \[m\]: the weights of their pressures in Z_f.
@@ -170,7 +170,7 @@ struct Face {
     choke: [f64; 2],
 }
 
-impl Face {
+impl CellFace {
     /// The face after node `face`.
     #[inline(always)]
     fn after(grid: &FilmGrid, flow: &[Factors], mobility: f64, face: usize, h: &[f64], dt: f64) -> Self {
@@ -193,7 +193,7 @@ impl FaceRow {
 
     /// Pressure-driven flux through the faces between two rows of nodes.
     #[inline(always)]
-    fn between<L: Mobility, const B: usize>(&mut self, law: L, face: Face, west: &[f64], east: &[f64]) {
+    fn between<L: Mobility, const B: usize>(&mut self, law: L, face: CellFace, west: &[f64], east: &[f64]) {
         let b = if B == 0 { west.len() } else { B };
         let (flux, by_west, by_east) = (&mut self.flux[..b], &mut self.by_west[..b], &mut self.by_east[..b]);
         let [west_weight, east_weight] = face.weights;
@@ -437,8 +437,8 @@ impl Film {
     fn fit<L: Mobility>(&mut self, law: L, h: &[f64], speed: &[f64], dt: f64) {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
-            let Face { coefficient, weights: [west, east], .. } =
-                Face::after(&self.grid, &self.flow, self.mobility, face, h, dt);
+            let CellFace { coefficient, weights: [west, east], .. } =
+                CellFace::after(&self.grid, &self.flow, self.mobility, face, h, dt);
             let drift = 0.25 * dt * self.dragged(face) * (west + east) * (speed[face] + speed[face + 1]);
             for j in 0..ny {
                 let trapped = west * self.pressure[face * ny + j] + east * self.pressure[(face + 1) * ny + j];
@@ -490,7 +490,7 @@ impl Film {
         };
         for face in first..ux.end {
             // The face after node `face`; the face before it was computed in the previous iteration.
-            let mut between = Face::after(&self.grid, &self.flow, self.mobility, face, h, dt);
+            let mut between = CellFace::after(&self.grid, &self.flow, self.mobility, face, h, dt);
             if self.closed_along {
                 between.coefficient = 0.0;
             }

@@ -17,7 +17,7 @@ const BLOWN_UP: f64 = 1e4;
 
 /// Outcome of one time step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct StepOutcome {
     /// Whether pressure and spacing settled.
     pub(super) settled: bool,
     /// Change of pressure or film thickness in the last round of the inner loop, relative to the greatest of each,
@@ -104,11 +104,12 @@ impl<'a> March<'a> {
     }
 
     /// One time step, from t = `step` T/steps to t = (`step` + 1) T/steps.
-    pub(super) fn advance(&mut self, step: usize) -> Step {
+    pub(super) fn advance(&mut self, step: usize) -> StepOutcome {
         self.move_stator((step + 1) as f64 / self.steps as f64);
         let dtau = std::f64::consts::TAU / self.steps as f64;
         let half_step = (step as f64 + 0.5) / self.steps as f64;
-        let mut result = Step { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
+        let mut result =
+            StepOutcome { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
         let (mut least, mut least_at) = (f64::INFINITY, 0);
         // The first guess of the pressure is that of the last step, which `nodal` still holds.
         for round in 0..INNER_ROUNDS {

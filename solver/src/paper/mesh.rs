@@ -52,12 +52,12 @@ impl Mesh {
 
 /// Linear interpolation: `values[at] * (1 − weight) + values[at + 1] * weight`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Between {
+pub(super) struct Interpolation {
     pub(super) at: usize,
     pub(super) weight: f64,
 }
 
-impl Between {
+impl Interpolation {
     /// Position `s` on nodes 0, 1, …, `last`; beyond the ends, the end value.
     pub(super) fn uniform(s: f64, last: usize) -> Self {
         let s = s.clamp(0.0, last as f64);
@@ -116,7 +116,7 @@ pub(super) struct Meshes {
     /// Nodes that can touch, each once.
     pub(super) tops: Vec<Top>,
     /// Per tooth and film node, position among the tooth's entries; `[tooth][ix]`.
-    pub(super) to_film: Vec<Between>,
+    pub(super) to_film: Vec<Interpolation>,
     /// Per tooth and film node, the tops that its force goes to; `[tooth][ix]`.
     pub(super) shares: Vec<Share>,
     /// Every tooth has the same `xi` at its entries.
@@ -168,7 +168,7 @@ impl Meshes {
             let top_at = |node: i64| top_of[node.clamp(on.0, on.1).rem_euclid(n as i64) as usize].unwrap_or_default();
             for i in 0..nx {
                 let at = left + 2.0 * half * i as f64 / (nx - 1) as f64;
-                let between = Between::uniform(at - low as f64, (high - low) as usize);
+                let between = Interpolation::uniform(at - low as f64, (high - low) as usize);
                 let node = low + between.at as i64;
                 meshes.to_film.push(between);
                 meshes.shares.push(Share { low: top_at(node), high: top_at(node + 1), weight: between.weight });

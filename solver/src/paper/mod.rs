@@ -50,7 +50,7 @@ use crate::problem::{Motor, Numerics, Slip};
 use crate::rotor::RotorError;
 use crate::solution::{Accuracy, Model, MotorResult, Outcome, Solution, Stats, Status, StoppedBy};
 use contact::Balance;
-use march::{INNER_TOLERANCE, March, Step};
+use march::{INNER_TOLERANCE, March, StepOutcome};
 use mesh::PAPER_MESH;
 use record::Recorder;
 
@@ -299,7 +299,7 @@ struct Trouble {
 }
 
 impl Trouble {
-    fn add(&mut self, step: &Step) {
+    fn add(&mut self, step: &StepOutcome) {
         if !step.settled {
             self.unsettled += 1;
             self.change = self.change.max(step.change);

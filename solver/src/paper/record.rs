@@ -5,7 +5,7 @@
 //! nodes beside it, so that sums are kept.
 
 use super::march::March;
-use super::mesh::Between;
+use super::mesh::Interpolation;
 use crate::recording::{LineLoads, Recording, Touching};
 use crate::rotor::Compliances;
 
@@ -14,9 +14,9 @@ use crate::rotor::Compliances;
 pub(super) struct Recorder {
     pub(super) recording: Recording,
     /// Where each local node is among the entries of each tooth, `[tooth][node]`.
-    places: Vec<Between>,
+    places: Vec<Interpolation>,
     /// Per top, where its forces go among the local nodes.
-    shares: Vec<Between>,
+    shares: Vec<Interpolation>,
     /// Per tooth, whether the last frame had contact on it.
     touched: Vec<bool>,
 }
@@ -33,13 +33,13 @@ impl Recorder {
         for tooth in 0..teeth {
             let entries = meshes.tooth(tooth);
             for &xi in &x {
-                places.push(Between::uniform((xi - entries[0].xi) / meshes.spacing, entries.len() - 1));
+                places.push(Interpolation::uniform((xi - entries[0].xi) / meshes.spacing, entries.len() - 1));
             }
         }
         let shares = meshes
             .tops
             .iter()
-            .map(|top| Between::uniform((meshes.entries[top.entry].xi - x[0]) / meshes.spacing, nodes - 1))
+            .map(|top| Interpolation::uniform((meshes.entries[top.entry].xi - x[0]) / meshes.spacing, nodes - 1))
             .collect();
         let lines = teeth * frames * nodes;
         let recording = Recording {

@@ -19,7 +19,7 @@ use crate::digits::brief;
 use crate::estimate::Estimate;
 use crate::film::cycle::Interrupted;
 use crate::ladder::{SolvedGrids, climb};
-use crate::memory::{self, Excess};
+use crate::memory::{self, MemoryExcess};
 use crate::plan::Plan;
 use crate::problem::{GRAVITY, HIGHEST, Plate};
 use crate::solution::{Floating, Stats, Status};
@@ -53,7 +53,7 @@ pub enum FloatError {
     Film(#[from] Interrupted),
     /// It needs more memory than is allowed.
     #[error(transparent)]
-    Memory(#[from] Excess),
+    Memory(#[from] MemoryExcess),
     /// It rests on its roughness.
     #[error("plate.amplitude_um = {}: the plate does not float: {}; at the smallest gap that film.min_spacing_nm = {} allows, the film carries only {} % of the load",
         brief(amplitude * 1e6),

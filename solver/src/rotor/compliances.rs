@@ -1,7 +1,7 @@
 //! A rotor as the solvers see it, whatever its model: its compliance to each harmonic of the wave.
 
 use super::ring::{Band, RingError};
-use crate::budget::Excess;
+use crate::budget::MemoryExcess;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub enum RotorError {
     Ring(#[from] RingError),
     /// A ring that needs more memory than is allowed.
     #[error(transparent)]
-    Memory(#[from] Excess),
+    Memory(#[from] MemoryExcess),
     /// A table that is not a Green's function.
     #[error(
         "rotor.green: harmonic {harmonic} of the wave has the compliance {compliance:.1e} m²/N, known to {error:.1e}: allowed is a deflection \

@@ -11,7 +11,7 @@ mod compliances;
 mod green;
 pub mod ring;
 
-use crate::budget::{self, Need, Purpose};
+use crate::budget::{self, MemoryUse, Need};
 use crate::control::Cancel;
 use crate::digits::short;
 use crate::problem::{Motor, RotorCompliance};
@@ -153,7 +153,7 @@ fn bytes(elements: usize) -> u64 {
 /// [`RotorError`] of a ring that has no mesh.
 pub fn need(section: &Section, band: Band, times: usize) -> Result<Need, RotorError> {
     let elements = section.elements(Some(band), times)?;
-    Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) })
+    Ok(Need { what: MemoryUse::Ring { elements }, bytes: bytes(elements) })
 }
 
 /// Memory that a ring needs while its natural frequencies are computed, each of which may be on a thread of its own.
@@ -162,7 +162,7 @@ pub fn need(section: &Section, band: Band, times: usize) -> Result<Need, RotorEr
 /// As [`need`].
 pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
     let elements = section.elements(None, 1)?;
-    Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
+    Ok(Need { what: MemoryUse::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
 }
 
 static RINGS: Cache<(Section, Wave, usize), Compliances> = Cache::new();

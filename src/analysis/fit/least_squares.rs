@@ -1,7 +1,7 @@
 //! Least-squares fit: the values of the unknowns that agree best with the measurements, and their standard errors.
 
 use super::measured::Measured;
-use super::model::{Computed, Curve, Model};
+use super::model::{Computed, Curve, FitModel};
 use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Bounds, Unknown};
@@ -121,7 +121,7 @@ pub struct Minimum {
 
 /// The problem in the form that the library needs.
 struct Search<'a> {
-    model: &'a Model<'a>,
+    model: &'a FitModel<'a>,
     measured: &'a Measured,
     /// The measurements that are used.
     used: &'a [usize],
@@ -224,7 +224,7 @@ pub fn fit(
     settings: &Settings,
     (starts, cancel, told): (usize, &Cancel, Tell<'_>),
 ) -> Result<Option<Fitted>, AnalysisError> {
-    let model = &Model::new(scene, bounds, settings)?.under(measured)?;
+    let model = &FitModel::new(scene, bounds, settings)?.under(measured)?;
     let own = model.start();
     let Some(first) = model.at_one(&own, cancel) else { return Ok(None) };
     let first = in_order(measured, &first);
@@ -290,7 +290,7 @@ pub fn fit(
 
 /// The best few of the points spread over the bounds, evaluated at draft fidelity.
 fn coarse(
-    model: &Model<'_>,
+    model: &FitModel<'_>,
     measured: &Measured,
     used: &[usize],
     starts: usize,
@@ -321,7 +321,7 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
 }
 
 /// The distinct minima, best first.
-fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> {
+fn distinct(model: &FitModel<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> {
     let mut minima: Vec<(&[f64], Minimum)> = Vec::new();
     for (chi_squared, x, _) in found.iter().filter(|found| found.0.is_finite()) {
         let same = |other: &&mut (&[f64], Minimum)| distance(other.0, x) < SAME;
@@ -349,7 +349,7 @@ struct Reached {
 }
 
 /// Statistics at the minimum.
-fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
+fn judge(model: &FitModel<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, AnalysisError> {
     let Reached { x, at, columns, computed, curves, minima, converged } = reached;
     let count = x.len();
     let free: Vec<usize> = (0..count).filter(|k| at[*k].is_none()).collect();

@@ -30,7 +30,7 @@ pub type Computed = Result<Estimate, String>;
 
 /// A scene, the keys that are chosen, and the conditions under which it is solved.
 #[derive(Debug)]
-pub(super) struct Model<'a> {
+pub(super) struct FitModel<'a> {
     scene: &'a Scene,
     /// How it is solved.
     pub(super) settings: Settings,
@@ -50,7 +50,7 @@ struct Condition {
     asked: Vec<Observable>,
 }
 
-impl<'a> Model<'a> {
+impl<'a> FitModel<'a> {
     /// Checks the keys to be chosen, and whether the scene can be solved at the values from which the search starts.
     pub(super) fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, AnalysisError> {
         if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {

@@ -1,7 +1,7 @@
 //! The values of the unknowns at which one number is greatest or least, within limits on others.
 
 use super::measured::{Observable, named, names};
-use super::model::{Computed, Model};
+use super::model::{Computed, FitModel};
 use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
 use super::{Stopped, Tell, searched};
@@ -202,7 +202,7 @@ impl Scan {
 
 /// The problem in the form that the library needs.
 struct Search<'a> {
-    model: &'a Model<'a>,
+    model: &'a FitModel<'a>,
     goal: &'a Goal,
     size: f64,
     lower: Vec<f64>,
@@ -285,7 +285,7 @@ pub fn optimise(
     settings: &Settings,
     (starts, cancel, told): (usize, &Cancel, Tell<'_>),
 ) -> Result<Option<Optimum>, AnalysisError> {
-    let model = Model::new(scene, bounds, settings)?.asking(goal.asked());
+    let model = FitModel::new(scene, bounds, settings)?.asking(goal.asked());
     let own = model.start();
     let points: Vec<Vec<f64>> =
         std::iter::once(own.clone()).chain(spread(own.len(), starts.saturating_sub(1))).collect();
@@ -359,7 +359,7 @@ fn no_start(reason: &str) -> AnalysisError {
 
 /// Describes the optimum at `x`, with lines through it along each unknown.
 fn describe(
-    model: &Model<'_>,
+    model: &FitModel<'_>,
     goal: &Goal,
     (own, x, at, converged): (Vec<f64>, Vec<f64>, Vec<Option<Bound>>, bool),
     cancel: &Cancel,

@@ -7,12 +7,12 @@ use std::str::FromStr;
 
 /// A part of a sweep: `3/64` is the third of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Part {
+pub struct SweepPart {
     number: usize,
     of: usize,
 }
 
-impl Part {
+impl SweepPart {
     /// The whole sweep.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
@@ -67,13 +67,13 @@ pub(super) fn chunk(axes: &[Axis], number: usize) -> Range<usize> {
     start(axes, number)..start(axes, number + 1)
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for SweepPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.number, self.of)
     }
 }
 
-impl FromStr for Part {
+impl FromStr for SweepPart {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -99,10 +99,10 @@ mod tests {
         let vary = ["motor.waves=5:8:4", "film.min_spacing_nm=100:150:6"].map(|text| text.parse().unwrap());
         let sweep = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         for of in [1, 2, 3, 7, 8, 9, 64] {
-            let points: Vec<Range<usize>> = Part::all(of).map(|part| sweep.points_of(part)).collect();
+            let points: Vec<Range<usize>> = SweepPart::all(of).map(|part| sweep.points_of(part)).collect();
             assert_eq!(points.iter().cloned().flatten().collect::<Vec<_>>(), (0..sweep.len()).collect::<Vec<_>>());
             let starts: Vec<usize> =
-                Part::WHOLE.chunks(sweep.axes()).map(|number| start(sweep.axes(), number)).collect();
+                SweepPart::WHOLE.chunks(sweep.axes()).map(|number| start(sweep.axes(), number)).collect();
             assert!(points.iter().all(|points| points.is_empty() || starts.contains(&points.start)), "{points:?}");
         }
     }
@@ -116,7 +116,7 @@ mod tests {
         let of = |part: &str| Sweep::of_part(&scene, &vary, &Settings::default(), part.parse().unwrap());
         let (first, last) = (of("1/2000").unwrap(), of("2000/2000").unwrap());
         assert_eq!((first.len(), first.fingerprint()), (101_000_000, last.fingerprint()));
-        let points: Vec<Range<usize>> = Part::all(2000).map(|part| first.points_of(part)).collect();
+        let points: Vec<Range<usize>> = SweepPart::all(2000).map(|part| first.points_of(part)).collect();
         assert!(points.windows(2).all(|pair| pair[0].end == pair[1].start && pair[0].len().abs_diff(50_500) < 101));
         assert_eq!((points[0].start, points[1999].end), (0, first.len()));
         assert_eq!(first.values(first.len() - 1), [5.0, 500.0, 100.0]);
@@ -129,9 +129,9 @@ mod tests {
 
     #[test]
     fn what_is_no_part_is_told() {
-        assert_eq!("3/64".parse::<Part>().map(|part| part.to_string()), Ok("3/64".to_owned()));
+        assert_eq!("3/64".parse::<SweepPart>().map(|part| part.to_string()), Ok("3/64".to_owned()));
         for wrong in ["0/4", "5/4", "3", "a/b", "1/0", "1/100001"] {
-            assert!(wrong.parse::<Part>().unwrap_err().starts_with(&format!("part = {wrong}")), "{wrong}");
+            assert!(wrong.parse::<SweepPart>().unwrap_err().starts_with(&format!("part = {wrong}")), "{wrong}");
         }
     }
 }

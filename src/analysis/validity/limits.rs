@@ -68,7 +68,7 @@ pub(in crate::analysis) fn known_names<'de, D: serde::Deserializer<'de>>(
 
 /// One limit that a scene exceeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Excess {
+pub struct ExceededLimit {
     /// Its name in JSON: `gas-inertia`.
     pub name: &'static str,
     /// The number, which exceeds …
@@ -105,7 +105,7 @@ impl Film<'_> {
         self.omega * self.density() * self.gap * self.gap / (12.0 * self.gas.viscosity)
     }
 
-    pub(super) fn inertia(&self) -> Option<Excess> {
+    pub(super) fn inertia(&self) -> Option<ExceededLimit> {
         let value = self.reynolds();
         let sigma = 12.0 * self.gas.viscosity * self.omega * (self.side / self.gap).powi(2) / self.gas.ambient_pressure;
         let (limit, text) = if value > INERTIA {
@@ -128,7 +128,7 @@ impl Film<'_> {
         excess("gas-inertia", value, limit, "", text)
     }
 
-    pub(super) fn heat(&self) -> Option<Excess> {
+    pub(super) fn heat(&self) -> Option<ExceededLimit> {
         let diffusivity = self.gas.viscosity / (self.density() * self.gas.ideal.prandtl);
         let depth = (2.0 * diffusivity / self.omega).sqrt();
         let value = self.gap / depth;
@@ -142,7 +142,7 @@ impl Film<'_> {
         excess("isothermal", value, THERMAL_DEPTHS, "", text)
     }
 
-    pub(super) fn slip(&self) -> Option<Excess> {
+    pub(super) fn slip(&self) -> Option<ExceededLimit> {
         let gas = self.gas;
         let value = gas.mean_free_path / self.closed;
         let limit = SlipLaw::of(gas).knudsen_limit();
@@ -166,7 +166,7 @@ impl Film<'_> {
         excess("slip-law", value, limit, "", text)
     }
 
-    pub(super) fn sound(&self) -> Option<Excess> {
+    pub(super) fn sound(&self) -> Option<ExceededLimit> {
         let gas = &self.gas.ideal;
         let wavelength = TAU * gas.speed_of_sound() / self.omega;
         let value = self.side / wavelength;
@@ -190,7 +190,7 @@ impl Film<'_> {
         excess("sound", value, limit, "", text)
     }
 
-    pub(super) fn thinness(&self) -> Option<Excess> {
+    pub(super) fn thinness(&self) -> Option<ExceededLimit> {
         let value = self.gap / self.side;
         let text = format!(
             "A film {} µm thick is not thin under a {} {} mm across: the gas beyond the edges, which is left out, makes it act as if {} % \
@@ -209,7 +209,7 @@ pub fn mach(motor: &Motor) -> f64 {
     (motor.rotor_speed.abs() + TAU * motor.frequency * motor.tangential_amplitude) / motor.gas.ideal.speed_of_sound()
 }
 
-pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
+pub(super) fn sliding(motor: &Motor) -> Option<ExceededLimit> {
     let (value, gas) = (mach(motor), &motor.gas.ideal);
     let text = format!(
         "The faces slide at up to {} m/s, {} times the speed of sound ({}): shear warms the gas by some {} %, and it is not \
@@ -223,7 +223,7 @@ pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
 }
 
 /// `natural`: the lowest natural frequency of the rotor for each of the first harmonics \[Hz\].
-pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
+pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<ExceededLimit> {
     let ratio = |(n, natural): &(u32, &f64)| f64::from(*n) * motor.frequency / **natural;
     let nearest = (1..).zip(natural).max_by(|a, b| ratio(a).total_cmp(&ratio(b)))?;
     let value = ratio(&nearest);
@@ -247,7 +247,7 @@ pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
 }
 
 /// `pressure`: the highest of the gas \[Pa\].
-pub(super) fn dense(pressure: f64) -> Option<Excess> {
+pub(super) fn dense(pressure: f64) -> Option<ExceededLimit> {
     let value = pressure * 1e-6;
     let text = format!(
         "At a pressure of {} MPa the gas is neither ideal nor as viscous as at ambient pressure, which the film equation assumes.",
@@ -257,7 +257,7 @@ pub(super) fn dense(pressure: f64) -> Option<Excess> {
 }
 
 /// `pressure`: the greatest contact pressure \[Pa\].
-pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
+pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<ExceededLimit> {
     let value = pressure * 1e-6;
     // For a ring, the face is the underside of its lowest part.
     let lowest = match &motor.rotor {
@@ -286,7 +286,7 @@ pub(super) fn stress(motor: &Motor, pressure: f64) -> Option<Excess> {
 }
 
 /// `closed`: the least film thickness \[m\].
-pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
+pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<ExceededLimit> {
     let surface = &motor.surface;
     let rms = surface.asperities.map(|asperities| asperities.summits().rms).or(surface.flow.map(|flow| flow.rms))?;
     let separation =
@@ -301,7 +301,7 @@ pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
     excess("roughness", value, ROUGHNESS, "", text)
 }
 
-pub(super) fn curvature(motor: &Motor) -> Option<Excess> {
+pub(super) fn curvature(motor: &Motor) -> Option<ExceededLimit> {
     let value = motor.contact_width / motor.contact_radius;
     let text = format!(
         "The contact is {} mm wide round a radius of {} mm: the teeth are not rectangles there, and at the edges of the contact the wave is \
@@ -313,7 +313,7 @@ pub(super) fn curvature(motor: &Motor) -> Option<Excess> {
     excess("curvature", value, CURVATURE, "", text)
 }
 
-pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
+pub(super) fn nearness(plate: &Plate) -> Option<ExceededLimit> {
     let text = format!(
         "The plate comes within {} nm of the wall: the load holds only for faces smoother and more parallel than that, and 1 % of gap or \
          amplitude changes it by 7 % or more.",
@@ -322,6 +322,6 @@ pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
 }
 
-fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {
-    (value > limit).then_some(Excess { name, value, limit, unit, text })
+fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<ExceededLimit> {
+    (value > limit).then_some(ExceededLimit { name, value, limit, unit, text })
 }

@@ -5,14 +5,14 @@ use super::description::Figure;
 use super::layout::Layout;
 use super::panel;
 use super::placed::{FOOT, TITLE};
-use super::svg::{Picture, Svg, Type};
+use super::svg::{Raster, Svg, Type};
 
 /// A figure as it is drawn: the part that is common to all formats.
 pub(super) struct Drawing {
     /// Width and height \[pt\].
     pub(super) size: [f64; 2],
     /// Pictures, which are below everything else.
-    pub(super) pictures: Vec<Picture>,
+    pub(super) pictures: Vec<Raster>,
     /// The elements of an SVG, without its root.
     pub(super) body: String,
 }

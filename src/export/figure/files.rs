@@ -6,7 +6,7 @@ use super::error::{FigureError, MOST, Pixels};
 use super::placed::MM;
 use super::plane::PRINT;
 use super::render;
-use super::svg::{Picture, Rect, coordinate, escaped};
+use super::svg::{Raster, Rect, coordinate, escaped};
 use super::text::{FAMILIES, plain};
 
 use base64::Engine as _;
@@ -167,7 +167,7 @@ impl Drawing {
 }
 
 /// A picture as an SVG element that contains its pixels.
-fn image(svg: &mut String, picture: &Picture) {
+fn image(svg: &mut String, picture: &Raster) {
     let Ok(bytes) = png_bytes(&picture.pixels, None, &[]) else { return };
     let Rect { x, y, width, height } = picture.rect;
     let [x, y, width, height] = [x, y, width, height].map(coordinate);

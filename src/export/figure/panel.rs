@@ -15,7 +15,7 @@ use super::placed::{
 use super::plane;
 use super::scale::{Scaled, Ticks, on_contour};
 use super::style::Style;
-use super::svg::{Picture, Rect, Svg, Type, escaped};
+use super::svg::{Raster, Rect, Svg, Type, escaped};
 use super::text;
 use crate::ticks::Steps;
 
@@ -31,14 +31,14 @@ const RIM: f64 = 4.0;
 const HALF_HEIGHT: f64 = 0.35;
 
 /// Draws the panel's pictures, which are below everything else.
-pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Picture> {
+pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Raster> {
     let Placed { rect, x, y, .. } = placed;
     let of = |layer: &Layer| match layer {
         Layer::Map(map) => plane::map(map, rect, &x.range, &y.range, &map_range(map)),
         Layer::Categories(kinds) => plane::categories(kinds, rect, &x.range, &y.range),
         _ => None,
     };
-    let mut pictures: Vec<Picture> = panel.layers.iter().filter_map(of).collect();
+    let mut pictures: Vec<Raster> = panel.layers.iter().filter_map(of).collect();
     if let (Some(bar), Some(map)) = (&placed.bar, first_map(panel)) {
         pictures.push(plane::bar(map.colours, &bar.rect, bar.upright));
     }

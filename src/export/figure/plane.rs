@@ -4,7 +4,7 @@ use super::colour::{Colour, Colours};
 use super::error::Pixels;
 use super::layers::{Categories, Grid, Map, Shading};
 use super::scale::Scaled;
-use super::svg::{Picture, Rect};
+use super::svg::{Raster, Rect};
 
 /// Pixels per point in print: 300 per inch.
 pub const PRINT: f64 = 300.0 / 72.0;
@@ -61,7 +61,7 @@ fn paint(
     axes: [(&[f64], &Scaled); 2],
     shading: Shading,
     colour: impl Fn((usize, f64), (usize, f64)) -> Option<Colour>,
-) -> Picture {
+) -> Raster {
     let size = [rect.width, rect.height].map(|length| (length * PRINT).round().clamp(1.0, MOST) as usize);
     let [(x, x_axis), (y, y_axis)] = axes;
     let columns = places(x, x_axis, size[0], shading, false);
@@ -75,11 +75,11 @@ fn paint(
         }
     }
     let [width, height] = size.map(|count| count as u32);
-    Picture { rect: *rect, pixels: Pixels { width, height, rgb } }
+    Raster { rect: *rect, pixels: Pixels { width, height, rgb } }
 }
 
 /// The picture of a map; `None` if its nodes and values do not agree.
-pub(super) fn map(map: &Map, rect: &Rect, x: &Scaled, y: &Scaled, range: &Scaled) -> Option<Picture> {
+pub(super) fn map(map: &Map, rect: &Rect, x: &Scaled, y: &Scaled, range: &Scaled) -> Option<Raster> {
     let Grid { x: xs, y: ys, values } = &map.grid;
     if !fits(xs, ys, values.len()) {
         return None;
@@ -99,7 +99,7 @@ pub(super) fn map(map: &Map, rect: &Rect, x: &Scaled, y: &Scaled, range: &Scaled
 }
 
 /// The picture of categories; `None` if nodes and values do not agree.
-pub(super) fn categories(kinds: &Categories, rect: &Rect, x: &Scaled, y: &Scaled) -> Option<Picture> {
+pub(super) fn categories(kinds: &Categories, rect: &Rect, x: &Scaled, y: &Scaled) -> Option<Raster> {
     if !fits(&kinds.x, &kinds.y, kinds.values.len()) {
         return None;
     }
@@ -110,7 +110,7 @@ pub(super) fn categories(kinds: &Categories, rect: &Rect, x: &Scaled, y: &Scaled
 }
 
 /// The picture of a colour bar, from left to right or from bottom to top.
-pub(super) fn bar(colours: Colours, rect: &Rect, upright: bool) -> Picture {
+pub(super) fn bar(colours: Colours, rect: &Rect, upright: bool) -> Raster {
     let count = 256;
     let mut ramp: Vec<Colour> = (0..count).map(|i| colours.at((f64::from(i) + 0.5) / f64::from(count))).collect();
     if upright {
@@ -118,7 +118,7 @@ pub(super) fn bar(colours: Colours, rect: &Rect, upright: bool) -> Picture {
     }
     let (width, height) = if upright { (1, count) } else { (count, 1) };
     let rgb = ramp.into_iter().flat_map(|Colour(r, g, b)| [r, g, b]).collect();
-    Picture { rect: *rect, pixels: Pixels { width, height, rgb } }
+    Raster { rect: *rect, pixels: Pixels { width, height, rgb } }
 }
 
 #[cfg(test)]
@@ -129,7 +129,7 @@ mod tests {
     const UNIT: Scaled = Scaled { from: 0.0, to: 1.0, scale: Scale::Linear };
     const RECT: Rect = Rect { x: 0.0, y: 0.0, width: 24.0, height: 12.0 };
 
-    fn pixel(picture: &Picture, x: f64, y: f64) -> Colour {
+    fn pixel(picture: &Raster, x: f64, y: f64) -> Colour {
         let Pixels { width, height, rgb } = &picture.pixels;
         let (i, j) = ((x * f64::from(*width)) as usize, ((1.0 - y) * f64::from(*height)) as usize);
         let at = 3 * (j * *width as usize + i);

@@ -2,7 +2,7 @@
 
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
-use super::svg::{Picture, Rect};
+use super::svg::{Raster, Rect};
 use crate::platform::{dejavu, liberation};
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
@@ -41,7 +41,7 @@ fn tree(svg: &str) -> Result<Tree, FigureError> {
 }
 
 /// Draws a picture at its position.
-fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
+fn stamp(pixmap: &mut Pixmap, picture: &Raster, scale: f64) {
     let Rect { x, y, width, height } = picture.rect;
     let Pixels { width: columns, height: rows, rgb } = &picture.pixels;
     let Some(mut stamp) = Pixmap::new(*columns, *rows) else { return };
@@ -110,7 +110,7 @@ pub(super) fn pdf(pages: &[(Drawing, String)], facts: &[(&str, String)]) -> Resu
         operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
         operations.x_object(Name(b"Drawing"));
         pdf.stream(content, &operations.finish());
-        for (image, Picture { pixels, .. }) in images.iter().zip(pictures) {
+        for (image, Raster { pixels, .. }) in images.iter().zip(pictures) {
             let packed = deflated(&pixels.rgb).map_err(|error| failed(&error))?;
             let mut object = pdf.image_xobject(*image, &packed);
             object.filter(Filter::FlateDecode);

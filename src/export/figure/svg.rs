@@ -41,7 +41,7 @@ impl Rect {
 }
 
 /// A picture under the drawing.
-pub(super) struct Picture {
+pub(super) struct Raster {
     pub(super) rect: Rect,
     pub(super) pixels: Pixels,
 }

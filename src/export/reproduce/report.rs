@@ -8,7 +8,7 @@ use crate::analysis::validity::outside;
 use crate::digits::change;
 use crate::export::compare::{again, limits};
 use crate::export::figure::Figure;
-use crate::export::html::{Kind, Page, Table};
+use crate::export::html::{CellKind, Page, Table};
 use crate::solution::{Solution, Status};
 
 const KICKER: &str = "squeezefilm · the paper, reproduced";
@@ -53,19 +53,19 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
 
     page.section("What the text says, checked");
     let mut table = Table::default().heads([
-        (Kind::Words, "the paper says"),
-        (Kind::Words, "published"),
-        (Kind::Words, "paper's algorithm"),
-        (Kind::Words, "converged"),
-        (Kind::Words, ""),
+        (CellKind::Words, "the paper says"),
+        (CellKind::Words, "published"),
+        (CellKind::Words, "paper's algorithm"),
+        (CellKind::Words, "converged"),
+        (CellKind::Words, ""),
     ]);
     for statement in statements(all) {
         table.row([
-            (Kind::Words, statement.says.to_owned()),
-            (Kind::Words, statement.published),
-            (Kind::Words, glued(&statement.paper)),
-            (Kind::Words, glued(&statement.converged)),
-            (Kind::Quiet, statement.verdict.to_owned()),
+            (CellKind::Words, statement.says.to_owned()),
+            (CellKind::Words, statement.published),
+            (CellKind::Words, glued(&statement.paper)),
+            (CellKind::Words, glued(&statement.converged)),
+            (CellKind::Quiet, statement.verdict.to_owned()),
         ]);
     }
     page.table(&table);
@@ -171,31 +171,31 @@ fn table1(all: &Reproduction) -> Table {
     let mut table = Table::default()
         .groups([(1, ""), (2, "published"), (3, "paper's algorithm, paper's meshes"), (3, "converged")])
         .heads([
-            (Kind::Words, "changed"),
-            (Kind::Number, "load, N"),
-            (Kind::Number, "α"),
-            (Kind::Number, "load, N"),
-            (Kind::Number, "α"),
-            (Kind::Number, "difference"),
-            (Kind::Number, "load, N"),
-            (Kind::Number, "α"),
-            (Kind::Number, "difference"),
+            (CellKind::Words, "changed"),
+            (CellKind::Number, "load, N"),
+            (CellKind::Number, "α"),
+            (CellKind::Number, "load, N"),
+            (CellKind::Number, "α"),
+            (CellKind::Number, "difference"),
+            (CellKind::Number, "load, N"),
+            (CellKind::Number, "α"),
+            (CellKind::Number, "difference"),
         ]);
     for row in &all.rows {
         let mut cells = vec![
-            (Kind::Words, row_name(row)),
-            (Kind::Number, format!("{:.3}", row.published.published_load_n)),
-            (Kind::Number, format!("{:.3}", row.published.published_alpha)),
+            (CellKind::Words, row_name(row)),
+            (CellKind::Number, format!("{:.3}", row.published.published_load_n)),
+            (CellKind::Number, format!("{:.3}", row.published.published_alpha)),
         ];
-        for (solved, places, kind) in [(&row.both.paper, 3, Kind::Number), (&row.both.ours, 4, Kind::Strong)] {
+        for (solved, places, kind) in [(&row.both.paper, 3, CellKind::Number), (&row.both.ours, 4, CellKind::Strong)] {
             match Both::result(solved).filter(|result| result.film_load.value.is_finite()) {
                 Some(result) => {
                     let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
-                    cells.push((Kind::Number, format!("{:.places$}", result.film_load.value)));
-                    cells.push((if sound { kind } else { Kind::Alarm }, result.alpha.to_string()));
-                    cells.push((Kind::Number, change(row.published.difference_percent(result.film_load), 1)));
+                    cells.push((CellKind::Number, format!("{:.places$}", result.film_load.value)));
+                    cells.push((if sound { kind } else { CellKind::Alarm }, result.alpha.to_string()));
+                    cells.push((CellKind::Number, change(row.published.difference_percent(result.film_load), 1)));
                 }
-                _ => cells.extend(["failed", "", ""].map(|words| (Kind::Alarm, words.to_owned()))),
+                _ => cells.extend(["failed", "", ""].map(|words| (CellKind::Alarm, words.to_owned()))),
             }
         }
         table.row(cells);

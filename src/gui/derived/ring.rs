@@ -62,7 +62,7 @@ impl Orbit {
 
 /// The part of the drawing that a face belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum DrawnPart {
     /// The top of a tooth, with the film pressure at its two ends \[Pa\].
     Film([f64; 2]),
     /// The rest of the stator.
@@ -77,12 +77,12 @@ pub enum Part {
 
 /// A visible face.
 #[derive(Clone, Copy, Debug)]
-pub struct Face {
+pub struct DrawnFace {
     /// Its corners, counter-clockwise, as (right, up) in contact radii: the first and the last are at one end of it along the ring, the other two
     /// at the other end.
     pub corners: [[f64; 2]; 4],
     /// The part that it belongs to.
-    pub part: Part,
+    pub part: DrawnPart,
     /// Brightness, 0 to 1.
     pub light: f64,
     near: f64,
@@ -215,15 +215,15 @@ impl Ring<'_> {
     }
 
     /// All faces that are seen, in the order in which they are painted.
-    pub fn faces(&self, seen: Orbit) -> Vec<Face> {
+    pub fn faces(&self, seen: Orbit) -> Vec<DrawnFace> {
         let (scale, tall) = (self.scale(), self.tall());
         let z = |height: f64| (height - self.heights[0]) * scale - 0.5 * tall;
         let top = 0.5 * tall;
         let stations = self.stator();
         let mut stator = Slab::new(self, seen);
-        stator.add(&stations, |station| [z(self.heights[0]), z(station.height)], Part::Stator);
+        stator.add(&stations, |station| [z(self.heights[0]), z(station.height)], DrawnPart::Stator);
         let mut rotor = Slab::new(self, seen);
-        rotor.add(&self.rotor(&stations), |station| [z(station.height) + LIFT, top], Part::Rotor);
+        rotor.add(&self.rotor(&stations), |station| [z(station.height) + LIFT, top], DrawnPart::Rotor);
         let (stator, mut rotor) = (stator.painted(), rotor.painted());
         let motor = self.motor;
         if motor.rotor_speed != 0.0 {
@@ -249,7 +249,7 @@ struct Cut {
 struct Slab<'a> {
     ring: &'a Ring<'a>,
     seen: Orbit,
-    faces: Vec<Face>,
+    faces: Vec<DrawnFace>,
 }
 
 impl<'a> Slab<'a> {
@@ -258,13 +258,13 @@ impl<'a> Slab<'a> {
     }
 
     /// Far faces first.
-    fn painted(mut self) -> Vec<Face> {
+    fn painted(mut self) -> Vec<DrawnFace> {
         self.faces.sort_by(|a, b| a.near.total_cmp(&b.near));
         self.faces
     }
 
     /// A body from `of(station)[0]` up to `of(station)[1]`, all round the ring.
-    fn add(&mut self, stations: &[Station], of: impl Fn(&Station) -> [f64; 2], part: Part) {
+    fn add(&mut self, stations: &[Station], of: impl Fn(&Station) -> [f64; 2], part: DrawnPart) {
         let recording = self.ring.recording;
         let waves = self.ring.motor.waves.max(1);
         let angle = TAU / (f64::from(waves) * recording.length);
@@ -274,9 +274,9 @@ impl<'a> Slab<'a> {
             let cut = |station: &Station| self.cut(turn + angle * (station.x - middle), of(station));
             let cuts: Vec<Cut> = stations.iter().map(cut).collect();
             for (ends, cuts) in stations.windows(2).zip(cuts.windows(2)) {
-                let film = ends[0].pressure.zip(ends[1].pressure).map(|(a, b)| Part::Film([a, b]));
+                let film = ends[0].pressure.zip(ends[1].pressure).map(|(a, b)| DrawnPart::Film([a, b]));
                 let followed = wave == 0 && ends.iter().all(|station| station.tooth == self.ring.followed);
-                let side = if followed && part == Part::Stator { Part::Followed } else { part };
+                let side = if followed && part == DrawnPart::Stator { DrawnPart::Followed } else { part };
                 self.block([cuts[0], cuts[1]], film.unwrap_or(side), if film.is_some() { side } else { part });
             }
         }
@@ -293,7 +293,7 @@ impl<'a> Slab<'a> {
     }
 
     /// One piece of a body between two cuts; the top is of `top`, the sides of `side`.
-    fn block(&mut self, cuts: [Cut; 2], top: Part, side: Part) {
+    fn block(&mut self, cuts: [Cut; 2], top: DrawnPart, side: DrawnPart) {
         let outside = cuts[0].light;
         self.push(top, cuts, [3, 2], 1.0);
         self.push(side, cuts, [0, 1], 0.45);
@@ -306,20 +306,20 @@ impl<'a> Slab<'a> {
         for mark in 0..MARKS {
             let from = turned + TAU * f64::from(mark) / f64::from(MARKS);
             let cuts = [from, from + MARK].map(|angle| self.cut(angle, [top - MARK_HEIGHT, top]));
-            self.push(Part::Mark, cuts, [3, 2], 1.0);
-            self.push(Part::Mark, cuts, [1, 3], 1.0);
+            self.push(DrawnPart::Mark, cuts, [3, 2], 1.0);
+            self.push(DrawnPart::Mark, cuts, [1, 3], 1.0);
         }
     }
 
     /// Adds the face between two cuts from one of their corners to the other, counter-clockwise from outside, if it is seen.
-    fn push(&mut self, part: Part, [from, to]: [Cut; 2], [one, other]: [usize; 2], light: f64) {
+    fn push(&mut self, part: DrawnPart, [from, to]: [Cut; 2], [one, other]: [usize; 2], light: f64) {
         let corners = [from.corners[one], to.corners[one], to.corners[other], from.corners[other]];
         let near = corners.iter().map(|corner| corner[2]).sum();
         let corners = corners.map(|[right, up, _]| [right, up]);
         let [a, b, c, d] = corners;
         let area = (c[0] - a[0]) * (d[1] - b[1]) - (d[0] - b[0]) * (c[1] - a[1]);
         if area > 1e-9 {
-            self.faces.push(Face { corners, part, light, near });
+            self.faces.push(DrawnFace { corners, part, light, near });
         }
     }
 }
@@ -381,8 +381,8 @@ mod tests {
         Orbit { azimuth, elevation }
     }
 
-    fn films(faces: &[Face]) -> impl Iterator<Item = (&Face, [f64; 2])> {
-        faces.iter().filter_map(|face| if let Part::Film(ends) = face.part { Some((face, ends)) } else { None })
+    fn films(faces: &[DrawnFace]) -> impl Iterator<Item = (&DrawnFace, [f64; 2])> {
+        faces.iter().filter_map(|face| if let DrawnPart::Film(ends) = face.part { Some((face, ends)) } else { None })
     }
 
     #[test]
@@ -406,14 +406,14 @@ mod tests {
         with_ring(7, 9, |ring| {
             // Seen from the side, only heights show, and the rotor is lifted off the stator.
             let faces = ring.faces(from(0.0, 1e-6));
-            let ends = |part: fn(&Part) -> bool| {
+            let ends = |part: fn(&DrawnPart) -> bool| {
                 let up = faces.iter().filter(|face| part(&face.part)).flat_map(|face| face.corners.map(|at| at[1]));
                 up.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
             };
             let metre = 1000.0 / ring.motor.contact_radius;
-            let [bottom, stator] = ends(|part| matches!(part, Part::Stator | Part::Followed));
+            let [bottom, stator] = ends(|part| matches!(part, DrawnPart::Stator | DrawnPart::Followed));
             assert!((stator - bottom - (4e-6 + ring.motor.normal_amplitude) * metre).abs() < 1e-4);
-            let [underside, top] = ends(|part| *part == Part::Rotor);
+            let [underside, top] = ends(|part| *part == DrawnPart::Rotor);
             assert!((underside - stator - LIFT - (2.3e-6 - ring.motor.normal_amplitude) * metre).abs() < 1e-4);
             assert!((top - bottom - LIFT - 8e-6 * metre).abs() < 1e-4);
             for elevation in [-1.0, 0.0, 0.5, 1.5] {
@@ -427,17 +427,17 @@ mod tests {
     #[test]
     fn what_is_near_is_painted_last() {
         with_ring(7, 9, |ring| {
-            for (elevation, last) in [(0.5, Part::Rotor), (-0.5, Part::Stator)] {
+            for (elevation, last) in [(0.5, DrawnPart::Rotor), (-0.5, DrawnPart::Stator)] {
                 let faces = ring.faces(from(0.4, elevation));
-                let rotor = |face: &Face| face.part == Part::Rotor;
+                let rotor = |face: &DrawnFace| face.part == DrawnPart::Rotor;
                 let changes = faces.windows(2).filter(|pair| rotor(&pair[0]) != rotor(&pair[1])).count();
-                assert_eq!((changes, rotor(faces.last().unwrap())), (1, last == Part::Rotor));
+                assert_eq!((changes, rotor(faces.last().unwrap())), (1, last == DrawnPart::Rotor));
                 let ordered = faces.windows(2).filter(|pair| pair[0].near > pair[1].near).count();
                 assert!(ordered <= 1, "only where one body begins");
             }
             // The middle of the first wave is in front, where a tooth that is followed has its walls.
             let faces = ring.faces(from(0.0, 0.5));
-            let mut followed = faces.iter().filter(|face| face.part == Part::Followed).peekable();
+            let mut followed = faces.iter().filter(|face| face.part == DrawnPart::Followed).peekable();
             assert!(followed.peek().is_some() && followed.all(|face| face.corners[0][0].abs() < (PI / 7.0).sin()));
         });
     }

@@ -6,13 +6,13 @@ use crate::recording::Recording;
 
 /// A curve, uniformly sampled over one cycle.
 #[derive(Debug, Default)]
-pub struct Curve {
+pub struct SampledCurve {
     values: Vec<f64>,
     /// Whether the curve is not periodic; the last value then holds to the end of the cycle.
     once: bool,
 }
 
-impl Curve {
+impl SampledCurve {
     /// A curve of one value for each frame of `recording`.
     fn new(recording: &Recording, values: impl Iterator<Item = f64>) -> Self {
         Self { values: values.collect(), once: recording.transient }
@@ -41,11 +41,11 @@ impl Curve {
 #[derive(Debug, Default)]
 pub struct ToothCurves {
     /// Least film thickness on the tooth \[m\].
-    pub thickness: Curve,
+    pub thickness: SampledCurve,
     /// Film's net gauge load \[N\].
-    pub film: Curve,
+    pub film: SampledCurve,
     /// Contact load \[N\].
-    pub contact: Curve,
+    pub contact: SampledCurve,
 }
 
 /// Ranges of the axes over a whole cycle, or over several.
@@ -104,9 +104,9 @@ impl Scales {
             let least =
                 |line: usize| span(recording.film_thickness[line * nodes..(line + 1) * nodes].iter().copied())[0];
             teeth.push(ToothCurves {
-                thickness: Curve::new(recording, all.clone().map(least)),
-                film: Curve::new(recording, all.clone().map(|line| load(line, &recording.film))),
-                contact: Curve::new(recording, all.map(|line| load(line, &recording.contact))),
+                thickness: SampledCurve::new(recording, all.clone().map(least)),
+                film: SampledCurve::new(recording, all.clone().map(|line| load(line, &recording.film))),
+                contact: SampledCurve::new(recording, all.map(|line| load(line, &recording.contact))),
             });
         }
         let loads = span(recording.film.iter().chain(&recording.contact).copied().chain([0.0]));
@@ -140,9 +140,9 @@ pub struct RunCurves {
     /// Ranges, and the curves of each tooth.
     pub scales: Scales,
     /// Film load \[N\]; for a plate, film load over its area \[Pa\].
-    pub film: Curve,
+    pub film: SampledCurve,
     /// Contact load \[N\].
-    pub contact: Curve,
+    pub contact: SampledCurve,
     /// Least and greatest line loads of contact and film \[N/m\].
     pub lines: [[f64; 2]; 2],
 }
@@ -158,8 +158,8 @@ impl RunCurves {
         };
         Self {
             scales: Scales::new(recording),
-            film: Curve::new(recording, recording.film_load.iter().map(|load| load / area)),
-            contact: Curve::new(recording, recording.contact_load.iter().copied()),
+            film: SampledCurve::new(recording, recording.film_load.iter().map(|load| load / area)),
+            contact: SampledCurve::new(recording, recording.contact_load.iter().copied()),
             lines: [&recording.contact, &recording.film].map(|field| span(field.iter().copied())),
         }
     }
@@ -236,6 +236,6 @@ mod tests {
         let scales = Scales::new(&Recording::default());
         assert_eq!(scales.ranges, Ranges::default());
         assert!(scales.tooth(0).is_none());
-        assert!(Curve::default().at(0.3).abs() < 1e-12);
+        assert!(SampledCurve::default().at(0.3).abs() < 1e-12);
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// A measured face: its heights, levelled, and their statistics.
 #[derive(Debug)]
-pub struct Face {
+pub struct MeasuredFace {
     /// Name of the file.
     pub name: String,
     /// The heights.
@@ -28,7 +28,7 @@ pub struct Face {
 /// Key of the least gap that roughness leaves at a hard stop.
 const SPACING: &str = "film.min_spacing_nm";
 
-impl Face {
+impl MeasuredFace {
     /// The roughness of a pair of faces like this one: those of its keys that `scene` has, with their values.
     pub fn roughness(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
         let spacing = (SPACING, rounded(self.pair.min_spacing * 1e9, 4));
@@ -44,7 +44,7 @@ pub struct FaceState {
     /// That file, and the purpose for which it was opened.
     asked: Option<(Purpose, PathBuf)>,
     /// The face.
-    pub found: Option<Arc<Face>>,
+    pub found: Option<Arc<MeasuredFace>>,
 }
 
 impl FaceState {
@@ -63,7 +63,7 @@ impl FaceState {
                 let (map, texture) = found?;
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 let pair = Pair::of(&texture, &texture);
-                self.found = Some(Arc::new(Face { name, map, pair, texture }));
+                self.found = Some(Arc::new(MeasuredFace { name, map, pair, texture }));
                 None
             }
             Err(why) => Some((purpose, path, why)),

@@ -216,14 +216,14 @@ pub(super) fn room(ui: &mut Ui) -> Option<Rect> {
 }
 
 /// Drawings below each other, with numbers at the left of them.
-pub(super) struct Column {
+pub(super) struct DrawingStack {
     /// Horizontal range of the drawings, without the numbers.
     pub(super) x: Rangef,
     /// Bottom of the last drawing.
     pub(super) bottom: f32,
 }
 
-impl Column {
+impl DrawingStack {
     /// An empty column in `area`.
     pub(super) fn of(area: Rect, style: &PlotStyle) -> Self {
         let x = Rangef::new(area.left() + style.gutter, area.right() - 0.5 * style.row);

@@ -1,10 +1,10 @@
 //! What the window uses of its surroundings: clock and date, file dialogs, and the effort of measurements. Tests replace them.
 
-use super::storage::Place;
+use super::storage::StoragePlace;
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::platform::window::Parent;
-use crate::platform::{Asked, FileDialog, HAS_FILES, Instant, SystemTime};
+use crate::platform::{DialogKind, FileDialog, HAS_FILES, Instant, SystemTime};
 use crate::problem::Problem;
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ pub struct Platform {
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
     /// Where the state is kept for the next window.
-    pub storage: Place,
+    pub storage: StoragePlace,
     /// Settings to measure for the trade-off, and the effort.
     pub measure: fn(&Problem) -> (Vec<Candidate>, Effort),
 }
@@ -38,7 +38,7 @@ impl Default for Platform {
             now: Instant::now,
             date: SystemTime::now,
             ask: native_dialog,
-            storage: Place::Browser,
+            storage: StoragePlace::Browser,
             measure: |problem| (candidates(problem), Effort::default()),
         }
     }
@@ -54,9 +54,9 @@ fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
     // The buttons of the system's dialog say what it is for.
     let title = if matches!(purpose, Purpose::Picture(_) | Purpose::Save(_)) { "Save" } else { purpose.title() };
     let asked = match (filter, purpose.writes()) {
-        (None, _) => Asked::Folder,
-        (Some(_), true) => Asked::NewFile,
-        (Some(_), false) => Asked::File,
+        (None, _) => DialogKind::Folder,
+        (Some(_), true) => DialogKind::NewFile,
+        (Some(_), false) => DialogKind::File,
     };
     match start.parent.ask(&FileDialog { asked, title, filter, name: &start.name }) {
         Some(path) => Answer::Path(path),

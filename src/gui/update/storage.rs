@@ -18,7 +18,7 @@ pub const NOT_KEPT: &str = "What you change is not kept for the next start of th
 
 /// Where a window keeps its state.
 #[derive(Clone, Debug)]
-pub enum Place {
+pub enum StoragePlace {
     /// In the browser, by eframe.
     Browser,
     /// In this file.

@@ -44,7 +44,7 @@ pub struct Snapshot {
 
 /// Request of the hand to a held plate. Only the newest counts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Target {
+pub(super) struct HandTarget {
     pub(super) gap: f64,
     /// Seconds for a second of the film.
     pub(super) slowed: f64,
@@ -55,7 +55,7 @@ pub(super) struct Target {
     pub(super) paused: bool,
 }
 
-impl Target {
+impl HandTarget {
     /// Held at the mean gap.
     pub(super) fn first(plate: &Plate, slowed: f64) -> Self {
         Self { gap: plate.mean_gap, slowed, reset: false, free: None, paused: false }
@@ -80,7 +80,7 @@ impl Follower {
     }
 
     /// Whether neither the plate nor the pressure moves, or neither may.
-    pub(super) fn rests(&self, target: &Target) -> bool {
+    pub(super) fn rests(&self, target: &HandTarget) -> bool {
         let still = match target.free {
             Some(vibrates) => !vibrates && self.hold.is_still(),
             None => (target.gap - self.hold.gap()).abs() <= THERE * self.hold.gap(),
@@ -89,7 +89,7 @@ impl Follower {
     }
 
     /// Marches the film to the time `began`. If that fails, the film is put to rest.
-    pub(super) fn tick(&mut self, target: &Target, began: Instant) -> Snapshot {
+    pub(super) fn tick(&mut self, target: &HandTarget, began: Instant) -> Snapshot {
         let hold = &mut self.hold;
         let passed = self.last.map_or(TICK, |last| began.saturating_duration_since(last));
         self.last = Some(began);

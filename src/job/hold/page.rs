@@ -1,6 +1,6 @@
 //! A held plate of a page: its film is marched when its snapshots are taken, before each redraw.
 
-use super::follower::{Follower, Snapshot, TICK, Target};
+use super::follower::{Follower, HandTarget, Snapshot, TICK};
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::cell::RefCell;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A held plate.
 pub struct HeldPlate {
     pub(super) plate: Plate,
-    held: RefCell<(Follower, Target)>,
+    held: RefCell<(Follower, HandTarget)>,
     now: fn() -> Instant,
     wake: Box<dyn Fn()>,
 }
@@ -30,12 +30,12 @@ impl HeldPlate {
         now: fn() -> Instant,
         wake: impl Fn() + Send + 'static,
     ) -> std::io::Result<(Self, Snapshot)> {
-        let (follower, target) = (Follower::new(&plate), Target::first(&plate, slowed));
+        let (follower, target) = (Follower::new(&plate), HandTarget::first(&plate, slowed));
         let first = follower.snapshot(None);
         Ok((Self { plate, held: RefCell::new((follower, target)), now, wake: Box::new(wake) }, first))
     }
 
-    pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
+    pub(super) fn ask(&self, change: impl FnOnce(&mut HandTarget)) {
         change(&mut self.held.borrow_mut().1);
         (self.wake)();
     }

@@ -1,6 +1,6 @@
 //! A held plate of a process: a named thread marches its film.
 
-use super::follower::{Follower, SNAPSHOTS, Snapshot, TICK, Target};
+use super::follower::{Follower, HandTarget, SNAPSHOTS, Snapshot, TICK};
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::collections::VecDeque;
@@ -10,7 +10,7 @@ use std::thread::JoinHandle;
 
 #[derive(Debug)]
 struct Shared {
-    target: Mutex<Target>,
+    target: Mutex<HandTarget>,
     closed: AtomicBool,
     changed: Condvar,
     published: Mutex<VecDeque<Arc<Snapshot>>>,
@@ -40,7 +40,7 @@ impl HeldPlate {
     ) -> std::io::Result<(Self, Snapshot)> {
         let follower = Follower::new(&plate);
         let first = follower.snapshot(None);
-        let target = Target::first(&plate, slowed);
+        let target = HandTarget::first(&plate, slowed);
         let shared = Arc::new(Shared {
             target: Mutex::new(target),
             closed: AtomicBool::new(false),
@@ -53,7 +53,7 @@ impl HeldPlate {
         Ok((Self { plate, shared, worker: Some(worker) }, first))
     }
 
-    pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
+    pub(super) fn ask(&self, change: impl FnOnce(&mut HandTarget)) {
         change(&mut lock(&self.shared.target));
         self.shared.changed.notify_all();
     }

@@ -2,7 +2,7 @@
 
 use super::table::{Piece, Reader, Table};
 use crate::lessons::check::{Check, Name, name, results};
-use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question, Step, Task};
+use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Question, QuestionKind, Step, Task};
 use crate::lessons::live::Live;
 use crate::scene::{Parameter, Scene, presets};
 
@@ -20,7 +20,7 @@ const START_UP: &str = "start-up";
 /// Relative deviation up to which a number counts as right, unless the lesson gives another one.
 const WITHIN: f64 = 0.2;
 /// The kinds of questions, and their names in a lesson.
-const KINDS: [(&str, Kind); 2] = [("predict", Kind::Predict), ("calculate", Kind::Calculate)];
+const KINDS: [(&str, QuestionKind); 2] = [("predict", QuestionKind::Predict), ("calculate", QuestionKind::Calculate)];
 
 /// A step as it is in the file, before its text and its blocks are read.
 pub(super) struct Raw {
@@ -133,12 +133,12 @@ impl Reader<'_> {
     /// The question of a block ```question or ```observe. The latter always has choices, and no explanation of its own.
     fn question(&mut self, table: &Table<'_>) -> Option<Question> {
         let observes = table.block == OBSERVE;
-        let kind = if observes { Kind::Observe } else { self.kind(table) };
+        let kind = if observes { QuestionKind::Observe } else { self.kind(table) };
         let ask = self.blocks(table, "ask", (!observes).then_some("what is asked"));
         let why = self.blocks(table, "why", (!observes).then_some("what is said once the answer is given"));
         let hint = self.blocks(table, "hint", None);
         let answer = if table.get("choices").is_some() || observes {
-            if kind == Kind::Calculate {
+            if kind == QuestionKind::Calculate {
                 let fault = " does not go with kind = \"calculate\": a calculation ends in a number";
                 self.key_fault(table, "choices", fault);
                 return None;
@@ -158,13 +158,13 @@ impl Reader<'_> {
         Some(Question { kind, ask, answer, hint, why })
     }
 
-    fn kind(&mut self, table: &Table<'_>) -> Kind {
-        let Some(name) = self.string(table, "kind") else { return Kind::Predict };
+    fn kind(&mut self, table: &Table<'_>) -> QuestionKind {
+        let Some(name) = self.string(table, "kind") else { return QuestionKind::Predict };
         let found = KINDS.iter().find(|(known, _)| *known == name);
         if found.is_none() {
             self.not_one_of(table, "kind", table.line_of("kind"), &name, &KINDS.map(|(known, _)| known));
         }
-        found.map_or(Kind::Predict, |(_, kind)| *kind)
+        found.map_or(QuestionKind::Predict, |(_, kind)| *kind)
     }
 
     /// Choices with their replies, and which of them is right.
@@ -257,7 +257,7 @@ fn same_choices(asked: &Question) -> Option<Question> {
     let Answer::Choice { choices, right } = &asked.answer else { return None };
     let choices = choices.iter().map(|choice| Choice { text: choice.text.clone(), reply: Vec::new() }).collect();
     let answer = Answer::Choice { choices, right: *right };
-    Some(Question { kind: Kind::Observe, ask: Vec::new(), hint: Vec::new(), why: Vec::new(), answer })
+    Some(Question { kind: QuestionKind::Observe, ask: Vec::new(), hint: Vec::new(), why: Vec::new(), answer })
 }
 
 #[derive(Default)]

@@ -8,21 +8,21 @@ use crate::gui::ui::parts::number_box;
 use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
 use crate::lessons::work::{Stage, StepWork};
-use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
+use crate::lessons::{Answer, Choice, Prediction, Question, QuestionKind, Step, Task};
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
 
 /// Title of the box of a question.
-fn title(kind: Kind) -> &'static str {
+fn title(kind: QuestionKind) -> &'static str {
     match kind {
-        Kind::Predict => "What do you expect?",
-        Kind::Calculate => "Calculate",
-        Kind::Observe => "What did you see?",
+        QuestionKind::Predict => "What do you expect?",
+        QuestionKind::Calculate => "Calculate",
+        QuestionKind::Observe => "What did you see?",
     }
 }
 
 /// Label of the button that commits an answer.
-pub(super) fn commit_label(kind: Kind) -> &'static str {
-    if kind == Kind::Calculate { "This is my result" } else { "This is my prediction" }
+pub(super) fn commit_label(kind: QuestionKind) -> &'static str {
+    if kind == QuestionKind::Calculate { "This is my result" } else { "This is my prediction" }
 }
 
 /// Blocks with the numbers of a run that they quote; `told`: of the run that fulfilled the task.
@@ -125,10 +125,10 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
             }
         }
         match (work.committed, question.kind) {
-            (true, Kind::Predict) => {
+            (true, QuestionKind::Predict) => {
                 cx.note(ui, if task { "Prediction made: now see what happens" } else { "Prediction made" });
             }
-            (true, Kind::Calculate) if task => {
+            (true, QuestionKind::Calculate) if task => {
                 let right = question.answer.words(question.answer.right());
                 match work.prediction.is_some_and(|given| question.answer.is_right(given)) {
                     true => cx.say(ui, "✔ Right", cx.colours.good),
@@ -239,9 +239,9 @@ fn explain(ui: &mut Ui, question: &Question, then: &[Block], work: &StepWork, cx
     let given = work.prediction;
     let right = given.is_some_and(|given| question.answer.is_right(given));
     let (colour, title) = match (right, question.kind) {
-        (true, Kind::Calculate) => (cx.colours.good, "✔ Right"),
+        (true, QuestionKind::Calculate) => (cx.colours.good, "✔ Right"),
         (true, _) => (cx.colours.good, "✔ As you expected"),
-        (false, Kind::Calculate) => (cx.colours.contact, "The answer is"),
+        (false, QuestionKind::Calculate) => (cx.colours.contact, "The answer is"),
         (false, _) => (cx.colours.contact, "Not what you predicted"),
     };
     let look = Look::reading(ui);

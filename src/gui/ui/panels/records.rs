@@ -20,7 +20,7 @@ const DECIMALS: usize = 4;
 
 /// The last edit in one of the tables of an array.
 #[derive(Clone, Debug)]
-struct Tried {
+struct LastEdit {
     /// The index of the table, and the index of the value in it.
     at: [usize; 2],
     /// The text, if a number was typed.
@@ -31,7 +31,7 @@ struct Tried {
     frame: u64,
 }
 
-impl Tried {
+impl LastEdit {
     fn id_of(key: &'static str) -> Id {
         Id::unique(("tried", key))
     }
@@ -51,7 +51,7 @@ impl Tried {
 
 /// Whether the reason for the refusal of the last edit of `key` is shown at one of its tables.
 pub fn tells(ui: &egui::Ui, key: &'static str) -> bool {
-    ui.data(|data| data.get_temp::<Tried>(Tried::id_of(key))).is_some()
+    ui.data(|data| data.get_temp::<LastEdit>(LastEdit::id_of(key))).is_some()
 }
 
 /// Shows `records` of the key `parameter`, each with the values of `columns`, and pushes the array that results from an edit.
@@ -68,7 +68,7 @@ pub fn show(
     };
     let one = label(parameter).trim_end_matches('s').to_lowercase();
     let drawn = ui.ctx().cumulative_frame_nr();
-    let refused = Tried::refused(ui, cx, parameter.key);
+    let refused = LastEdit::refused(ui, cx, parameter.key);
     for (number, record) in records.iter().enumerate() {
         let name = edges::name(record).map_or_else(|| format!("{one} {}", number + 1), str::to_owned);
         let refused = refused.as_ref().filter(|(tried, _)| tried.at[0] == number);
@@ -93,7 +93,7 @@ pub fn show(
                     let spoken = format!("{}, {name}", field_name(of));
                     let kept = refused.filter(|(tried, _)| tried.at[1] == place);
                     let kept = kept.and_then(|(tried, _)| tried.entered.as_ref()).map(|(text, _)| text.as_str());
-                    if let Some(Edit { value, dragging, entered }) =
+                    if let Some(ValueEdit { value, dragging, entered }) =
                         cell(ui, (of, value, kept), (named.id, &spoken), cx)
                     {
                         let mut edited = records.to_vec();
@@ -110,8 +110,9 @@ pub fn show(
                             // Setting the present value again withdraws a refusal.
                             set(edited.clone(), dragging);
                         }
-                        let tried = Tried { at: [number, place], entered, array: Value::Records(edited), frame: drawn };
-                        ui.data_mut(|data| data.insert_temp(Tried::id_of(parameter.key), tried));
+                        let tried =
+                            LastEdit { at: [number, place], entered, array: Value::Records(edited), frame: drawn };
+                        ui.data_mut(|data| data.insert_temp(LastEdit::id_of(parameter.key), tried));
                     }
                     ui.end_row();
                 }
@@ -145,7 +146,7 @@ pub fn show(
 }
 
 /// An edit of one value.
-struct Edit {
+struct ValueEdit {
     /// The new value; `None` if invalid text was entered, or if Escape dropped the text.
     value: Option<Value>,
     /// Whether a pointer still drags it.
@@ -160,8 +161,8 @@ fn cell(
     (of, value, refused): (&'static Parameter, &Value, Option<&str>),
     (name, spoken): (Id, &str),
     cx: &DrawContext<'_>,
-) -> Option<Edit> {
-    let taken = |value: Value| Edit { value: Some(value), dragging: false, entered: None };
+) -> Option<ValueEdit> {
+    let taken = |value: Value| ValueEdit { value: Some(value), dragging: false, entered: None };
     match (of.kind, value) {
         (ParameterKind::Number { range, .. }, value) => {
             let present = value.as_number()?;
@@ -184,7 +185,7 @@ fn cell(
             let faulty = matches!(entered, Some((_, Some(_))));
             let escaped = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Escape));
             if faulty || refused.is_some() && escaped {
-                return Some(Edit { value: None, dragging: false, entered });
+                return Some(ValueEdit { value: None, dragging: false, entered });
             }
             // A drag sets a round value; a field that only loses the focus keeps the decimals that it does not show.
             let shown = |number: f64| format!("{number:.DECIMALS$}");
@@ -194,7 +195,7 @@ fn cell(
                 number => number,
             };
             let done = response.drag_stopped() || (refused.is_some() && entered.is_some());
-            let edit = Edit { value: Some(Value::Number(number)), dragging: response.dragged(), entered };
+            let edit = ValueEdit { value: Some(Value::Number(number)), dragging: response.dragged(), entered };
             ((response.changed() && number != present) || done).then_some(edit)
         }
         (ParameterKind::Choice { options, .. }, Value::Text(chosen)) => {

@@ -4,7 +4,7 @@ use super::model;
 use crate::analysis::exact::units;
 use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
-use crate::analysis::validity::{Excess, beside_headline};
+use crate::analysis::validity::{ExceededLimit, beside_headline};
 use crate::digits::{capitalised, percent, raised, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -156,7 +156,7 @@ impl RunNumbers<'_> {
 }
 
 /// Limits of the model that are exceeded; empty if none.
-fn limits(ui: &mut egui::Ui, validity: &[Excess], cx: &DrawContext<'_>) {
+fn limits(ui: &mut egui::Ui, validity: &[ExceededLimit], cx: &DrawContext<'_>) {
     if validity.is_empty() {
         return;
     }

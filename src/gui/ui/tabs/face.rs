@@ -7,7 +7,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::face::Face;
+use crate::gui::state::face::MeasuredFace;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, title};
 use crate::gui::ui::context::DrawContext;
@@ -67,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
 }
 
 /// The heights from above. Returns the row under the pointer, or the middle one.
-fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
+fn map(ui: &mut Ui, face: &Arc<MeasuredFace>, height: f32) -> usize {
     let map = &face.map;
     let style = PlotStyle::new(ui);
     let [wide, tall] = [(map.nx, 0), (map.ny, 1)].map(|(points, axis)| (points as f64 * map.spacing[axis]) as f32);
@@ -120,7 +120,7 @@ fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32) {
 }
 
 /// Its statistics, and the values for two faces like it.
-fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
+fn numbers(ui: &mut Ui, face: &MeasuredFace, cx: &DrawContext<'_>) {
     let (own, both) = (&face.texture, &face.pair);
     let lengths = lengths(own, own.correlation);
     let lay = lay(own).unwrap_or_else(|| "unknown, taken to be 1".to_owned());

@@ -227,20 +227,20 @@ fn buttons(ui: &mut Ui, mut form: FitForm, cx: &DrawContext<'_>) {
 
 /// Charts of the result, and the text for its numbers.
 #[derive(Default)]
-struct Drawn {
+struct FitDrawing {
     panels: Vec<Panel>,
     /// Numbers of an optimum in words: the one that is sought, then the limited ones.
     words: Vec<String>,
 }
 
-fn drawn(found: &FitResult) -> Drawn {
+fn drawn(found: &FitResult) -> FitDrawing {
     // It was solved as it is.
-    let Ok(problem) = Problem::try_from(found.scene()) else { return Drawn::default() };
+    let Ok(problem) = Problem::try_from(found.scene()) else { return FitDrawing::default() };
     match found {
         FitResult::Fit(measured, fitted) => {
             let figures = figures(&problem, fitted, measured).into_iter();
             let panels = figures.filter(|(name, _)| ["fit", "residuals"].contains(name));
-            Drawn { panels: panels.flat_map(|(_, figure)| figure.panels).collect(), words: Vec::new() }
+            FitDrawing { panels: panels.flat_map(|(_, figure)| figure.panels).collect(), words: Vec::new() }
         }
         FitResult::Optimum(found) => {
             let limited = found.goal.limits.iter().map(|(_, quantity)| *quantity);
@@ -255,12 +255,12 @@ fn drawn(found: &FitResult) -> Drawn {
                     _ => line.name = "within the limits".to_owned(),
                 }
             }
-            Drawn { panels, words: words.collect() }
+            FitDrawing { panels, words: words.collect() }
         }
     }
 }
 
-fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
+fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, drawn: &FitDrawing, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
     table(ui, "values", 3, 10.0, |ui| {
         for one in &found.unknowns {
@@ -293,7 +293,7 @@ fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
     });
 }
 
-fn optimum(ui: &mut Ui, found: &Optimum, drawn: &Drawn, height: f32, cx: &DrawContext<'_>) {
+fn optimum(ui: &mut Ui, found: &Optimum, drawn: &FitDrawing, height: f32, cx: &DrawContext<'_>) {
     cx.warn(ui, &found.warnings);
     let Some((sought, limited)) = drawn.words.split_first() else { return };
     let strong = ui.visuals().strong_text_color();
@@ -355,7 +355,7 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
 
 /// Charts of measured and computed values, one for each kind of measurement, with torques over the speed; and a chart of the residuals, row
 /// by row.
-fn charts(ui: &mut Ui, drawn: &Drawn, height: f32) {
+fn charts(ui: &mut Ui, drawn: &FitDrawing, height: f32) {
     let Some((residuals, kinds)) = drawn.panels.split_last() else { return };
     for panel in kinds {
         let word = "Measured against computed";

@@ -11,7 +11,7 @@ use crate::gui::derived::format::{load_unit, number, time, times, with_known_dig
 use crate::gui::derived::scales::{span, with_margin};
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, colour_between, room};
+use crate::gui::ui::paint::{Axes, DrawingStack, PlotStyle, colour_between, room};
 use crate::gui::ui::plot::{between, dots, level, line};
 use crate::hold::Reading;
 use crate::problem::Plate;
@@ -53,7 +53,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         area.split_top_bottom_at_y(area.bottom() - charts)
     };
     let body = (views.height() - parts.len() as f32 * title - axis).max(40.0);
-    let mut column = Column::of(views, &style);
+    let mut column = DrawingStack::of(views, &style);
     let mut next = |part: f32| column.next(title, part * body);
     let drawing = next(parts[0]);
     let profile_place = next(parts[1]);

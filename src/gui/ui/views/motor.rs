@@ -2,12 +2,12 @@
 
 use super::frame::Frame;
 use super::pointer::{named, read_out, readout_height};
-use super::velocity::Place;
+use super::velocity::FilmPosition;
 use super::{field, loads, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Column, PlotStyle};
+use crate::gui::ui::paint::{DrawingStack, PlotStyle};
 use crate::problem::Motor;
 use crate::recording::sample::{self, Lines};
 use eframe::egui::{self, CursorIcon, Pos2, Rangef, Rect, Sense, Stroke, StrokeKind, pos2};
@@ -36,7 +36,7 @@ impl Layout {
         let end = area.right() - 0.5 * row;
         let with_side = area.width() > 44.0 * row && body - below > 20.0 * row;
         let beside = if with_side { (0.29 * area.width()).min(0.55 * rest) } else { 0.0 };
-        let mut plots = Column { x: Rangef::new(area.left() + gutter, end - beside), bottom: area.top() };
+        let mut plots = DrawingStack { x: Rangef::new(area.left() + gutter, end - beside), bottom: area.top() };
         let [wave, loads, map] = [0.50, 0.31, 0.19].map(|part| plots.next(title, part * rest));
         let side = with_side.then(|| {
             let left = wave.right() + row;
@@ -118,7 +118,7 @@ fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Frame<'_,
         let lines = Lines::at(recording, instant);
         Some(sample::between(&lines.film_thickness[lines.of(tooth)], sample::locate(&recording.x, xi)?))
     };
-    let of = Place { shown, gas: &motor.gas, tooth, xi, walls: &walls, thickness: &thickness };
+    let of = FilmPosition { shown, gas: &motor.gas, tooth, xi, walls: &walls, thickness: &thickness };
     of.draw(ui, style, place);
 }
 

@@ -9,10 +9,10 @@ use super::pointer::named;
 use super::series::{Series, Trace};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::scales::{Curve, RunCurves, span, with_margin};
+use crate::gui::derived::scales::{RunCurves, SampledCurve, span, with_margin};
 use crate::gui::state::pins::Pin;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle, has_fields};
+use crate::gui::ui::paint::{Axes, DrawingStack, PlotStyle, has_fields};
 use crate::gui::ui::plot::{level, line, stroked, under_pointer};
 use crate::gui::ui::theme::{run_colour, run_dash};
 use crate::problem::{Motor, Plate, Scenario};
@@ -170,7 +170,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
     let body = area.height() - fixed;
     let map = (0.20 * body / count).clamp(LEAST_MAP * style.row, MOST_MAP * style.row);
     let rest = body - count * map;
-    let mut column = Column::of(area, &style);
+    let mut column = DrawingStack::of(area, &style);
     let right = column.x.max;
     let wave = column.next(title, 0.36 * rest);
     let contact = column.next(title, 0.21 * rest);
@@ -213,7 +213,7 @@ fn draw_motors(ui: &mut Ui, runs: &[Pinned<'_, Motor>], height: f32, cx: &DrawCo
 
     let middle = 0.5 * (area.left() + right);
     let halves = [(column.x.min, middle - 0.4 * style.row), (middle + 0.4 * style.row + style.gutter, right)];
-    type Of = fn(&RunCurves) -> &Curve;
+    type Of = fn(&RunCurves) -> &SampledCurve;
     let curves: [(&str, Of); 2] = [
         ("Film load on one wave, N", |curves| &curves.film),
         ("Contact load on one wave, N", |curves| &curves.contact),
@@ -246,7 +246,7 @@ fn over_cycle<T>(
     style: &PlotStyle,
     (place, title): (Rect, &str),
     runs: &[Pinned<'_, T>],
-    of: fn(&RunCurves) -> &Curve,
+    of: fn(&RunCurves) -> &SampledCurve,
     unit: f64,
     cx: &DrawContext<'_>,
 ) {
@@ -354,7 +354,7 @@ fn draw_plates(ui: &mut Ui, runs: &[Pinned<'_, Plate>], height: f32, cx: &DrawCo
     let area = take(ui, height.max(fixed + 3.2 * LEAST_PLOT * style.row));
     let inside = style.within(area);
     let body = area.height() - fixed;
-    let mut column = Column::of(area, &style);
+    let mut column = DrawingStack::of(area, &style);
     let (start, right) = (column.x.min, column.x.max);
 
     // Pressure along the plates.

@@ -5,11 +5,11 @@ use super::frame::Frame;
 use super::inset::Inset;
 use super::pointer::{named, read_out, readout_height};
 use super::series::{Series, Trace};
-use super::velocity::Place;
+use super::velocity::FilmPosition;
 use crate::gui::derived::format::{load_unit, number, times};
 use crate::gui::derived::scales::with_margin;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, Column, PlotStyle};
+use crate::gui::ui::paint::{Axes, DrawingStack, PlotStyle};
 use crate::gui::ui::plot::{dots, level, line, under_pointer};
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
     let heads = if with_map { 4.0 } else { 3.0 };
     let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
     let parts = if with_map { [0.23, 0.25, 0.20] } else { [0.28, 0.38, 0.0] };
-    let mut column = Column::of(area, &style);
+    let mut column = DrawingStack::of(area, &style);
     let right = column.x.max;
     let mut next = |part: f32| column.next(title, part * body);
     let (wall, profile) = (next(parts[0]), next(parts[1]));
@@ -189,7 +189,7 @@ fn draw_velocity(ui: &mut egui::Ui, style: &PlotStyle, place: Rect, shown: &Plat
     let xi = shown.view.cursor_x.unwrap_or(usual).clamp(left, right);
     let frames = shown.recording.frames.max(1) as f64;
     let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
-    let of = Place { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
+    let of = FilmPosition { shown, gas: &shown.of.gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness };
     of.draw(ui, style, place);
 }
 

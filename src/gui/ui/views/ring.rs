@@ -6,7 +6,7 @@ use super::pointer::named;
 use super::wave::TOOTH;
 use crate::gui::command::Command;
 use crate::gui::derived::format::times;
-use crate::gui::derived::ring::{Face, Orbit, Part, Ring};
+use crate::gui::derived::ring::{DrawnFace, DrawnPart, Orbit, Ring};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::describe;
 use crate::gui::ui::paint::{Axes, PlotStyle, pressure_colour};
@@ -87,7 +87,7 @@ fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
 }
 
 /// The faces, round the middle of `rect`, with `scale` points per contact radius. `range` is the pressures of the first and last colour.
-fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
+fn mesh(faces: &[DrawnFace], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
     let coloured = pressure_colour(range);
     let palette = &style.palette;
     let [stator, rotor] = [palette.stator, palette.rotor].map(|colour| style.solid(colour));
@@ -97,11 +97,11 @@ fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f
     for face in faces {
         let lit = |colour| [theme::lit(colour, face.light as f32); 2];
         let [from, to] = match face.part {
-            Part::Film(ends) => ends.map(&coloured),
-            Part::Stator => lit(stator),
-            Part::Followed => lit(palette.accent),
-            Part::Rotor => lit(rotor),
-            Part::Mark => [palette.canvas; 2],
+            DrawnPart::Film(ends) => ends.map(&coloured),
+            DrawnPart::Stator => lit(stator),
+            DrawnPart::Followed => lit(palette.accent),
+            DrawnPart::Rotor => lit(rotor),
+            DrawnPart::Mark => [palette.canvas; 2],
         };
         let first = mesh.vertices.len() as u32;
         for ([right, up], colour) in face.corners.into_iter().zip([from, to, to, from]) {

@@ -2,7 +2,7 @@
 
 use super::inset::{Inset, chosen};
 use crate::gui::command::Command;
-use crate::gui::derived::scales::{Curve, with_margin};
+use crate::gui::derived::scales::{SampledCurve, with_margin};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{dots, line, upright};
@@ -11,7 +11,7 @@ use egui_plot::LineStyle;
 
 /// One curve of a small chart.
 pub(super) struct Trace<'a> {
-    pub(super) curve: &'a Curve,
+    pub(super) curve: &'a SampledCurve,
     /// Phase that the curve is ahead, in cycles.
     pub(super) lag: f64,
     /// Added to the values.

@@ -229,7 +229,7 @@ fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Drawing data of a sweep over two parameters. Positions and values are on the scales of their axes.
-struct Drawn {
+struct MapDrawing {
     panel: Panel,
     /// Least and greatest value.
     extent: [f64; 2],
@@ -242,7 +242,7 @@ struct Drawn {
     lines: Vec<Contour>,
 }
 
-impl Drawn {
+impl MapDrawing {
     fn new(plotted: &Plotted<'_>, axes: [&Axis; 2]) -> Self {
         let (swept, quantity) = (plotted.swept, plotted.quantity);
         let panel = map_panel(&swept.sweep, &swept.rows, axes, quantity, figure::Range::Auto);
@@ -276,7 +276,7 @@ impl Drawn {
 fn map<'a>(ui: &mut Ui, plotted: &Plotted<'a>, [x, y]: [&Axis; 2]) -> (Response, Option<&'a SweepRow>) {
     let (swept, quantity) = (plotted.swept, plotted.quantity);
     let key = (swept.number, swept.rows.len(), quantity);
-    let drawn = &*once(ui, "map", key, || Drawn::new(plotted, [x, y]));
+    let drawn = &*once(ui, "map", key, || MapDrawing::new(plotted, [x, y]));
     let style = &PlotStyle::new(ui);
     let title = capitalised(&quantity.label(swept.sweep.problem()));
     let title = if drawn.log { format!("{title}, logarithmic colours") } else { title };
@@ -367,7 +367,7 @@ impl PlotItem for Cells {
 }
 
 /// The cells of a map in their colours, and contour lines, each with its value, in this font.
-fn ground(plot: &mut PlotUi<'_>, drawn: &Drawn, font: FontId) {
+fn ground(plot: &mut PlotUi<'_>, drawn: &MapDrawing, font: FontId) {
     let [low, high] = span(drawn.values.iter().copied());
     let part = |value: f64| if high > low { (value - low) / (high - low) } else { 0.0 };
     let colour = colour_between([low, high]);

@@ -22,7 +22,7 @@ const STILL: f64 = 1e-6;
 const MARGIN: f64 = 0.12;
 
 /// A place of a film, at any instant.
-pub(super) struct Place<'a, T> {
+pub(super) struct FilmPosition<'a, T> {
     pub(super) shown: &'a Frame<'a, T>,
     pub(super) gas: &'a Gas,
     pub(super) tooth: usize,
@@ -34,7 +34,7 @@ pub(super) struct Place<'a, T> {
     pub(super) thickness: &'a dyn Fn(f64) -> Option<f64>,
 }
 
-impl<T> Place<'_, T> {
+impl<T> FilmPosition<'_, T> {
     fn at(&self, instant: f64) -> Option<Velocity> {
         let pressure = sample::middle_pressure(self.shown.recording, self.tooth, self.xi, instant)?;
         let gradient = sample::middle_gradient(self.shown.recording, self.tooth, self.xi, instant)?;
