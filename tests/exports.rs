@@ -335,12 +335,13 @@ fn a_folder_that_cannot_be_written_is_told_before_anything_is_solved() {
         program::refused(&arguments, 1, &["/proc/squeezefilm: cannot be written: "]);
     }
     // A reader that has no room for the data.
-    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let mut command = squeezefilm(&["compare", "fundamental", "levitating", "--fidelity", "draft"]);
-    let output = command.stdout(full).output().unwrap();
-    let said = err(&output);
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("standard output: cannot be written: "), "{said}");
+    for arguments in [&["compare", "fundamental", "levitating", "--fidelity", "draft"][..], &["--help"], &["-V"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = squeezefilm(arguments).stdout(full).output().unwrap();
+        let said = err(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("standard output: cannot be written: "), "{said}");
+    }
 }
 
 /// One run serves all that is to be seen of it: it is the paper's algorithm that takes the time.

@@ -353,6 +353,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
         ("lessons", "{\"a\": {\"step\": \"3\"}}"),
         ("budget", "soon"),
         ("lecture", "maybe"),
+        ("eyesight", "of a later version"),
         ("scene", &saved_scene()),
     ]);
     let window = open();
@@ -360,6 +361,7 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
         "The progress in lessons cannot be read",
         "soon",
         "lecture = maybe: false or true is allowed",
+        "The state of the last window holds what this version does not know: eyesight.",
         "app.unreadable-3.json",
     ] {
         window.get_by_label_contains(fault);

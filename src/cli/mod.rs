@@ -119,9 +119,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 terminal::error(&format!("{word} is a preset, not a command: squeezefilm solve {word}"));
                 return Exit::BadInput.code();
             }
-            // Help and version go to standard output with status 0, faults to standard error with status 2. A closed pipe is not an error.
-            let _ = usage.print();
-            return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
+            // Help and version go to standard output with status 0, faults to standard error with status 2.
+            return match usage.print() {
+                Err(error) if !usage.use_stderr() => fail(&CliError::Output(error)),
+                _ => ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)),
+            };
         }
     };
     if cli.quiet {
@@ -146,13 +148,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),
-        Err(error) => {
-            if !error.is_silent() {
-                terminal::error(&error.to_string());
-            }
-            error.exit().code()
-        }
+        Err(error) => fail(&error),
     }
+}
+
+/// Says what went wrong, unless nobody listens, and returns the exit status.
+fn fail(error: &CliError) -> ExitCode {
+    if !error.is_silent() {
+        terminal::error(&error.to_string());
+    }
+    error.exit().code()
 }
 
 /// Runs `squeezefilm gui` for a program without a terminal. The first argument is the program's name; `tell` shows a message.

@@ -16,7 +16,7 @@ use super::update::updater::Updater;
 use crate::digits::parse_duration;
 use crate::platform::Instant;
 use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
-use crate::scene::Scene;
+use crate::scene::{Scene, show_text};
 use eframe::egui;
 use eframe::egui::accesskit::{Action, ActionRequest, TreeId};
 use std::path::PathBuf;
@@ -122,30 +122,6 @@ impl App {
             let request = ActionRequest { action, target_tree: TreeId::ROOT, target_node, data: None };
             ctx.input_mut(|input| input.events.push(egui::Event::AccessKitActionRequest(request)));
         }
-    }
-
-    /// What the next window begins with.
-    fn to_keep(&self) -> Entries {
-        let state = self.state();
-        // The next window begins with the student's own scene, not with that of a lesson.
-        let document = state.lessons.student_document(&state.document);
-        let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
-        let entries = [
-            ("scene", document.scene().to_toml()),
-            ("saved", document.saved().to_toml()),
-            ("new", document.is_new().to_string()),
-            (UNSAVED, document.is_dirty().to_string()),
-            ("path", document.path().map(|p| p.display().to_string()).unwrap_or_default()),
-            ("lessons", state.lessons.progress_text()),
-            ("pins", state.pins.stored()),
-            ("tour", "seen".to_owned()),
-            ("recent", recent.join("\n")),
-            ("fidelity", state.document.target().to_string()),
-            ("budget", state.budget.map_or_else(String::new, |budget| format!("{budget:?}"))),
-            ("theme", if state.dark { "dark" } else { "light" }.to_owned()),
-            ("lecture", state.lecture.to_string()),
-        ];
-        entries.map(|(name, text)| (name.to_owned(), text)).into()
     }
 
     fn obstacles(&self) -> Obstacles {
@@ -259,7 +235,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.unwritten = false;
-        let entries = self.to_keep();
+        let entries = to_keep(self.state());
         match &self.updater.platform.storage {
             StoragePlace::Nowhere => {}
             StoragePlace::Browser => entries.into_iter().for_each(|(name, text)| storage.set_string(&name, text)),
@@ -287,6 +263,29 @@ impl eframe::App for App {
     fn auto_save_interval(&self) -> Duration {
         SAVE_INTERVAL
     }
+}
+
+/// What the next window begins with.
+fn to_keep(state: &State) -> Entries {
+    // The next window begins with the student's own scene, not with that of a lesson.
+    let document = state.lessons.student_document(&state.document);
+    let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
+    let entries = [
+        ("scene", document.scene().to_toml()),
+        ("saved", document.saved().to_toml()),
+        ("new", document.is_new().to_string()),
+        (UNSAVED, document.is_dirty().to_string()),
+        ("path", document.path().map(|p| p.display().to_string()).unwrap_or_default()),
+        ("lessons", state.lessons.progress_text()),
+        ("pins", state.pins.stored()),
+        ("tour", "seen".to_owned()),
+        ("recent", recent.join("\n")),
+        ("fidelity", state.document.target().to_string()),
+        ("budget", state.budget.map_or_else(String::new, |budget| format!("{budget:?}"))),
+        ("theme", if state.dark { "dark" } else { "light" }.to_owned()),
+        ("lecture", state.lecture.to_string()),
+    ];
+    entries.map(|(name, text)| (name.to_owned(), text)).into()
 }
 
 /// The state that the last window was left in, with the scene `opened` if there is one. If the last window left unsaved changes, `opened`
@@ -336,6 +335,15 @@ fn restored(
     // What cannot be read is reported, and the rest is restored.
     if let Some(Err(fault)) = stored("pins").map(|text| state.pins.restore(&text)) {
         faults.push(format!("Not all pinned runs of the last window can be read.\n{fault}"));
+    }
+    let ours = to_keep(&state);
+    let names = read.iter().flatten().flat_map(Entries::keys);
+    let unknown: Vec<_> = names.filter(|name| !ours.contains_key(*name)).map(|name| show_text(name)).collect();
+    if !unknown.is_empty() {
+        faults.push(format!(
+            "The state of the last window holds what this version does not know: {}.",
+            unknown.join(", ")
+        ));
     }
     if !faults.is_empty() {
         // The next save replaces the file, so a copy is kept.

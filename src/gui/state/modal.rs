@@ -19,8 +19,8 @@ pub enum Modal {
     },
     /// The file of the scene was changed by another program since it was opened or saved here. After saving, this follows.
     ChangedElsewhere(PathBuf, Option<Next>),
-    /// Descriptions of work that closing the window would end.
-    Unfinished(Vec<String>),
+    /// Work that closing the window would end.
+    Unfinished,
     /// A path to type.
     Path(PathPrompt),
     /// The questions about a new motor, as answered so far.

@@ -72,9 +72,8 @@ impl Updater {
 
     /// Opens a preset, or closes the window; asks first if that would lose unsaved changes.
     pub(super) fn proceed(&mut self, next: Next) {
-        let unfinished = self.state.unfinished();
-        if next == Next::Quit && !unfinished.is_empty() && !self.state.quitting {
-            self.state.modal = Some(Modal::Unfinished(unfinished));
+        if next == Next::Quit && !self.state.unfinished().is_empty() && !self.state.quitting {
+            self.state.modal = Some(Modal::Unfinished);
         } else {
             self.proceed_with_document(next);
         }

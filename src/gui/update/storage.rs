@@ -42,7 +42,8 @@ pub struct StorageFile {
 impl StorageFile {
     /// Of the files in `folder` that no window uses, chooses the one that was written last: it has the state of the window that was closed,
     /// or crashed, last. Files with unsaved work come first, so that work lost in a crash is not hidden by a window that was closed later.
-    /// If all files are in use, creates a new one as a copy of the one that was written last.
+    /// If all files are in use, creates a new one as a copy of the one that was written last, without its unsaved work: that is in the
+    /// window that is open.
     ///
     /// # Errors
     /// If the folder cannot be made, or no file can be locked.
@@ -62,7 +63,7 @@ impl StorageFile {
             match lock.try_lock() {
                 Ok(()) => {
                     if let (false, Some(last)) = (path.exists(), last) {
-                        fs::copy(last, &path)?;
+                        copy_saved(&last, &path)?;
                     }
                     return Ok(Self { path, _lock: lock });
                 }
@@ -72,6 +73,19 @@ impl StorageFile {
         }
         Err(io::Error::other(format!("{MOST} windows are open")))
     }
+}
+
+/// Copies the file at `from` to `to`, without its unsaved work if it can be read.
+fn copy_saved(from: &Path, to: &Path) -> io::Result<()> {
+    let Ok(Some(mut entries)) = read(from) else { return fs::copy(from, to).map(drop) };
+    if entries.get(UNSAVED).is_some_and(|unsaved| unsaved == "true") {
+        // A new scene is nowhere else.
+        let saved = entries.get("saved").filter(|_| entries.get("new").is_none_or(|new| new != "true")).cloned();
+        entries.remove("scene");
+        entries.extend(saved.map(|saved| ("scene".to_owned(), saved)));
+        entries.extend([("new".to_owned(), "false".to_owned()), (UNSAVED.to_owned(), "false".to_owned())]);
+    }
+    write(to, &entries).map_err(io::Error::other)
 }
 
 /// Where eframe keeps the size and place of the window whose file is at `path`.
@@ -163,7 +177,26 @@ mod tests {
         let names = ["app-2.json", "app.json", "app-4.json", "app-3.json", "app-5.json"];
         assert_eq!(claimed.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), names.map(place));
         // A new file begins with the state that was written last.
-        assert_eq!(fs::read(place("app-5.json")).unwrap(), fs::read(place("app-4.json")).unwrap());
+        assert_eq!(read(&place("app-5.json")).unwrap(), read(&place("app-4.json")).unwrap());
+    }
+
+    #[test]
+    fn a_second_window_begins_without_the_unsaved_work_of_the_first() {
+        let of = |entries: &[(&str, &str)]| -> Entries {
+            entries.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect()
+        };
+        for (new, second) in [
+            ("false", of(&[("scene", "on disk"), ("saved", "on disk"), ("new", "false"), (UNSAVED, "false")])),
+            ("true", of(&[("saved", "on disk"), ("new", "false"), (UNSAVED, "false")])),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let one = StorageFile::claim(folder.path()).unwrap();
+            let first = of(&[("scene", "edited"), ("saved", "on disk"), ("new", new), (UNSAVED, "true")]);
+            write(&one.path, &first).unwrap();
+            let other = StorageFile::claim(folder.path()).unwrap();
+            assert_eq!(read(&other.path), Ok(Some(second)));
+            assert_eq!(read(&one.path), Ok(Some(first)));
+        }
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
             Modal::Error(message) => error(ui, message),
             Modal::Unsaved { name, next } => unsaved(ui, name, next),
             Modal::ChangedElsewhere(path, then) => changed_elsewhere(ui, path, then.as_ref()),
-            Modal::Unfinished(work) => unfinished(ui, work),
+            Modal::Unfinished => unfinished(ui, &cx.state.unfinished()),
             Modal::Path(prompt) => path(ui, prompt, cx),
             Modal::NewMotor(answers) => new_motor::show(ui, answers, cx),
             Modal::About => about(ui, cx),
@@ -122,12 +122,13 @@ fn buttons<const N: usize>(ui: &mut Ui, first: usize, answers: [(&str, Vec<Comma
 }
 
 fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
-    heading(ui, "Quit before this is done?");
+    heading(ui, if work.is_empty() { "Everything is done. Quit?" } else { "Quit before this is done?" });
     for what in work {
         ui.add(egui::Label::new(what).wrap());
     }
     ui.add_space(12.0);
-    buttons(ui, 1, [("Quit anyway", vec![Command::QuitAnyway]), ("Keep the window open", Vec::new())])
+    let quit = if work.is_empty() { "Quit" } else { "Quit anyway" };
+    buttons(ui, 1, [(quit, vec![Command::QuitAnyway]), ("Keep the window open", Vec::new())])
 }
 
 fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
