@@ -199,10 +199,11 @@ impl Contact {
                 total = self.gradient(stator, trapped, &amplitudes, &mut gradient);
                 continue;
             };
-            // Line search: along the step the slope rises from slope0 < 0; stop where it is not far above zero.
+            // Line search: along the step the slope rises from slope0 < 0; stop where it is not far above zero. From where asperities hardly
+            // touch, a step may be too long by tens of orders of magnitude.
             let slope0 = dot(&gradient, step.as_slice());
             let (mut low, mut high, mut fraction) = (0.0, f64::INFINITY, 1.0);
-            for _ in 0..40 {
+            for _ in 0..200 {
                 for ((t, a), s) in trial.iter_mut().zip(&amplitudes).zip(step.iter()) {
                     *t = a + fraction * s;
                 }
