@@ -945,12 +945,12 @@ fn a_reader_that_leaves_is_told_by_the_status_and_costs_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let solve = ["solve", "plate-viscous", "--fidelity", "draft", "--figures", "none", "--quiet", "--out", path];
-    for (arguments, status) in [(&["presets"][..], 141), (&solve, 141), (&["--help"], 0)] {
+    for arguments in [&["presets"][..], &solve, &["--help"]] {
         // It has left before the program begins: a pipe takes as much as this without a reader.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let output = squeezefilm(arguments).stdout(writer).output().unwrap();
-        assert_eq!((output.status.code(), err(&output)), (Some(status), ""), "{arguments:?}");
+        assert_eq!((output.status.code(), err(&output)), (Some(141), ""), "{arguments:?}");
     }
     assert!(folder.path().join("summary.json").is_file() && folder.path().join("fields.npz").is_file());
 }
