@@ -3,6 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod scenes;
+
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::RngSeed;
@@ -427,8 +429,10 @@ fn a_motor_that_repeats_only_when_it_is_marched_converges() {
     let scene = scene_with("fundamental", &pairs).with([("film.slip", "none")]).unwrap();
     assert!(survives(&scene, Fidelity::Draft).is_ok_and(repeats));
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
-    let found = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
-    assert_eq!(found.status, Status::Converged);
+    for scene in [scene, scenes::scene("fundamental", &scenes::barely_touching())] {
+        let found = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
+        assert_eq!(found.status, Status::Converged);
+    }
 }
 
 /// Marched cycle after cycle, it comes to no end; on grids that the scene prescribes it once counted as converged after seven.

@@ -109,7 +109,7 @@ impl Fidelity {
                 per_wave: 32,
                 edge_fraction: 0.7,
                 harmonic_fraction: 1e-1,
-                tolerance: 1e-3,
+                tolerance: 4e-3,
                 plate: 12,
                 plate_steps: 32,
                 plate_tolerance: 1e-4,
@@ -122,6 +122,7 @@ impl Fidelity {
                 per_wave: 64,
                 edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
+                tolerance: 1e-3,
                 plate_steps: 48,
                 target_error: 5e-3,
                 ..Self::Draft.spec()

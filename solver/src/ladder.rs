@@ -54,8 +54,7 @@ pub trait GridSolver {
     /// Largest work of a round, `Grid::work`, on grids beyond those of the plan, times the square root of the error asked for.
     const MOST_WORK: f64;
 
-    /// Solves on `grid` of `plan`, starting from the state `start`, which is that of another scene if `similar`. `number` counts the grids
-    /// from 0.
+    /// Solves on `grid` of `plan`. `number` counts the grids from 0.
     ///
     /// # Errors
     /// If a step has no solution to working precision.
@@ -63,13 +62,21 @@ pub trait GridSolver {
         &mut self,
         plan: &Plan,
         grid: &Grid,
-        start: Option<&Self::Level>,
-        similar: bool,
+        start: Option<StartingState<'_, Self::Level>>,
         number: usize,
     ) -> Result<(Status, Self::Level), Self::Error>;
 
     /// Whether the headline is as accurate as `plan` asks, or finer grids would not make it so.
     fn settled(&self, plan: &Plan, found: &SolvedGrids<Self::Level>) -> bool;
+}
+
+/// The state from which a grid is started.
+#[derive(Debug)]
+pub enum StartingState<'a, L> {
+    /// That of the same scene on a coarser grid, or with fewer nodes across.
+    Coarser(&'a L),
+    /// That of a similar scene, and the states of that scene and of this one on the coarser grid before this one.
+    Similar(&'a L, Option<[&'a L; 2]>),
 }
 
 /// Course of a solve: the grids that converged, coarse to fine, and how the last one ended.
@@ -213,9 +220,15 @@ pub fn climb_once<S: GridSolver>(
     let mut finer = None;
     while let Some(grid) = plan.grids.get(number).copied().or(finer) {
         let grid = if plan.spectral { Grid { across, ..grid } } else { grid };
-        let similar = last.and_then(|last| last.levels.get(number));
-        let start = similar.or(found.levels.last());
-        let (status, level) = scene.solve(plan, &grid, start, similar.is_some(), number)?;
+        let coarser = found.levels.last();
+        let start = match last.and_then(|last| last.levels.get(number)) {
+            Some(similar) => {
+                let then = last.and_then(|last| last.levels.get(number.checked_sub(1)?));
+                Some(StartingState::Similar(similar, then.zip(coarser).map(<[_; 2]>::from)))
+            }
+            None => coarser.map(StartingState::Coarser),
+        };
+        let (status, level) = scene.solve(plan, &grid, start, number)?;
         number += 1;
         if number > plan.grids.len() && status != Status::Converged {
             // The result of the coarser grids remains valid.
@@ -328,21 +341,26 @@ fn settle_across<S: GridSolver>(
     // A solve with two nodes fewer shows whether the next change is small by chance; if it fails, the estimate does without it.
     let mut two_less = None;
     if plan.target_error < EXACTING && similar.is_none() && across > 2 {
-        let solved = scene.solve(plan, &Grid { across: across - 2, ..coarsest }, None, false, 0);
+        let solved = scene.solve(plan, &Grid { across: across - 2, ..coarsest }, None, 0);
         two_less = solved.ok().filter(|(status, _)| *status == Status::Converged).map(|(_, level)| level);
     }
     let grid = Grid { across: across - 1, ..coarsest };
-    let start = similar.or(two_less.as_ref());
-    let (mut status, mut narrower) = scene.solve(plan, &grid, start, similar.is_some(), 0)?;
+    let start = match similar {
+        Some(similar) => Some(StartingState::Similar(similar, None)),
+        None => two_less.as_ref().map(StartingState::Coarser),
+    };
+    let (mut status, mut narrower) = scene.solve(plan, &grid, start, 0)?;
     let mut before = last.map_or(0.0, |last| last.before);
     if let Some(level) = two_less {
         before = (narrower.headline().all - level.headline().all).abs();
     }
     while status == Status::Converged {
-        let similar = last.map(|last| &last.levels[0]).filter(|level| level.across() == across);
-        let start = similar.unwrap_or(&narrower);
+        let start = match last.map(|last| &last.levels[0]).filter(|level| level.across() == across) {
+            Some(level) => StartingState::Similar(level, similar.map(|similar| [similar, &narrower])),
+            None => StartingState::Coarser(&narrower),
+        };
         let level;
-        (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
+        (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), 0)?;
         let change = (level.headline().all - narrower.headline().all).abs();
         let error = error_across(change, before);
         let matters = error > S::WIDTH_AIM * plan.target_error * level.unit();

@@ -189,9 +189,9 @@ impl Sweep {
         varied(&self.scene, &self.axes, &self.values(point))
     }
 
-    /// Problem at a point, or why it cannot be solved.
+    /// Problem at a point, or why there is none.
     fn problem_at(&self, point: usize) -> Result<Problem, String> {
-        let problem = solvable(&self.scene, &self.axes, &self.values(point), &self.settings);
+        let problem = self.scene_at(point).and_then(|scene| Problem::try_from(&scene));
         let problem = problem.map_err(|error| error.to_string())?;
         let (found, unit) = (force_unit(&problem), force_unit(&self.first));
         if found == unit {

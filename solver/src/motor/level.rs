@@ -64,8 +64,8 @@ pub(super) struct MotorLevel {
     /// Ambient pressure times the area of all teeth over the load, at least 1: the factor from an error of the gas to one of the load
     /// balance.
     stiffness: f64,
-    /// Estimated remaining change of ln ζ, from the last two rounds, or the last imbalance if that is larger; for a transient, the largest
-    /// residual of a step of the last cycle.
+    /// Estimated remaining change of ln ζ, from the last two rounds, or the last imbalance if that is larger; before the first round, how far
+    /// off its start is taken to be. For a transient, the largest residual of a step of the last cycle.
     pub(super) residual: f64,
     /// Change of the film's load due to the change of the gas in the last round \[N\].
     drift: f64,
@@ -411,7 +411,7 @@ impl MotorLevel {
         }
         let mut anderson = Anderson::new(if self.reference.is_some() { DEPTH / 2 } else { DEPTH }, LONGEST_STEP);
         let (mut present, mut image) = (Vec::new(), Vec::new());
-        let (mut residual, mut last_residual, mut last_change) = (f64::INFINITY, 0.0, 0.0);
+        let (mut residual, mut last_residual, mut last_change) = (self.residual, 0.0, 0.0);
         self.pack(&self.trapped, self.reference.as_deref().unwrap_or(&[]), &mut present);
         for round in 1..=rounds {
             let exact = step_tolerance(residual / self.stiffness);

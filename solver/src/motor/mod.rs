@@ -17,9 +17,10 @@ pub use dry::without_film;
 pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate_means};
 use crate::ladder::{
-    self, GridSolver, Marched, Nested, SolvedGrids, TransientCycle, climb, climb_once, enough, march_cycle,
+    self, GridSolver, Marched, Nested, SolvedGrids, StartingState, TransientCycle, climb, climb_once, enough,
+    march_cycle,
 };
 use crate::memory;
 use crate::plan::{Grid, Plan};
@@ -36,8 +37,9 @@ const NEAR_ROUNDS: usize = 80;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
 
-/// Cycles of every tooth are marched one after the other only if the work of one on the finest grid, `Grid::work`, is at most this.
-const MOST_MARCHED: f64 = 1e6;
+/// Cycles of every tooth are marched one after the other only if the work of one on the finest grid, `Grid::work`, is at most this; on
+/// asperities, whose contact problems cost many times as much, at most the second.
+const MOST_MARCHED: [f64; 2] = [1e6, 2e5];
 
 /// Share of the load on the film above which a rotor counts as floating, or nearly so.
 pub const NEARLY_FLOATS: f64 = 0.95;
@@ -178,13 +180,12 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The state to which marching every tooth, cycle after cycle, converges on the grids of `plan`; `None` if it does not converge, or if
-    /// work or memory exceed what a solve may take. Faces with asperities are excluded, because their contact problems cost many times as
-    /// much.
+    /// work or memory exceed what a solve may take.
     fn march(&mut self, plan: &Plan) -> Option<SolvedGrids<MotorLevel>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
-        let rough = self.motor.surface.asperities.is_some();
-        if rough || work > MOST_MARCHED || memory::check(memory::motor(self.motor, &plan)).is_err() {
+        let most = MOST_MARCHED[usize::from(self.motor.surface.asperities.is_some())];
+        if work > most || memory::check(memory::motor(self.motor, &plan)).is_err() {
             return None;
         }
         let (observer, stats) = (&mut *self.observer, &mut *self.stats);
@@ -204,8 +205,7 @@ impl GridSolver for Search<'_> {
         &mut self,
         plan: &Plan,
         grid: &Grid,
-        start: Option<&MotorLevel>,
-        similar: bool,
+        start: Option<StartingState<'_, MotorLevel>>,
         number: usize,
     ) -> Result<(Status, MotorLevel), MotorError> {
         let motor = self.motor;
@@ -215,18 +215,22 @@ impl GridSolver for Search<'_> {
         let mut level = MotorLevel::new(motor, plan, grid);
         if self.marching {
             match start {
-                Some(other) => level.march_on_from(other),
+                Some(StartingState::Coarser(other) | StartingState::Similar(other, _)) => level.march_on_from(other),
                 None => level.rest()?,
             }
             let settled = level.settle(plan, self.stats, &mut report, &self.cancel.within_budget());
             return Ok((unless_cancelled(settled)?.unwrap_or(Status::Cancelled), level));
         }
+        let mut rounds = limit;
         match start {
-            Some(other) => level.start_from(other),
+            Some(StartingState::Coarser(other)) => level.start_from(other),
+            Some(StartingState::Similar(other, change)) => {
+                rounds = self.warm_rounds;
+                level.start_from_similar(other, change);
+            }
             None => level.start(motor),
         }
         let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
-        let mut rounds = if similar { self.warm_rounds } else { limit };
         let mut softened = false;
         let anew = || {
             let mut level = MotorLevel::new(motor, plan, grid);
@@ -262,8 +266,9 @@ impl GridSolver for Search<'_> {
         if self.motor.surface.asperities.is_none() && may_open(found) {
             return false;
         }
-        let whole = stated(plan, found);
-        enough(whole.error, of_grids(plan, found).error, plan.accuracy * unit(whole.value))
+        let headlines = found.headlines();
+        let whole = stated(plan, found, &headlines);
+        enough(whole.error, of_grids(plan, &headlines).error, plan.accuracy * unit(whole.value))
     }
 }
 
@@ -346,15 +351,15 @@ fn may_open(found: &SolvedGrids<MotorLevel>) -> bool {
     now > 0.0 && before.least_contact() - now > OPENING * now
 }
 
-/// α with the error that the grids show.
-fn of_grids(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
-    let Estimate { value, error } = extrapolate_means(&found.headlines());
+/// α with the error that the grids show, from its `headlines` on each of them.
+fn of_grids(plan: &Plan, headlines: &[Mean]) -> Estimate {
+    let Estimate { value, error } = extrapolate_means(headlines);
     Estimate { value, error: error * plan.irregular }
 }
 
-/// α with its error.
-fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
-    let estimate = of_grids(plan, found);
+/// α with its error, from its `headlines` on each grid.
+fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>, headlines: &[Mean]) -> Estimate {
+    let estimate = of_grids(plan, headlines);
     let Some(level) = found.levels.last() else { return estimate };
     // A floating rotor carries its load whatever the gas and the small terms left out; only the height changes.
     if level.floats() {
@@ -362,7 +367,7 @@ fn stated(plan: &Plan, found: &SolvedGrids<MotorLevel>) -> Estimate {
         return Estimate { value: 1.0, error };
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
-    let value = found.headlines().iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
+    let value = headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
     let left_out = plan.left_out * value.abs();
     let error = estimate.error.min(1.0) + astray + level.astray() + found.width_error() + left_out;
     Estimate { value, error: claimed(plan, value, error) }
@@ -380,8 +385,9 @@ fn finish(motor: &Motor, plan: &Plan, found: &SolvedGrids<MotorLevel>, stats: St
     let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, plan, &coarser);
-    let estimate = stated(plan, found);
-    let elsewhere = (estimate.error - extrapolate_means(&found.headlines()).error.min(1.0)).max(0.0);
+    let headlines = found.headlines();
+    let estimate = stated(plan, found, &headlines);
+    let elsewhere = (estimate.error - extrapolate_means(&headlines).error.min(1.0)).max(0.0);
     let of_gas = elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE);
     // The terms left out change a pressure even where they have no effect on the mean load.
     recording.judge_series(of_gas, of_gas.max(plan.left_out), UNEVEN * plan.irregular);

@@ -15,7 +15,7 @@ pub use transient::PlateTransient;
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate_smooth};
 use crate::film::cycle::Interrupted;
-use crate::ladder::{self, GridSolver, GridState, Nested, SolvedGrids, climb, enough};
+use crate::ladder::{self, GridSolver, GridState, Nested, SolvedGrids, StartingState, climb, enough};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::solution::{PlateResult, Stats, Status};
@@ -149,13 +149,12 @@ impl GridSolver for Search<'_> {
         &mut self,
         plan: &Plan,
         grid: &Grid,
-        start: Option<&PlateLevel>,
-        _: bool,
+        start: Option<StartingState<'_, PlateLevel>>,
         number: usize,
     ) -> Result<(Status, PlateLevel), Interrupted> {
         let mut level = PlateLevel::new(self.plate, plan, grid);
-        if let Some(coarse) = start {
-            level.start_from(coarse);
+        if let Some(StartingState::Coarser(other) | StartingState::Similar(other, _)) = start {
+            level.start_from(other);
         }
         let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
         let grids = plan.grids.len().max(number + 1);

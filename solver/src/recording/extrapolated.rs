@@ -144,16 +144,21 @@ impl LineLoads {
         })
     }
 
-    /// By how much the film may be thinner than it is at any node in a frame \[m\], by how far the thickness departs from the chord of
+    /// By how much the film of each frame may be thinner than it is at any node \[m\], by how far the thickness departs from the chord of
     /// its neighbours where it is least; 0 where the gap is closed, so that the thickness is `closed`.
-    pub fn thinner_between_nodes(&self, frame: usize, closed: f64) -> f64 {
+    pub fn thinner_between_nodes(&self, closed: f64) -> Vec<f64> {
+        let thinner = |a: usize, b: usize| if self.film_thickness[b] < self.film_thickness[a] { b } else { a };
+        let least = self.series(|nodes| nodes.clone().fold(nodes.start, thinner), thinner);
+        least.into_iter().map(|node| self.thinner_beside(node, closed)).collect()
+    }
+
+    /// The same for a frame that is thinnest at `node` of all lines.
+    fn thinner_beside(&self, node: usize, closed: f64) -> f64 {
         let nodes = self.x.len();
-        let lines = (0..self.teeth).map(|tooth| self.line_offset(tooth, frame));
-        let all = lines.flat_map(|line| (0..nodes).map(move |i| (line, i)));
-        let least = all.min_by(|a, b| self.film_thickness[a.0 + a.1].total_cmp(&self.film_thickness[b.0 + b.1]));
-        let Some((line, i)) = least.filter(|(line, i)| nodes > 2 && self.film_thickness[line + i] > closed) else {
+        let (line, i) = (node - node % nodes, node % nodes);
+        if nodes <= 2 || self.film_thickness[node] <= closed {
             return 0.0;
-        };
+        }
         let factor = if i == 0 || i == nodes - 1 { AT_EDGE } else { BETWEEN };
         let i = i.clamp(1, nodes - 2);
         let [before, here, behind] = [i - 1, i, i + 1].map(|i| (self.x[i], self.film_thickness[line + i]));

@@ -168,7 +168,7 @@ impl Recording {
         let factor = if self.touching_from > 0.0 { ROUGH } else { 1.0 };
         let forced = self.forced.min(1.0);
         let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, factor, &|h| forced * h);
-        let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
+        let between = self.lines.thinner_between_nodes(self.touching.min_spacing);
         self.min_film_thickness_error =
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
     }
