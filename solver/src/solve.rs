@@ -399,7 +399,7 @@ pub(crate) fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> A
 }
 
 /// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,
-/// which a sweep does not, and no budget of time is set; if `found` is less certain, it is replaced.
+/// which a sweep does not, or nothing converged, and no budget of time is set; if `found` is less certain, it is replaced.
 fn touching(
     found: &mut motor::Periodic,
     motor: &Motor,
@@ -408,8 +408,8 @@ fn touching(
     cancel: &Cancel,
 ) -> Option<Estimate> {
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
-    let asked = plan.maps && !cancel.has_budget();
     let astray = matches!(found.status, Status::NotConverged { .. });
+    let asked = (plan.maps || astray) && !cancel.has_budget();
     if !asked || !astray && !found.headlines.iter().any(|alpha| floats(*alpha)) {
         return None;
     }

@@ -95,7 +95,15 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search { motor, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
+    let mut search = Search {
+        motor,
+        warm_rounds: WARM_ROUNDS,
+        predicting: true,
+        marching: false,
+        observer,
+        cancel,
+        stats: &mut stats,
+    };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
     if let Status::NotConverged { .. } = found.status {
         // A cycle may repeat on grids of half the spacing although it does not on those of the plan.
@@ -126,8 +134,15 @@ pub fn periodic_near(
 ) -> Result<(Nested<Periodic>, Warm, Plan), MotorError> {
     let mut stats = Stats::default();
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search =
-        Search { motor, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
+    let mut search = Search {
+        motor,
+        warm_rounds: NEAR_ROUNDS,
+        predicting: true,
+        marching: false,
+        observer: &mut (),
+        cancel,
+        stats: &mut stats,
+    };
     let mut found = climb(&mut search, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));
@@ -151,6 +166,7 @@ pub fn touching(
         let mut search = Search {
             motor: &motor,
             warm_rounds: WARM_ROUNDS,
+            predicting: false,
             marching: false,
             observer: &mut *observer,
             cancel,
@@ -171,6 +187,9 @@ struct Search<'a> {
     motor: &'a Motor,
     /// Most rounds of a solve that starts from another motor's state.
     warm_rounds: usize,
+    /// Whether such a start changes as the state on the grid before did. Where a rotor may float or not, that may lead from one state to the
+    /// other.
+    predicting: bool,
     /// Whether every tooth is marched cycle after cycle, instead of iterating over all instants at once.
     marching: bool,
     observer: &'a mut dyn Observer,
@@ -226,7 +245,7 @@ impl GridSolver for Search<'_> {
             Some(StartingState::Coarser(other)) => level.start_from(other),
             Some(StartingState::Similar(other, change)) => {
                 rounds = self.warm_rounds;
-                level.start_from_similar(other, change);
+                level.start_from_similar(other, change.filter(|_| self.predicting));
             }
             None => level.start(motor),
         }
