@@ -687,7 +687,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
                 [(_, value), ..] => {
                     window.press(Key::Enter);
                     window.run_steps(20);
-                    let field = labels::field_name(step.light[0]);
+                    let field = labels::field_name(step.highlight_keys[0]);
                     assert!(window.get_by_role_and_label(Role::TextInput, &field).is_focused(), "{field}");
                     window.get_by_role_and_label(Role::TextInput, &field).type_text(value);
                     window.step();
@@ -1017,7 +1017,7 @@ fn the_highest_pressure_of_a_push_is_kept() {
 #[test]
 fn why_there_is_no_result_is_told_where_the_task_is() {
     let mut window = window("fundamental");
-    let text = "# Heavy\n\nA disc.\n\n## Load it\n\n```setup\npreset = \"floating-disc\"\nlight = [\"plate.mass_g\"]\n```\n\nIt floats.\n\n\
+    let text = "# Heavy\n\nA disc.\n\n## Load it\n\n```setup\npreset = \"floating-disc\"\nhighlight_keys = [\"plate.mass_g\"]\n```\n\nIt floats.\n\n\
         ```task\nask = \"Load it.\"\nhints = [\"More.\"]\ncheck = \"plate.mass_g > 2500 and min_gap_nm >= 200\"\n```\n";
     open_own(&mut window, text, "Heavy");
     solved(&mut window);
@@ -1062,13 +1062,28 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
     let mutations = [
         ("\"plate-trapped\"", "\"plate-traped\"", "", "no such file beside lesson.md | plate-traped"),
         ("preset = \"plate-trapped\"", "", "## ", "setup.preset is missing"),
-        ("preset =", "prest =", "", "setup.prest is not known | preset, set, light"),
+        ("preset =", "prest =", "", "setup.prest is not known | preset, set, highlight_keys"),
         ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitud_um = 0.1\"", "", "plate.amplitude_um"),
         ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitude_um = -1\"", "", "out of range | 0 to"),
         ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitude_um\"", "", "is no change: expected"),
-        ("light = [\"plate.amplitude_um\"]", "light = [\"film.nothing\"]", "", "film.nothing | plate.mean_gap_um"),
-        ("light = [\"plate.amplitude_um\"]", "light = \"plate.amplitude_um\"", "", "wrong type | a list"),
-        ("look = [\"loop\"]", "look = [\"moon\"]", "", "setup.look = \"moon\" | wave, gap"),
+        (
+            "highlight_keys = [\"plate.amplitude_um\"]",
+            "highlight_keys = [\"film.nothing\"]",
+            "",
+            "film.nothing | plate.mean_gap_um",
+        ),
+        (
+            "highlight_keys = [\"plate.amplitude_um\"]",
+            "highlight_keys = \"plate.amplitude_um\"",
+            "",
+            "wrong type | a list",
+        ),
+        (
+            "highlight_parts = [\"loop\"]",
+            "highlight_parts = [\"moon\"]",
+            "",
+            "setup.highlight_parts = \"moon\" | wave, gap",
+        ),
         (
             "tab = \"Motion\"",
             "tab = \"Movies\"",

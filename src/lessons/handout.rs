@@ -62,7 +62,7 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
     }
     if let Some(task) = &step.task {
         pieces.extend(lines(&task.ask, &known.before).map(Piece::Text));
-        let sketch = step.look.iter().find_map(|place| SKETCHES.iter().find(|(known, _)| known == place));
+        let sketch = step.highlight_parts.iter().find_map(|place| SKETCHES.iter().find(|(known, _)| known == place));
         if let (Some((_, axes)), false) = (sketch, answers) {
             let kind = step.question.as_ref().map_or(QuestionKind::Predict, |question| question.kind);
             let before = if kind == QuestionKind::Predict { "dashed what you expect, " } else { "" };

@@ -40,9 +40,9 @@ pub struct Step {
     /// Whether the step sets its scene. If not, it goes on with the scene of the student.
     pub sets: bool,
     /// Parameters that are highlighted.
-    pub light: Vec<&'static Parameter>,
+    pub highlight_keys: Vec<&'static Parameter>,
     /// Names of the parts of the window that are highlighted.
-    pub look: Vec<String>,
+    pub highlight_parts: Vec<String>,
     /// The tab that is shown.
     pub tab: Option<String>,
     /// Results and keys that are shown beside the text.

@@ -311,10 +311,10 @@ impl LessonState {
         let Some(step) = lesson.steps.get(running.step) else { return false };
         view.tab = tab_at(lesson, running.step).unwrap_or(view.tab);
         // Highlighted parameters have to be visible, and the lesson takes the place of the results.
-        view.parameters |= !step.light.is_empty();
+        view.parameters |= !step.highlight_keys.is_empty();
         view.results = true;
         running.all_results = false;
-        running.reveal = if step.light.is_empty() { 0 } else { REVEALED };
+        running.reveal = if step.highlight_keys.is_empty() { 0 } else { REVEALED };
         let changed = scene && *document.scene() != step.scene;
         if scene {
             document.practise(step.scene.clone());
@@ -372,22 +372,23 @@ impl LessonState {
     }
 
     /// Whether the parameter or the part of the window of this name is highlighted: by the step on screen or, without a lesson, by the tour.
-    pub fn lights(&self, name: &str) -> bool {
+    pub fn highlights(&self, name: &str) -> bool {
         let stop = self.tour.and_then(|stop| STOPS.get(stop)).filter(|_| self.running.is_none());
-        self.lit().chain(stop.map(|stop| stop.place)).any(|lit| lit == name)
+        self.highlighted().chain(stop.map(|stop| stop.place)).any(|part| part == name)
     }
 
     /// What the step on screen highlights: keys of parameters, then parts of the window.
-    fn lit(&self) -> impl Iterator<Item = &str> {
-        let (light, look) = self.step().map_or((&[][..], &[][..]), |(_, step)| (&step.light[..], &step.look[..]));
-        light.iter().map(|parameter| parameter.key).chain(look.iter().map(String::as_str))
+    fn highlighted(&self) -> impl Iterator<Item = &str> {
+        let step = self.step().map(|(_, step)| step);
+        let keys = step.map_or(&[][..], |step| &step.highlight_keys).iter().map(|parameter| parameter.key);
+        keys.chain(step.map_or(&[][..], |step| &step.highlight_parts).iter().map(String::as_str))
     }
 
     /// Checks the present step against what is on screen. Returns whether another frame is needed soon: scrolling to
     /// a parameter takes some frames.
     pub fn observe(&mut self, document: &Document, seen: OnScreen<'_>) -> bool {
         let asks = self.stage() == Some(Stage::Question);
-        let marked = if asks { Some(NUMBER) } else { self.lit().next() };
+        let marked = if asks { Some(NUMBER) } else { self.highlighted().next() };
         let marked = marked.map(str::to_owned);
         (self.reveal, self.enter) = (false, None);
         let Some(running) = &mut self.running else { return false };

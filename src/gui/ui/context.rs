@@ -134,16 +134,16 @@ impl<'a> DrawContext<'a> {
     }
 
     /// Records that the part of the window called `name` is at `rect`; draws a ring round it if it is highlighted.
-    pub fn mark(&self, ui: &Ui, name: &str, rect: Rect) {
+    pub fn name_part(&self, ui: &Ui, name: &str, rect: Rect) {
         highlight::remember(ui, name, rect);
-        if self.state.lessons.lights(name) {
+        if self.state.lessons.highlights(name) {
             highlight::ring(ui, rect);
         }
     }
 
-    /// As [`Self::mark`], for a plot: the ring stays within it, clear of the title above.
-    pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
-        self.mark(ui, name, plot.shrink(highlight::GAP + 0.5 * highlight::GLOW));
+    /// As [`Self::name_part`], for a plot: the ring stays within it, clear of the title above.
+    pub fn name_plot(&self, ui: &Ui, name: &str, plot: Rect) {
+        self.name_part(ui, name, plot.shrink(highlight::GAP + 0.5 * highlight::GLOW));
     }
 
     /// Gives the keyboard to the `widget` called `name`, if a lesson leads there.

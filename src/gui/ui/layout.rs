@@ -85,10 +85,11 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
     }
     // Where space is short, a held plate takes the place of the parameters, unless a lesson asks for them.
-    let held = state.view.tab == Tab::Hold && state.lessons.step().is_some_and(|(_, step)| step.light.is_empty());
+    let held =
+        state.view.tab == Tab::Hold && state.lessons.step().is_some_and(|(_, step)| step.highlight_keys.is_empty());
     if state.view.parameters && !(held && width < CROWDED) {
         PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width, telephone).frame(side).show(ui, |ui| {
-            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
+            cx.name_part(ui, "parameters", ui.max_rect().expand(2.0));
             parameters::show(ui, cx);
         });
     }

@@ -11,7 +11,7 @@ const SETUP: &str = "setup";
 const QUESTION: &str = "question";
 const TASK: &str = "task";
 const OBSERVE: &str = "observe";
-const SETUP_KEYS: &[&str] = &["preset", "set", "light", "look", "tab", "show"];
+const SETUP_KEYS: &[&str] = &["preset", "set", "highlight_keys", "highlight_parts", "tab", "show"];
 const QUESTION_KEYS: &[&str] = &["kind", "ask", "choices", "answer", "unit", "within", "replies", "hint", "why"];
 const OBSERVE_KEYS: &[&str] = &["ask", "choices", "answer", "replies"];
 const TASK_KEYS: &[&str] = &["ask", "check", "too_far", "too_far_says", "hints", "try", "wrong", "then"];
@@ -55,8 +55,20 @@ impl Reader<'_> {
             None => question.as_ref().filter(|_| task.is_some()).and_then(same_choices),
             piece => self.table(OBSERVE, OBSERVE_KEYS, piece, Self::question),
         };
-        let Setup { sets, light, look, tab, show, .. } = setup;
-        Some(Step { title: raw.title.clone(), body, scene, sets, light, look, tab, show, question, task, observe })
+        let Setup { sets, highlight_keys, highlight_parts, tab, show, .. } = setup;
+        Some(Step {
+            title: raw.title.clone(),
+            body,
+            scene,
+            sets,
+            highlight_keys,
+            highlight_parts,
+            tab,
+            show,
+            question,
+            task,
+            observe,
+        })
     }
 
     fn setup(&mut self, title: &str, table: &Table<'_>) -> Setup {
@@ -88,23 +100,23 @@ impl Reader<'_> {
             }
             self.scene = Some(scene);
         }
-        for (key, line) in self.strings(table, "light") {
+        for (key, line) in self.strings(table, "highlight_keys") {
             match (Parameter::find(&key), &self.scene) {
                 (Some(parameter), Some(scene)) if scene.parameters().any(|other| other.key == parameter.key) => {
-                    setup.light.push(parameter);
+                    setup.highlight_keys.push(parameter);
                 }
                 (_, Some(scene)) => {
                     let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
-                    self.not_one_of(table, "light", line, &key, &allowed);
+                    self.not_one_of(table, "highlight_keys", line, &key, &allowed);
                 }
                 (_, None) => {}
             }
         }
-        for (place, line) in self.strings(table, "look") {
+        for (place, line) in self.strings(table, "highlight_parts") {
             if self.names.places.contains(&place.as_str()) {
-                setup.look.push(place);
+                setup.highlight_parts.push(place);
             } else {
-                self.not_one_of(table, "look", line, &place, self.names.places);
+                self.not_one_of(table, "highlight_parts", line, &place, self.names.places);
             }
         }
         if let Some(tab) = self.string(table, "tab") {
@@ -263,8 +275,8 @@ fn same_choices(asked: &Question) -> Option<Question> {
 #[derive(Default)]
 struct Setup {
     sets: bool,
-    light: Vec<&'static Parameter>,
-    look: Vec<String>,
+    highlight_keys: Vec<&'static Parameter>,
+    highlight_parts: Vec<String>,
     tab: Option<String>,
     show: Vec<Name>,
     faulty: bool,

@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
     // The ring lies outside of the clip rectangle of the panel.
     ui.scope(|ui| {
         ui.set_clip_rect(ui.clip_rect().expand(8.0));
-        cx.mark(ui, "numbers", table.response.rect);
+        cx.name_part(ui, "numbers", table.response.rect);
     });
     ui.add_space(6.0);
 }

@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'
     }
     if let (Some(observe), Stage::Observation | Stage::Told) = (&step.observe, stage) {
         ui.add_space(gap);
-        look_at(ui, observe, work, step.look.is_empty(), stage == Stage::Observation, cx);
+        look_at(ui, observe, work, step.highlight_parts.is_empty(), stage == Stage::Observation, cx);
     }
     if stage != Stage::Told {
         return;

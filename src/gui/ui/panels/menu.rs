@@ -41,7 +41,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             item(ui, "Picture of the window…", true, Command::Screenshot, cx);
         });
         let lessons = menu(ui, "Lessons", &mut |ui| lessons(ui, cx));
-        cx.mark(ui, "lessons", lessons.rect);
+        cx.name_part(ui, "lessons", lessons.rect);
         menu(ui, "Help", &mut |ui| {
             item(ui, "Glossary", true, Command::Glossary(true), cx);
             item(ui, "Take the tour", true, Command::Tour(Some(0)), cx);

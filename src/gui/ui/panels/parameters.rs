@@ -111,7 +111,8 @@ impl Panel<'_> {
             self.measure_units(ui, &parameters);
             let lessons = &self.cx.state.lessons;
             let refused = parameters.iter().any(|parameter| {
-                self.cx.state.rejected.of(parameter.key).is_some() || (lessons.reveal && lessons.lights(parameter.key))
+                self.cx.state.rejected.of(parameter.key).is_some()
+                    || (lessons.reveal && lessons.highlights(parameter.key))
             });
             egui::CollapsingHeader::new(RichText::new(title).strong())
                 .id_salt(table)
@@ -170,7 +171,7 @@ impl Panel<'_> {
             self.footnotes(ui, parameter);
         });
         let lessons = &self.cx.state.lessons;
-        if lessons.lights(parameter.key) {
+        if lessons.highlights(parameter.key) {
             highlight::ring(ui, row.response.rect);
             if lessons.reveal {
                 ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);

@@ -76,7 +76,7 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &RunNumbers<'_>, motor: &Motor, resul
     cx.note(ui, sucks.unwrap_or("share of the load carried by air"));
     shares(ui, result.alpha.value, cx);
     let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
-    cx.mark(ui, "headline", headline);
+    cx.name_part(ui, "headline", headline);
     ui.add_space(4.0);
     shown.row(ui, cx, "Film load", FilmLoad);
     shown.range(ui, cx, FilmLoadMin, FilmLoadMax);

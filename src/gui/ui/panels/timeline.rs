@@ -57,7 +57,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             format!("{degrees:.0}° of each cycle")
         });
     });
-    cx.mark(ui, "timeline", row.response.rect);
+    cx.name_part(ui, "timeline", row.response.rect);
 }
 
 /// Controls to pause, step and scrub the recent recording of a held plate.
@@ -80,7 +80,7 @@ fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
             (false, false) => "paused".to_owned(),
         });
     });
-    cx.mark(ui, "timeline", row.response.rect);
+    cx.name_part(ui, "timeline", row.response.rect);
 }
 
 fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {

@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             cx.button(ui, "Cancel", "Ends the drop; the motion so far is kept", Command::CancelTab);
         } else {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
-            cx.mark(ui, "start", button.rect);
+            cx.name_part(ui, "start", button.rect);
             cx.lead_to(ui, "start", button.id);
             cx.on_click(&button, StartupCommand::Start);
         }
@@ -80,12 +80,12 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
         format!("{time} ms: height {} µm", height * 1e6)
     });
     let hit = struck(&dropped.cycles).map_or_else(String::new, |words| format!(". {words}"));
-    let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
+    let steady = periodic(dropped, cx).map_or_else(String::new, |gap| {
         format!("; the periodic solve, in which it does not shake, gives {} µm (dashed)", gap * 1e6)
     });
     match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),
-        None => (format!("{at}{aim}"), usual),
+        None => (format!("{at}{steady}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
         Some(Ok(Fall { status, .. })) => {
             let rests = last.is_some_and(|cycle| cycle.rests);
@@ -93,12 +93,12 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
                 Status::Converged if rests => (format!("{at}. It rests on its roughness"), cx.colours.alarm),
                 Status::Converged => {
                     let within = percent(Settings::default().tolerance);
-                    (format!("{at}. It floats, within {within} of where it settles{aim}{hit}"), cx.colours.good)
+                    (format!("{at}. It floats, within {within} of where it settles{steady}{hit}"), cx.colours.good)
                 }
                 Status::Cancelled => (format!("Cancelled at {at}"), cx.colours.quiet),
-                Status::NotConverged { .. } => (format!("{at}. It still moves{aim}{hit}"), cx.colours.alarm),
+                Status::NotConverged { .. } => (format!("{at}. It still moves{steady}{hit}"), cx.colours.alarm),
                 Status::NotResolved { .. } => {
-                    (format!("{at}. It is not resolved any further{aim}{hit}"), cx.colours.alarm)
+                    (format!("{at}. It is not resolved any further{steady}{hit}"), cx.colours.alarm)
                 }
             }
         }

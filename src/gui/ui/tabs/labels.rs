@@ -44,6 +44,6 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     } else {
         ui.horizontal_wrapped(labels)
     };
-    cx.mark(ui, "tabs", row.response.rect);
+    cx.name_part(ui, "tabs", row.response.rect);
     ui.separator();
 }

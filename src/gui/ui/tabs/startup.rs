@@ -36,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let plots = (PLOTS_SHARE * height).clamp(LINES.0 * line, LINES.1 * line);
     let periodic = cx.state.run.as_deref().filter(|run| !startup.stale(&run.scene));
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
-    cx.mark(ui, "history", history.response.rect);
+    cx.name_part(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
         views::run::show(ui, run, startup.ranges, None, cx);
     }
@@ -50,7 +50,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         } else {
             let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
             let button = first_button(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
-            cx.mark(ui, "start", button.rect);
+            cx.name_part(ui, "start", button.rect);
             cx.lead_to(ui, "start", button.id);
             cx.on_click(&button, StartupCommand::Start);
         }

@@ -75,7 +75,7 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
     };
     let side_by_side = ui.available_width() > BESIDE * em;
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
-    cx.mark(ui, "torque", first.response.rect);
+    cx.name_part(ui, "torque", first.response.rect);
     if side_by_side {
         ui.columns(2, |columns| (1..3).for_each(|i| one(&mut columns[i - 1], i, true)));
     } else {

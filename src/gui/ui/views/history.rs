@@ -104,13 +104,13 @@ fn plot(
 ) {
     let points = &startup.points;
     let of = |numbers: &Numbers| numbers.known(curve.of.0) * curve.of.1;
-    let aim = periodic.map(|run| of(&Numbers::of_outcome(&startup.posed.problem, &run.solution.outcome)));
+    let steady = periodic.map(|run| of(&Numbers::of_outcome(&startup.posed.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
-    let [low, high] = span(found.iter().chain(&aim).map(|found| found.value));
+    let [low, high] = span(found.iter().chain(&steady).map(|found| found.value));
     let (film, good) = (style.palette.film, style.palette.good);
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", good)];
-    let legend = if aim.is_some() { &both[..] } else { &[] };
+    let legend = if steady.is_some() { &both[..] } else { &[] };
     style.title(rect, curve.word, &curve.titles, legend);
 
     let cap = WIDEST_BAND * (high - low);
@@ -120,10 +120,10 @@ fn plot(
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let present = startup.chosen as f64;
     let shown = inset.show(ui, style, |plot| {
-        if let Some(Estimate { value: aim, error }) = aim {
-            let band = Span::new("", aim - reach(error)..=aim + reach(error)).axis(Axis::Y);
+        if let Some(Estimate { value: steady, error }) = steady {
+            let band = Span::new("", steady - reach(error)..=steady + reach(error)).axis(Axis::Y);
             plot.span(band.fill(good.gamma_multiply(0.25)));
-            plot.hline(level(aim, good, 1.5));
+            plot.hline(level(steady, good, 1.5));
         }
         let means: Vec<[f64; 2]> = points.iter().zip(&found).map(|(row, of)| [row.cycle as f64, of.value]).collect();
         let band = |([x, y], of): (&[f64; 2], &Estimate)| [*x, y + reach(of.error), y - reach(of.error)];

@@ -94,7 +94,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let boyle_chart = place(middle + 0.5 * style.row, right, top, bottom);
     boyle(ui, &style, boyle_chart, hold);
     for (name, rect) in [("held plate", drawing), ("boyle", boyle_chart)] {
-        cx.mark_plot(ui, name, rect);
+        cx.name_plot(ui, name, rect);
     }
     grab(ui, &axes, hold, cx);
     style.explain(ui);

@@ -72,9 +72,9 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
     if let Some(rect) = layout.tooth {
         let charts = tooth::draw(ui, &style, rect, shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
-            cx.mark_plot(ui, place, chart);
+            cx.name_plot(ui, place, chart);
         }
-        cx.mark(ui, "tooth", rect);
+        cx.name_part(ui, "tooth", rect);
     }
     wave::ellipse(&style.clipped(area.expand(0.6 * style.row)), &axes, shown);
     read_out(&readout(shown), &inside, layout.readout);
@@ -97,7 +97,7 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &Frame<'_, Motor>, cx: 
         }
     }
     for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
-        cx.mark_plot(ui, name, rect);
+        cx.name_plot(ui, name, rect);
     }
     style.explain(ui);
 }

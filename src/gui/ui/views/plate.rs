@@ -83,10 +83,10 @@ pub(super) fn show(ui: &mut egui::Ui, area: Rect, shown: &PlateFrame<'_>, cx: &D
         cx.point_at(x);
     }
     for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
-        cx.mark_plot(ui, name, rect);
+        cx.name_plot(ui, name, rect);
     }
     if with_map {
-        cx.mark_plot(ui, "map", last);
+        cx.name_plot(ui, "map", last);
     }
     style.explain(ui);
 }
