@@ -460,7 +460,7 @@ fn rounds_of_another_state_are_not_told() {
 
 #[test]
 fn a_similar_motor_takes_far_fewer_steps() {
-    // What changed on a coarser grid changes the start on the next one, too; without that, 0.72 of the steps of cold solves.
+    // What changed on a coarser grid changes the start on the next one, too: 0.39 of the steps of cold solves, and 0.48 without that.
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let (mut warm, mut steps) = (Warm::default(), [0, 0]);
     for (i, frequency) in (0..7).map(|i| 30.0 * 1.023_f64.powi(i)).enumerate() {
@@ -478,7 +478,7 @@ fn a_similar_motor_takes_far_fewer_steps() {
             steps[1] += similar.stats.film_steps;
         }
     }
-    assert!(5 * steps[1] < 3 * steps[0], "{steps:?}");
+    assert!(7 * steps[1] < 3 * steps[0], "{steps:?}");
 }
 
 #[test]
