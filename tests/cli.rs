@@ -307,6 +307,10 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["sweep", "plate-viscous", "--vary", "film.min_spacing_nm=50:100:2"], 2, &["no effect on a plate"]);
     let contrary = ["solve", "fundamental", "--set", "film.shear=false", "--set", "numerics.wedge=on"];
     refused(&contrary, 2, &["film.shear", "numerics.wedge"]);
+    let contrary = ["solve", "fundamental", "--set", "numerics.flow=across", "--set", "numerics.wedge=on"];
+    refused(&contrary, 2, &["numerics.flow", "numerics.wedge"]);
+    let light = ["startup", "floating-disc", "--set", "plate.amplitude_um=1000", "--fidelity", "draft"];
+    refused(&light, 2, &["floats higher than 1000 µm"]);
     refused(&motor("film.slip=second"), 2, &["film.slip", "second-order"]);
     refused(&motor("film.min_spacing=100"), 2, &["unknown key film.min_spacing", "film.min_spacing_nm"]);
     refused(&motor("plate.length_mm=1"), 2, &["plate.length_mm", "motor"]);

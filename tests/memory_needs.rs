@@ -244,6 +244,9 @@ fn every_command_that_solves_takes_a_budget_and_keeps_it() {
     }
     assert!(!movie.exists());
     assert_eq!(run("solve fundamental --memory 100MB").0, Some(0));
+    // A dropped plate takes 16 MB.
+    let dropped = run("startup floating-disc --fidelity draft --cycles 1 --memory 50MB");
+    assert_eq!(dropped.0, Some(3), "{}", dropped.1);
     let one = run("sweep fundamental --fidelity draft --vary film.min_spacing_nm=100:200:12 --memory 1MB --threads 8");
     assert_eq!(one.0, Some(0), "{}", one.1);
     for wrong in ["4", "-1GB", "0MB", "nanGB", "many", "GB"] {

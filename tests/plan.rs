@@ -499,6 +499,19 @@ fn what_trapped_gas_leaves_out_is_in_the_error_of_every_instant() {
 }
 
 #[test]
+fn ends_between_rough_faces_leak_as_the_flow_along_them_does() {
+    let set =
+        [("surface.lay", "9"), ("surface.rms_nm", "400"), ("stator.frequency_khz", "10000"), ("film.shear", "false")];
+    let motor = scenes::motor("rough-flow", &set);
+    let [open, closed] = [Flow::Plane, Flow::Across].map(|flow| {
+        let plan = Plan::motor(&motor, Fidelity::Draft, &Numerics { flow, ..Numerics::default() }).unwrap();
+        motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap().result.alpha
+    });
+    let change = (open.value - closed.value).abs();
+    assert!(change > 0.03 * open.value && change < open.error + closed.error, "{open:?} {closed:?}");
+}
+
+#[test]
 fn a_switch_overrules_the_plan_and_is_marked() {
     let motor = scenes::motor("fundamental", &[]);
     let auto = Plan::motor(&motor, Fidelity::Standard, &Numerics::default()).unwrap();
@@ -527,6 +540,13 @@ fn a_switch_overrules_the_plan_and_is_marked() {
         let found = motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap();
         assert!(found.result.alpha.error >= plan.left_out * found.result.alpha.value, "{asked:?}");
     }
+    // A film closed at the ends of its teeth leaves out what sliding carries through them.
+    let sliding = scenes::motor("tooth-radius-3m", &[("motor.rotor_speed_rpm", "3000")]);
+    let closed = Numerics { flow: Flow::Across, ..base };
+    let plan = Plan::motor(&sliding, Fidelity::Standard, &closed).unwrap();
+    assert!(!plan.shear && plan.left_out >= decision(&plan, "numerics.wedge").effect && plan.left_out > 0.5);
+    let open = Plan::motor(&sliding, Fidelity::Standard, &base).unwrap();
+    assert!(open.shear && open.flow != Flow::Across);
     let told = Numerics { wedge: Wedge::Off, flow: Flow::Along, time: Time::Trapped, ..base };
     let plan = Plan::motor(&motor, Fidelity::Standard, &told).unwrap();
     assert!(plan.trapped && !plan.shear && plan.flow == Flow::Along);

@@ -966,7 +966,8 @@ fn any_scene() -> impl Strategy<Value = Scene> {
                 }
             }
         }
-        if scene.get("film.shear") == Some(Value::Flag(false)) && is_motor {
+        let closed = scene.get("numerics.flow") == Some(Value::Text("across".to_owned()));
+        if (closed || scene.get("film.shear") == Some(Value::Flag(false))) && is_motor {
             scene.set("numerics.wedge", "off").unwrap();
         }
         if scene.get("surface.flow_factors") == Some(Value::Text("patir-cheng".to_owned())) {

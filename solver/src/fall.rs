@@ -96,7 +96,7 @@ pub fn fall(
             };
             (settled(problem, &solution.outcome).into_owned(), floats, Some(solution.outcome))
         }
-        Err(SolveError::Float(error @ (FloatError::Rests { .. } | FloatError::High))) => {
+        Err(SolveError::Float(error @ FloatError::Rests { .. })) => {
             let scenario = Scenario::Plate(plate.resting());
             (Problem { scenario, ..problem.clone() }, Err(error.to_string()), None)
         }
@@ -107,7 +107,9 @@ pub fn fall(
     let gap = floats.clone().unwrap_or(Estimate::exact(found.mean_gap));
     let start = gap * FROM;
     let plan = Plan::plate(found, fidelity, &problem.numerics);
-    let need = memory::plate(found, &plan);
+    // Each of three descents marches the finest grid of the plan and one twice as fine, and keeps no fields.
+    let marched = Plan { most_grids: plan.grids.len() + 1, maps: false, ..plan.clone() };
+    let need = memory::plate(found, &marched);
     let _taken = memory::take(memory::Need { bytes: 3 * need.bytes, ..need }, cancel)?;
     let coarse = Plan { grids: plan.grids[..plan.grids.len().saturating_sub(1).max(1)].to_vec(), ..plan.clone() };
     let mut ways = [(&plan, 1.0), (&plan, 2.0), (&coarse, 1.0)].map(|(plan, finer)| {

@@ -262,6 +262,7 @@ impl Stats {
     pub fn add_cost(&mut self, other: &Self) {
         self.film_steps += other.film_steps;
         self.film_solves += other.film_solves;
+        self.unsettled_steps += other.unsettled_steps;
         self.limited_steps += other.limited_steps;
         self.cycles += other.cycles;
         self.coupling_iterations += other.coupling_iterations;

@@ -26,7 +26,7 @@ static RULES: &[Rule] = &[
         check: table_is_given,
     },
     Rule { keys: &["rotor.part", "rotor.support"], check: |scene| scene.section().map(drop) },
-    Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
+    Rule { keys: &["numerics.wedge", "film.shear", "numerics.flow"], check: wedge_is_there },
     Rule { keys: &["numerics.time", "surface.flow_factors"], check: gas_has_time },
     Rule {
         keys: &["stator.tooth_width_mm", "motor.contact_radius_mm", "motor.waves", "stator.teeth_per_wave"],
@@ -103,9 +103,14 @@ fn table_is_given(scene: &Scene) -> Result<(), FaultKind> {
 }
 
 fn wedge_is_there(scene: &Scene) -> Result<(), FaultKind> {
-    let ruled_out = scene.text("numerics.wedge")? == "on" && !scene.flag("film.shear")?;
-    unless(ruled_out, "numerics.wedge", || {
+    let asked = scene.text("numerics.wedge")? == "on";
+    unless(asked && !scene.flag("film.shear")?, "numerics.wedge", || {
         "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: change one of the two"
+            .to_owned()
+    })?;
+    unless(asked && scene.text("numerics.flow")? == "across", "numerics.wedge", || {
+        "numerics.wedge = \"on\" lets sliding carry gas through the ends of a tooth, and numerics.flow = \"across\" closes them: \
+         change one of the two"
             .to_owned()
     })
 }

@@ -417,11 +417,13 @@ impl Film {
 
     /// Rate \[1/s\] at which a small excess of gas at ambient pressure leaves a uniform gap `h` \[m\], in its slowest mode.
     pub fn slowest_leak(&self, h: f64) -> f64 {
-        let length = |axis: &Axis| {
+        // A direction in which nothing leaves does not count.
+        let leak = |axis: &Axis, closed: bool| {
             let ends = axis.nodes[axis.len() - 1] - axis.nodes[0];
-            if axis.start == Start::Mirror { 2.0 * ends } else { ends }
+            let length = if axis.start == Start::Mirror { 2.0 * ends } else { ends };
+            if closed || length == 0.0 { 0.0 } else { length.powi(-2) }
         };
-        let mode = length(&self.grid.x).powi(-2) + length(&self.grid.y).powi(-2);
+        let mode = leak(&self.grid.x, self.closed_along) + leak(&self.grid.y, false);
         let flow = self.roughness.as_ref().map_or(Factors::SMOOTH, |roughness| roughness.at(h));
         flow.along.max(flow.across) * self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
     }

@@ -81,8 +81,9 @@ impl Plan {
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
         let time = time(numerics, &numbers, motor, &rotor, spec);
-        let flow = flow(numerics, &numbers, motor, spec);
         let wedge = wedge(numerics, &numbers, motor, &rotor, along, spec);
+        let sliding = wedge.chosen == Choice::Wedge(Wedge::On);
+        let flow = flow(numerics, &numbers, motor, spec, sliding);
         let trapped = time.chosen == Choice::Time(Time::Trapped);
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;
@@ -115,7 +116,7 @@ impl Plan {
             turned: false,
             half_width,
             every_tooth,
-            shear: !trapped && wedge.chosen == Choice::Wedge(Wedge::On),
+            shear: !trapped && sliding,
             flow: match flow.chosen {
                 Choice::Flow(flow) => flow,
                 _ => Flow::Plane,

@@ -5,6 +5,7 @@ use crate::dimensionless::Dimensionless;
 use crate::fidelity::Spec;
 use crate::problem::{Flow, Motor, Numerics, Time, Wedge};
 use crate::rotor::Compliances;
+use crate::surface::flow::LEAST_RATIO;
 use std::f64::consts::{PI, TAU};
 
 /// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
@@ -61,7 +62,12 @@ pub(super) fn wedge(
     }
     Reduction {
         choices: [Wedge::On, Wedge::Off].map(Choice::Wedge),
-        asked: (numerics.wedge != Wedge::Auto).then_some(numerics.wedge == Wedge::Off),
+        // Sliding carries gas through the ends of a tooth: a film that is closed there leaves it out.
+        asked: if numerics.flow == Flow::Across {
+            Some(true)
+        } else {
+            (numerics.wedge != Wedge::Auto).then_some(numerics.wedge == Wedge::Off)
+        },
         effect: wedge_effect(numbers, motor, rotor),
         unresolved: upwinding(numbers, motor, along),
         number: numbers.bearing_to_squeeze,
@@ -76,13 +82,13 @@ pub(super) fn time(
     rotor: &Compliances,
     spec: &Spec,
 ) -> Decision {
-    let layer = numbers.boundary_layer;
+    let [layer_along, layer] = layers(numbers, motor);
     // With flow factors the flow depends on the gap differently than between smooth faces, and no bound is known.
     let rough = if motor.surface.flow.is_some() { 1.0 } else { 0.0 };
     Reduction {
         choices: [Time::March, Time::Trapped].map(Choice::Time),
         asked: (numerics.time != Time::Auto).then_some(numerics.time == Time::Trapped),
-        effect: leaks(motor, layer, active_length(motor))
+        effect: leaks(motor, layer_along, active_length(motor))
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
             + yielding(motor, rotor, layer)
@@ -94,15 +100,25 @@ pub(super) fn time(
     .decide(spec)
 }
 
-pub(super) fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, spec: &Spec) -> Decision {
-    let layer = numbers.boundary_layer;
+/// `sliding`: whether the wedge term is solved, which needs the ends of a tooth.
+pub(super) fn flow(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    spec: &Spec,
+    sliding: bool,
+) -> Decision {
+    let [layer_along, layer] = layers(numbers, motor);
     // Beyond the layers, gas that stays for many cycles is that of the nearest edges: it changes, as far from the edges
     // left out as the film is narrow, if gaps differ from place to place. They do under a crowned tooth, and they do
     // along a tooth that moves with few others.
     let (length, width) = (motor.tooth_width, motor.contact_width);
     let uneven = unevenness(motor);
     // (Without the ends of a film that is wider than long, nothing is left of what feeds it.)
-    let ends = if width > length { 1.0 } else { leaks(motor, layer, active_length(motor)) + uneven * width / length };
+    let ends = match width > length || sliding {
+        true => 1.0,
+        false => leaks(motor, layer_along, active_length(motor)) + uneven * width / length,
+    };
     let few = 1.0 / motor.teeth as f64;
     let sides = leaks(motor, layer, width) + (2.0 * uneven + few) * (length / width).min(1.0);
     // The leaks at the ends of the longer side matter less.
@@ -116,7 +132,7 @@ pub(super) fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, 
         asked: (numerics.flow != Flow::Auto).then_some(numerics.flow != Flow::Plane),
         effect: if along { sides } else { ends },
         unresolved: 0.0,
-        number: layer / if along { motor.contact_width } else { motor.tooth_width },
+        number: if along { layer / motor.contact_width } else { layer_along / motor.tooth_width },
     }
     .decide(spec)
 }
@@ -191,9 +207,10 @@ fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
 /// Effect of steady sliding at `speed` \[m/s\], relative to α without it: how far it carries gas along a tooth until that has leaked out,
 /// over twice the length that the closed film is even on, is a share of α with it.
 fn carried(numbers: &Dimensionless, motor: &Motor, speed: f64) -> f64 {
-    let wavenumber = PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
+    let [along, across] = diffusivities(numbers, motor);
+    let rate = PI.powi(2) * (along * motor.tooth_width.powi(-2) + across * motor.contact_width.powi(-2));
     let even = motor.tooth_radius.map_or(f64::INFINITY, |radius| (2.0 * radius * motor.min_spacing).sqrt());
-    let share = 0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width.min(even));
+    let share = 0.5 * speed.abs() / (rate * motor.tooth_width.min(even));
     share / (1.0 - share.min(1.0))
 }
 
@@ -202,16 +219,26 @@ fn end_share(motor: &Motor) -> f64 {
     (motor.contact_width / motor.tooth_width).min(1.0)
 }
 
-/// Diffusivity of the gas in the closed film \[m²/s\].
-fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
-    0.5 * numbers.boundary_layer.powi(2) * TAU * motor.frequency
+/// Boundary layers of the closed film \[m\] at the ends of a tooth and at its sides. Between rough faces they differ, the more so the narrower
+/// the gap, which under load is narrower than the minimum spacing.
+fn layers(numbers: &Dimensionless, motor: &Motor) -> [f64; 2] {
+    let ratio = motor.surface.flow.map_or(1.0, |roughness| {
+        let gaps = [motor.min_spacing, LEAST_RATIO * roughness.rms];
+        gaps.map(|gap| roughness.at(gap)).map(|flow| flow.along / flow.across).into_iter().fold(0.0, f64::max)
+    });
+    [numbers.boundary_layer * ratio.sqrt(), numbers.boundary_layer]
+}
+
+/// Diffusivities of the gas in the closed film \[m²/s\], along a tooth and across it.
+fn diffusivities(numbers: &Dimensionless, motor: &Motor) -> [f64; 2] {
+    layers(numbers, motor).map(|layer| 0.5 * layer.powi(2) * TAU * motor.frequency)
 }
 
 /// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
 /// cell Péclet number U Δ/(2D) of 1, where exponential fitting is of second order.
 fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
     let speed = motor.rotor_speed.abs() + motor.stator_speed();
-    let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivity(numbers, motor));
+    let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivities(numbers, motor)[0]);
     let each = UPWINDING + UPWINDING_UNEVEN * unevenness(motor) * end_share(motor);
     (each * (peclet - 1.0)).clamp(0.0, 1.0)
 }

@@ -83,7 +83,7 @@ impl PlateLevel {
         };
         let share = |m: usize| grading::slope(beta, place(m)) / steps as f64;
         let gaps: Vec<f64> = (0..steps).map(|m| plate.gap(phase(m))).collect();
-        // Trapped gas as at high frequency, with the discrete means so that the discrete invariant holds from the start.
+        // Trapped gas as at high frequency; with first-order slip, the discrete means let the discrete invariant hold from the start.
         let slip = 6.0 * plate.gas.mean_free_path;
         let mean = |f: &dyn Fn(f64) -> f64| gaps.iter().enumerate().map(|(m, h)| f(*h) * share(m)).sum::<f64>();
         let trapped = trapped_height(mean(&|h| h * h * (0.5 * h + slip)), mean(&|h| h), slip);
