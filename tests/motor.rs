@@ -382,6 +382,7 @@ fn where_finer_grids_fail_the_result_is_that_of_coarser_ones() {
     assert_eq!((draft.status, standard.status), (Status::Converged, Status::Converged));
     let Accuracy { asked, stated, stopped_by } = standard.accuracy;
     assert_eq!((asked, stopped_by), (Fidelity::Standard.accuracy(), StoppedBy::Limit));
+    assert!(standard.warnings.iter().any(|told| told.starts_with("less accurate than asked for")), "{standard:?}");
     assert!(stated <= draft.accuracy.stated && stated > asked, "{stated}");
     assert_eq!(standard.model.fidelity, "standard");
     assert!(standard.model.remarks.iter().any(|remark| remark.starts_with("grids: those of draft")));

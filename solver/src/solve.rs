@@ -186,11 +186,31 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
+    let mut solution = solve_on_best_grids(warm, problem, settings, observer, cancel)?;
+    let Accuracy { asked, stated, stopped_by } = solution.accuracy;
+    // An error larger than the result itself is negligible, or the result is not resolved.
+    let matters = solution.status == Status::Converged && stated < 1.0;
+    if matters && asked > 0.0 && stopped_by == StoppedBy::Limit {
+        let [stated, asked] = [stated, asked].map(percent);
+        let missed = format!("less accurate than asked for: the stated error is {stated}, not {asked}; {EXHAUSTED}");
+        solution.warnings.push(missed);
+    }
+    Ok(solution)
+}
+
+/// As [`solve_from`], on the grids that are asked for or on those of a coarser level, if they state a smaller error.
+fn solve_on_best_grids(
+    warm: &mut Warm,
+    problem: &Problem,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, SolveError> {
     let found = solve_as_asked(warm, problem, settings, observer, cancel)?;
     let Some(coarser) = coarser(&found, settings, cancel) else { return Ok(found) };
     let rough = Settings { fidelity: coarser, ..*settings };
     // The progress of this solve is not reported, and its failure changes nothing.
-    match solve(problem, &rough, &mut (), cancel) {
+    match solve_on_best_grids(&mut Warm::default(), problem, &rough, &mut (), cancel) {
         Ok(other) if other.status == Status::Converged && other.accuracy.stated < found.accuracy.stated => {
             Ok(in_place_of(found, other, coarser))
         }
@@ -284,15 +304,15 @@ fn solve_as_asked(
 
 fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel) -> Solution {
     let (alpha, teeth) = (found.result.alpha, if plan.every_tooth { motor.teeth } else { 1 });
-    told(found, Outcome::Motor, accuracy(plan, alpha.error, motor::unit(alpha.value), cancel), plan, teeth)
+    solution(found, Outcome::Motor, accuracy(plan, alpha.error, motor::unit(alpha.value), cancel), plan, teeth)
 }
 
 fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
     let load = found.result.film_load;
-    told(found, Outcome::Plate, accuracy(plan, load.error, load.value.abs(), cancel), plan, 1)
+    solution(found, Outcome::Plate, accuracy(plan, load.error, load.value.abs(), cancel), plan, 1)
 }
 
-fn told<R>(
+fn solution<R>(
     found: Periodic<R>,
     outcome: fn(R) -> Outcome,
     accuracy: Accuracy,
@@ -300,8 +320,8 @@ fn told<R>(
     teeth_solved: usize,
 ) -> Solution {
     Solution {
+        warnings: warnings(&found.status, plan, &accuracy),
         accuracy,
-        warnings: warnings(&found.status, plan),
         status: found.status,
         outcome: outcome(found.result),
         performance: None,
@@ -439,7 +459,10 @@ const NOTHING: f64 = 1e6;
 /// Share of a result that a switch leaves out, from which it is named.
 const TOO_MUCH: f64 = 0.5;
 
-fn warnings(status: &Status, plan: &Plan) -> Vec<String> {
+/// Why a result is less accurate than asked for.
+const EXHAUSTED: &str = "finer grids would not reduce it, or would take too long";
+
+fn warnings(status: &Status, plan: &Plan, accuracy: &Accuracy) -> Vec<String> {
     match status {
         Status::Converged => Vec::new(),
         Status::NotConverged { residual, tolerance } => vec![format!(
@@ -453,7 +476,8 @@ fn warnings(status: &Status, plan: &Plan) -> Vec<String> {
             let switch = plan.decisions.iter().find(|decision| decision.forced() >= TOO_MUCH).and_then(Decision::key);
             let advice = match switch {
                 Some(key) => format!("{key} leaves out as much as there is: do without it"),
-                None => "ask for more accuracy, or take it as next to nothing".to_owned(),
+                None if accuracy.stopped_by == StoppedBy::Limit => EXHAUSTED.to_owned(),
+                None => "ask for more accuracy".to_owned(),
             };
             vec![format!("not resolved: {size}; {advice}")]
         }

@@ -66,7 +66,7 @@ impl Afloat {
 }
 
 /// The solution of a plate, with the gap at which it floats.
-fn told(
+fn solution_of_plate(
     found: plate::Periodic,
     problem: &Problem,
     floating: Option<&Afloat>,
@@ -158,7 +158,7 @@ impl Centre {
                     }
                 }
                 let Floated { solved, plate, plan } = found;
-                let of = |found| told(found, problem, floating.as_ref(), &plate, &plan, cancel);
+                let of = |found| solution_of_plate(found, problem, floating.as_ref(), &plate, &plan, cancel);
                 let solved = solved.map(of);
                 Ok(Self { plan, warm: cold, problem: problem.clone(), solved, floating })
             }
@@ -202,7 +202,7 @@ impl Centre {
                 let left = |afloat: Afloat| afloat.next(&plate, plate.mean_gap, solved.fine.result.film_load.value);
                 let arrived = self.floating.is_none_or(|afloat| (left(afloat) / plate.mean_gap - 1.0).abs() < ARRIVED);
                 let near = arrived && is_settled(solved.fine.status) && alike(&self.plan, &plan);
-                let of = |found| told(found, problem, self.floating.as_ref(), &plate, &self.plan, cancel);
+                let of = |found| solution_of_plate(found, problem, self.floating.as_ref(), &plate, &self.plan, cancel);
                 Ok(near.then(|| solved.map(of)))
             }
         }

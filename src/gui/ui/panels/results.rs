@@ -194,12 +194,8 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             number(ui, cx, "Error of the load", &significant(result.film_load.error, 2), force_unit(&run.problem));
         }
     }
-    match run.solution.accuracy.stopped_by {
-        StoppedBy::Budget => cx.note(ui, "The time allowed was up before the error was as small as asked for"),
-        StoppedBy::Limit if run.solution.accuracy.asked > 0.0 => {
-            cx.note(ui, "The error is larger than asked for: a finer grid is not tried, or would not reduce it");
-        }
-        StoppedBy::Accuracy | StoppedBy::Limit => {}
+    if run.solution.accuracy.stopped_by == StoppedBy::Budget {
+        cx.note(ui, "The time allowed was up before the error was as small as asked for");
     }
     if stats.coupling_iterations > 0 {
         number(ui, cx, "Rounds of film and contact", &stats.coupling_iterations.to_string(), "");
