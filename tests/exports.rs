@@ -386,4 +386,5 @@ fn the_paper_is_reproduced_and_a_run_cut_short_leaves_nothing() {
     for said in ["Fig. 12.", "Fig. 5 shows surfaces measured", "squeezefilm reproduce"] {
         assert!(text.contains(said), "{said}");
     }
+    assert!(!text.contains("did not converge"));
 }

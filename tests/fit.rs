@@ -10,6 +10,7 @@ use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sweep::{Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::Scaled;
+use squeezefilm::export::figure::{Colour, Layer};
 use squeezefilm::export::fit::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, Scenario, rpm};
@@ -254,6 +255,10 @@ fn rows_of_one_condition_share_a_solve() {
     let ends = [0, measured.measurements.len() - 1].map(|i| found.rows[i].computed.as_ref().unwrap().value);
     assert!(curve.len() > 50 && curve.iter().all(|point| point[1].is_finite()), "{curve:?}");
     assert_eq!((curve[0], curve.last().unwrap()[1]), ([0.0, ends[0]], ends[1]));
+    // Points of a single condition are black, beside the coloured curve.
+    let (_, figure) = figures(&problem, &found, &measured).into_iter().find(|(name, _)| *name == "fit").unwrap();
+    let of_points = |layer: &Layer| if let Layer::Points(points) = layer { Some(points.colour) } else { None };
+    assert_eq!(figure.panels[0].layers.iter().find_map(of_points), Some(Colour::BLACK));
     // Far less than ten for each point that was tried.
     assert!(found.solves < 150, "{}", found.solves);
 }
@@ -341,7 +346,9 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
             size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
         assert!(error.contains(words), "{size}: {error}");
     }
-    for (skip, words) in [("nobody", "no line has this name"), ("line 2", "table.csv: skip: no measurement is left")] {
+    for (skip, words) in
+        [("nobody", "no line has this name; allowed: line 2"), ("line 2", "table.csv: skip: no measurement is left")]
+    {
         let error = one.clone().without(&[skip.to_owned()]).unwrap_err().to_string();
         assert!(error.contains(words), "{skip}: {error}");
     }

@@ -29,7 +29,10 @@ mod scenes;
 
 use squeezefilm::atomic::write_file;
 use squeezefilm::control::Cancel;
-use squeezefilm::export::figure::{self, Style};
+use squeezefilm::export::figure::{
+    self, Axis, Band, Categories, Colour, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Shading, Shape,
+    Style, Text, Width,
+};
 use squeezefilm::export::figures;
 use squeezefilm::export::figures::compare::DrawnRun;
 use squeezefilm::fidelity::Fidelity;
@@ -280,6 +283,78 @@ fn same_picture(picture: &str, now: &str) {
     };
     let other = now.iter().zip(&stored).find(|(now, stored)| !near(now, stored));
     assert_eq!((other, now.len()), (None, stored.len()), "{picture}.svg; docs/renew pictures draws it anew");
+}
+
+/// Panels with every kind of layer and scale: curves that leave the axes, contours of a field with a hole, legends inside and above the axes.
+fn panels_of_every_kind() -> Vec<Panel> {
+    let wave = |x: f64, k: f64| (k * x).sin() * (1.0 + 0.1 * x);
+    let along = |count: i32, step: f64| (0..=count).map(move |i| step * f64::from(i));
+    let line =
+        |name: &str, k: f64, nth: usize| Line::new(name, along(40, 0.25).map(|x| [x, wave(x, k)]), Style::nth(nth));
+    let curves = Panel::new("(a) H_m and σ²", Axis::new("x", "mm"), Axis::new("load", "N").fixed(-1.2, 1.0))
+        .layers([line("film", 1.3, 0), line("contact", 0.7, 1)])
+        .layer(Line { right: true, ..line("on the right", 2.1, 3) })
+        .layer(Mark::vertical(3.3, "begins"))
+        .layer(Mark::horizontal(0.25, "limit"))
+        .layer(Text::new([7.0, -0.9], "a place"));
+    let curves = Panel { right: Some(Axis::new("torque", "N·m")), ..curves };
+    let powers = |power: i32| (-4..=6).map(move |i| [10f64.powi(i), 3.0 * 10f64.powi(-i * power)]);
+    let decades = Panel::new("(b)", Axis::new("σ", "").log(), Axis::new("error", "").log())
+        .layers([
+            Line::new("first order", powers(1), Style::unmarked(0)),
+            Line::new("second", powers(2), Style::quiet()),
+        ])
+        .layer(Points::new("measured", powers(1), Colour::CONTACT, Marker::hollow(Shape::Diamond)))
+        .height(30.0);
+    let (xs, ys): (Vec<f64>, Vec<f64>) = (along(9, 0.4).map(|x| x.powf(1.4)).collect(), along(7, 0.2).collect());
+    let hill = |x: f64, y: f64| if x > 4.0 && y > 1.2 { f64::NAN } else { 40.0 * wave(x, 1.7) * (2.0 * y).cos() };
+    let values = xs.iter().flat_map(|x| ys.iter().map(move |y| hill(*x, *y))).collect();
+    let grid = Grid { x: xs.clone(), y: ys.clone(), values };
+    let field = Map { label: "pressure".into(), unit: "kPa".into(), grid, contours: Some(1e-3), ..Map::default() };
+    let cells = Map { shading: Shading::Cells, contours: None, ..field.clone() };
+    let kinds = xs.iter().flat_map(|x| ys.iter().map(move |y| (3.0 * x + 5.0 * y) as usize % 3)).collect();
+    let kinds = Categories {
+        x: xs,
+        y: ys,
+        values: kinds,
+        kinds: vec![
+            ("solved".into(), Colour::FILM),
+            ("refused".into(), Colour::CONTACT),
+            ("other".into(), Colour::BLACK),
+        ],
+    };
+    let plane = |title: &str| Panel::new(title, Axis::new("x", "mm"), Axis::new("y", "mm")).height(24.0);
+    let scattered = || along(12, 1.0).map(|x| [x, 250.0 + 90.0 * wave(x, 1.9)]);
+    let mut dots = Points::new("computed", scattered(), Colour::BLACK, Marker::solid(Shape::Circle));
+    dots.errors = along(12, 4.0).collect();
+    let band = Band::new(
+        "a band whose name is too long for the axes of a column",
+        scattered().map(|[x, y]| [x, y - 60.0, y + 45.0]),
+        Colour::FILM,
+    );
+    let counted =
+        Panel::new("(f)", Axis::new("harmonic", "").whole(), Axis::new("compliance", "nm/N")).layer(band).layer(dots);
+    vec![
+        curves,
+        decades,
+        plane("(c)").layer(field),
+        plane("(d) cells").layer(cells),
+        plane("(e)").layer(kinds),
+        counted.legend(Legend::Auto),
+    ]
+}
+
+#[test]
+fn every_kind_of_layer_is_drawn_as_it_was() {
+    for (name, columns, width) in [
+        ("layers-column", 1, Width::Millimetres(85.0)),
+        ("layers-page", 2, Width::Page),
+        ("layers-narrow", 2, Width::Millimetres(100.0)),
+    ] {
+        let panels = panels_of_every_kind();
+        let figure = Figure { columns, width, panels, ..Figure::new("Every kind of layer") };
+        same_picture(&format!("../../tests/figures/{name}"), &figure::to_svg(&figure));
+    }
 }
 
 #[test]

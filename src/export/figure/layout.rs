@@ -145,15 +145,13 @@ fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
 /// A vertical axis, with as many ticks as its height has room for. If labels would touch, every other label is left out.
 fn upright(axis: &Axis, range: Scaled, height: f64) -> Ruler {
     let mut ticks = ticks(axis, &range, ((height / (2.0 * TICK)) as usize).clamp(2, 7));
-    loop {
-        let labelled: Vec<usize> = (0..ticks.ticks.len()).filter(|i| ticks.ticks[*i].label.is_some()).collect();
-        let place = |i: usize| range.fraction(ticks.ticks[i].at) * height;
-        let touch = labelled.windows(2).any(|pair| (place(pair[1]) - place(pair[0])).abs() < LEADING * TICK);
-        if !touch || labelled.len() < 3 {
-            return Ruler::new(axis, range, ticks);
-        }
-        labelled.iter().skip(1).step_by(2).for_each(|i| ticks.ticks[*i].label = None);
-    }
+    let touch = |ticks: &Ticks| {
+        let labelled = ticks.ticks.iter().filter(|tick| tick.label.is_some());
+        let places: Vec<f64> = labelled.map(|tick| range.fraction(tick.at) * height).collect();
+        places.windows(2).any(|pair| (pair[1] - pair[0]).abs() < LEADING * TICK)
+    };
+    while touch(&ticks) && leave_out_every_other(&mut ticks) {}
+    Ruler::new(axis, range, ticks)
 }
 
 /// Width that a vertical axis needs beside the plotting area.
@@ -161,15 +159,25 @@ fn room(axis: &Ruler) -> f64 {
     axis.reach() + if axis.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
 }
 
-/// Ticks of a horizontal axis whose labels do not touch: at most this many, but at least two.
+/// Ticks of a horizontal axis whose labels do not touch: at most this many, but at least two. If even their labels would touch, every other
+/// one is left out.
 fn level_ticks(axis: &Axis, range: &Scaled, width: f64, mut most: usize) -> Ticks {
     loop {
-        let ticks = ticks(axis, range, most);
+        let mut ticks = ticks(axis, range, most);
+        while most <= 2 && touch(&ticks, range, width) && leave_out_every_other(&mut ticks) {}
         if most <= 2 || !touch(&ticks, range, width) {
             return ticks;
         }
         most -= 1;
     }
+}
+
+/// Leaves out every other label, if there are more than two.
+fn leave_out_every_other(ticks: &mut Ticks) -> bool {
+    let labelled: Vec<&mut Tick> = ticks.ticks.iter_mut().filter(|tick| tick.label.is_some()).collect();
+    let many = labelled.len() > 2;
+    labelled.into_iter().skip(1).step_by(2).filter(|_| many).for_each(|tick| tick.label = None);
+    many
 }
 
 fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
@@ -299,7 +307,7 @@ mod tests {
     #[test]
     fn labels_of_a_low_map_and_of_its_colour_bar_do_not_touch() {
         use crate::export::figure::{Grid, Map, Width};
-        for width in [60.0, 85.0, 170.0] {
+        for width in [40.0, 60.0, 85.0, 170.0] {
             for (height, end) in [(5.0, 0.15), (7.0, 0.15), (11.0, 0.3), (20.0, 123.0)] {
                 let grid = Grid { x: vec![0.0, 1.0], y: vec![-end, end], values: vec![-1.0, 1.0, 0.5, -0.5] };
                 let map = Map { label: "correlation".to_owned(), grid, ..Map::default() };
@@ -313,6 +321,22 @@ mod tests {
                 assert!(at.len() >= 2 && at.windows(2).all(|pair| pair[1] - pair[0] >= TICK), "{height}: {at:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_legend_that_would_fill_the_axes_is_above_them() {
+        use crate::export::figure::{Line, Style, Width};
+        let with = |names: &[&str], height| {
+            let line = |name: &&str| Line::new(*name, [[0.0, 0.0], [1.0, 0.1]], Style::unmarked(0));
+            let axis = || Axis::new("x", "").fixed(0.0, 1.0);
+            let panel = names.iter().fold(Panel::new("", axis(), axis()), |panel, name| panel.layer(line(name)));
+            let figure = Figure { width: Width::Millimetres(60.0), ..Figure::new("").panel(panel.height(height)) };
+            Layout::new(&figure).panels[0].legend_box.is_some()
+        };
+        assert!(with(&["film", "contact"], 45.0));
+        assert!(!with(&[&"wide ".repeat(12)], 45.0));
+        assert!(!with(&["1", "2", "3", "4", "5", "6", "7", "8"], 20.0));
+        assert!(!with(&[&"w".repeat(14), "2", "3", "4", "5", "6", "7", "8"], 45.0));
     }
 
     #[test]

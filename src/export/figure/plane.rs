@@ -144,6 +144,10 @@ mod tests {
         assert_eq!([picture.pixels.width, picture.pixels.height], [100, 50]);
         assert_eq!(pixel(&picture, 0.105, 0.5), Colours::Field.at(0.525));
         assert_eq!(pixel(&picture, 0.6, 0.5), Colour::WHITE);
+        // Between nodes along y as well.
+        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![0.2, 0.6, 0.2, 0.6] };
+        let upright = map(&Map { grid, ..Map::default() }, &RECT, &UNIT, &UNIT, &UNIT).unwrap();
+        assert_eq!(pixel(&upright, 0.5, 0.25), Colours::Field.at(0.2 + 0.4 * 0.25));
         let cells = Map { shading: Shading::Cells, ..field };
         let picture = map(&cells, &RECT, &UNIT, &UNIT, &UNIT).unwrap();
         assert_eq!(pixel(&picture, 0.05, 0.2), Colours::Field.at(0.0));
