@@ -136,7 +136,7 @@ pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>
         text.push_str(&format!("\n{} to {}", bound(range.min), parameter.with_unit(bound(range.max))));
     }
     match (parameter.absent, default) {
-        (Some(meaning), _) => text.push_str(&format!("\nDefault {meaning}")),
+        (Some(meaning), _) => text.push_str(&format!("\nIf not given: {meaning}")),
         (None, Some(Value::Text(name))) => {
             text.push_str(&format!("\nDefault {}", choice(parameter.key, name)));
         }

@@ -43,7 +43,10 @@ impl Updater {
         let (ctx, pictures) = (ctx.clone(), channel());
         let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, writing: Vec::new() };
         updater.apply_theme();
-        updater.ctx.set_zoom_factor(if updater.state.lecture { LECTURE_ZOOM } else { 1.0 });
+        // The zoom that the last window was left with already includes that of the lecture size.
+        if updater.state.lecture && updater.ctx.zoom_factor() == 1.0 {
+            updater.ctx.set_zoom_factor(LECTURE_ZOOM);
+        }
         updater.refine();
         Ok(updater)
     }

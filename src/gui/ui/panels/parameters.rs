@@ -92,7 +92,7 @@ impl Panel<'_> {
             let mut beside = ui.new_child(egui::UiBuilder::new().max_rect(area).layout(layout));
             if changed > 0 {
                 let values = counted(changed, "value", "values");
-                let long = format!("{values} changed since it was described");
+                let long = format!("{} from the description", counted(changed, "value differs", "values differ"));
                 let fits = NOTE_SIZE * text_width(ui, &long) < area.width() - heading.width();
                 let text = if fits { long } else { format!("{values} changed") };
                 quiet(&mut beside, self.cx, &text);

@@ -129,7 +129,7 @@ const LONGEST: [&str; 6] = [
     "gap 0.0000 µm",
     "film thickness 0.0000 µm",
     "mean over y: contact 0000 kPa, film −0000 kPa gauge",
-    "p at y = 0 0000 kPa absolute",
+    "p(y = 0) = 0000 kPa absolute",
 ];
 
 fn readout(shown: &Frame<'_, Motor>) -> Vec<String> {
@@ -154,7 +154,7 @@ fn readout(shown: &Frame<'_, Motor>) -> Vec<String> {
     let [contact, film] = [&lines.contact, &lines.film].map(|field| number(at(field) / width / 1e3));
     values.push(format!("mean over y: contact {contact} kPa, film {film} kPa gauge"));
     if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
-        values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
+        values.push(format!("p(y = 0) = {} kPa absolute", number(pressure / 1e3)));
     }
     values
 }

@@ -242,7 +242,7 @@ pub(super) fn show_loops(
     });
 }
 
-const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];
+const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p(y = 0) = 0000 kPa absolute", "load −0000 mN/m"];
 
 fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     let [left, right] = shown.x_range();
@@ -256,8 +256,8 @@ fn readout(shown: &PlateFrame<'_>) -> Vec<String> {
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), gap];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
-        let place = if shown.of.width.is_some() { "p at y = 0" } else { "p" };
-        values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
+        let place = if shown.of.width.is_some() { "p(y = 0)" } else { "p" };
+        values.push(format!("{place} = {} kPa absolute", number(pressure / 1e3)));
     }
     if let Some((curves, lag)) = shown.scales.tooth(0) {
         let load = curves.film.at(shown.phase() + lag);

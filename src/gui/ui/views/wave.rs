@@ -65,9 +65,9 @@ fn stator(style: &PlotStyle, axes: &Axes, shown: &Frame<'_, Motor>) {
         let top: Vec<Pos2> = recording.x.iter().zip(heights).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
         let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
         let feet = [first, last].map(|end| pos2(axes.px(middle + end), body(middle + end)));
-        // It begins a pixel below the body's edge, so that no seam shows.
-        let foot = feet[0].y.max(feet[1].y) + 2.0;
-        style.band(top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
+        // It begins two pixels below the body's edge, so that neither edge nor seam shows.
+        let columns = top.iter().zip(&recording.x).map(|(point, xi)| (point.x, point.y, body(middle + xi) + 2.0));
+        style.band(columns, fill);
         let followed = tooth == shown.tooth;
         let stroke = if followed { Stroke::new(2.0, style.palette.accent) } else { Stroke::new(1.0, colour) };
         style.painter.line([&feet[..1], &top[..], &feet[1..]].concat(), stroke);
