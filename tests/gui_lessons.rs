@@ -320,7 +320,7 @@ fn walk(lesson: usize) {
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
             assert!(window.shows("✔ Done"), "{name}");
             // Every number that is quoted from here on is known.
-            for reading in text::readings(step.told()) {
+            for reading in text::readings(step.after_task()) {
                 assert!(work(&window).readings.contains_key(&reading.source), "{name}: {}", reading.source);
             }
             if let Some(observe) = &step.observe {

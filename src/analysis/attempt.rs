@@ -56,11 +56,11 @@ pub fn attempt(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    told(|| solve(problem, settings, observer, cancel))
+    error_in_words(|| solve(problem, settings, observer, cancel))
 }
 
 /// Runs `solve`, and turns its error or panic into a message.
-pub(super) fn told<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
+pub(super) fn error_in_words<T>(solve: impl FnOnce() -> Result<T, SolveError>) -> Result<T, String> {
     caught(solve).map_err(|panic| format!("the solver failed: {panic}"))?.map_err(|error| error.to_string())
 }
 

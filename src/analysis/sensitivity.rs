@@ -16,7 +16,7 @@ mod uncertainty;
 pub use monte_carlo::{Draw, MonteCarlo, Spread};
 pub use uncertainty::{Propagated, Uncertainties, Uncertainty};
 
-use super::attempt::told;
+use super::attempt::error_in_words;
 use super::error::AnalysisError;
 use super::quantity::Quantity;
 use super::variation::{Jacobian, KeyDerivatives, Slope, Variation};
@@ -209,14 +209,14 @@ impl Sensitivity {
     fn solve_draw(&self, centre: Option<&Centre>, problem: &Problem, cancel: &Cancel) -> Result<Vec<Estimate>, String> {
         let Some(centre) = centre else {
             let settings = Settings { record: Record::Numbers, ..self.settings };
-            let found = told(|| solve(problem, &settings, &mut (), cancel))?;
+            let found = error_in_words(|| solve(problem, &settings, &mut (), cancel))?;
             return if is_settled(found.status) {
                 Ok(read(problem, &found))
             } else {
                 Err("its cycle does not repeat".to_owned())
             };
         };
-        let found = told(|| centre.solve(problem, cancel))?;
+        let found = error_in_words(|| centre.solve(problem, cancel))?;
         Ok(read(problem, &found.ok_or("it has no periodic state on the grids of the scene")?.fine))
     }
 }

@@ -15,7 +15,7 @@ pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, Values, Vary, spaced};
 pub use part::SweepPart;
 use part::{CHUNK, chunk, count};
 
-use super::attempt::{RunStatus, told};
+use super::attempt::{RunStatus, error_in_words};
 use super::error::AnalysisError;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
@@ -311,7 +311,7 @@ impl Sweep {
                 outside: Vec::new(),
             };
             let solved = problem.and_then(|problem| {
-                let solution = told(|| solve_from(&mut warm, &problem, &settings, &mut (), cancel))?;
+                let solution = error_in_words(|| solve_from(&mut warm, &problem, &settings, &mut (), cancel))?;
                 Ok((problem, solution))
             });
             match solved {

@@ -14,7 +14,7 @@
 //! Where p is at an end of its range, or a rule between keys has no room on one side, D is one-sided, (4 f(h) − f(2h) − 3 f(0))/2h,
 //! and its error the difference to (f(h) − f(0))/h.
 
-use super::attempt::told;
+use super::attempt::error_in_words;
 use super::error::AnalysisError;
 use crate::control::Cancel;
 use crate::estimate::Estimate;
@@ -201,7 +201,7 @@ impl Variation {
         let plans: Vec<_> = (0..self.parameters.len()).map(plan).collect();
         let jobs: Vec<&Problem> = plans.iter().flat_map(|plan| &plan.points).flatten().collect();
         let of = |problem: &&Problem| {
-            let found = told(|| centre.solve(problem, cancel));
+            let found = error_in_words(|| centre.solve(problem, cancel));
             solved(jobs.len());
             let found = found?
                 .ok_or("a solve beside it has no periodic state on the same grids, or floats at quite another gap")?;

@@ -36,16 +36,16 @@ pub(super) struct Arguments {
     out: PathBuf,
 
     /// Width in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = whole::<u32>(100..=4000))]
+    #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = whole::<u32>(100..=4000), allow_negative_numbers = true)]
     width: u32,
 
     /// How long the cycle takes on screen
-    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = within(0.2..=120.0, "a number of seconds"))]
+    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = within(0.2..=120.0, "a number of seconds"), allow_negative_numbers = true)]
     seconds: f64,
 
     /// Maximum number of frames; the frames are evenly spaced time steps. An MP4 has at least 24 frames a second, interpolated between
     /// time steps if necessary, unless fewer than 60 frames are requested
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u16>(2..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u16>(2..=1000), allow_negative_numbers = true)]
     frames: u16,
 
     #[command(flatten)]

@@ -90,7 +90,7 @@ pub(super) struct Arguments {
 
     /// Number of starting points: the values of the preset and, if more than one, points spread over the bounds. Those are solved as
     /// drafts; the search then starts from the preset and from up to three of the best drafts that are far enough apart
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS), allow_negative_numbers = true)]
     starts: u16,
 
     /// Maximises this result, by its name in --json
@@ -192,7 +192,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         let parameter = found.unknown.parameter;
         columns.row([
             parameter.key.to_owned(),
-            found.told(),
+            found.in_words(),
             short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
@@ -277,7 +277,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     );
     columns.row([found.goal.quantity.name().to_owned(), found.value.to_string(), before]);
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
-        columns.row([quantity.name().to_owned(), reached.to_string(), limit.told(reached)]);
+        columns.row([quantity.name().to_owned(), reached.to_string(), limit.in_words(reached)]);
     }
     text.push_str(&columns.text(&[]));
     text.push('\n');
@@ -290,7 +290,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     ]);
     for line in &found.lines {
         let parameter = line.unknown.parameter;
-        let (value, flat) = line.told();
+        let (value, flat) = line.in_digits();
         columns.row([
             parameter.key.to_owned(),
             parameter.with_unit(value),

@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         ask(&mut answers)?;
     }
     let motor = agreeing(&answers, &Cancel::new()).map_err(CliError::Input)?;
-    told(&motor);
+    print_assumptions(&motor);
     motor.unmet.iter().for_each(|words| terminal::warning(words));
     match &arguments.file {
         Some(file) => {
@@ -139,7 +139,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
 }
 
 /// Prints the assumptions, and the reason for each.
-fn told(motor: &NewMotor) {
+fn print_assumptions(motor: &NewMotor) {
     let mut columns = Columns::new();
     for assumption in &motor.assumed {
         columns.row([assumption.key, &assumption.value, &assumption.why]);

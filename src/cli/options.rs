@@ -171,7 +171,7 @@ pub(super) struct AccuracyOptions {
 
     /// Time limit per solve: 20ms, 1.5s or 2min; the best result by then is kept
     ///
-    /// Without an accuracy, the aim is that of `reference`.
+    /// Without an accuracy, the aim is that of `reference`. The first grids are always completed, however short the time.
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_hyphen_values = true)]
     pub(super) budget: Option<Duration>,
 }

@@ -59,11 +59,11 @@ pub(super) struct Arguments {
     uncertainties: Vec<(String, Uncertainty)>,
 
     /// Also solves this many random scenes drawn from the uncertainties
-    #[arg(long, value_name = "N", requires = "uncertainties", value_parser = whole::<u32>(2..=1_000_000))]
+    #[arg(long, value_name = "N", requires = "uncertainties", value_parser = whole::<u32>(2..=1_000_000), allow_negative_numbers = true)]
     monte_carlo: Option<u32>,
 
     /// Seed of the random numbers: the same seed draws the same scenes
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "monte_carlo")]
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "monte_carlo", allow_negative_numbers = true)]
     seed: u64,
 
     #[command(flatten)]

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     maps: Vec<&'static Map>,
 
     /// Cells along each axis of a map
-    #[arg(long, value_name = "N", default_value = "5", value_parser = whole::<u16>(2..=200))]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = whole::<u16>(2..=200), allow_negative_numbers = true)]
     cells: u16,
 
     #[command(flatten)]

@@ -55,12 +55,12 @@ pub(super) struct Arguments {
     preset: String,
 
     /// Maximum cycles; exit status 3 if the cycle does not repeat by then [default: 300; for a dropped plate, 5000]
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=100_000), allow_negative_numbers = true)]
     cycles: Option<u32>,
 
     /// Remaining relative change below which the cycle counts as repeating: of the gas p h at every node, and of α or the mean load. For a
     /// dropped plate, remaining relative change of its height below which it counts as floating
-    #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = within(1e-8..=0.1, "a number"))]
+    #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = within(1e-8..=0.1, "a number"), allow_negative_numbers = true)]
     tolerance: f64,
 
     #[command(flatten)]

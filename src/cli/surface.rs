@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     files: Vec<PathBuf>,
 
     /// Degree of the polynomial that is subtracted: 1 levels, 2 also removes curvature
-    #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = whole::<u8>(0..=2))]
+    #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = whole::<u8>(0..=2), allow_negative_numbers = true)]
     degree: u8,
 
     #[command(flatten)]

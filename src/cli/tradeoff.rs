@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     budget: Option<Duration>,
 
     /// Runs of every setting [default: as many as fit into about a minute, 1 to 31]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1000), allow_negative_numbers = true)]
     repeats: Option<u16>,
 
     #[command(flatten)]

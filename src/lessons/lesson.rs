@@ -211,7 +211,7 @@ impl Answer {
 
 impl Step {
     /// The texts that are shown after the task: explanations and replies. They may quote numbers of the run that fulfilled it.
-    pub fn told(&self) -> impl Iterator<Item = &Block> {
+    pub fn after_task(&self) -> impl Iterator<Item = &Block> {
         let questions = [&self.question, &self.observe].into_iter().flatten();
         let said = questions.flat_map(|question| {
             question.why.iter().chain(question.answer.choices().iter().flat_map(|choice| &choice.reply))

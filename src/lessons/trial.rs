@@ -75,7 +75,7 @@ pub struct Quoted {
 /// # Errors
 /// Why a scene of it was not solved.
 pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
-    if above(step).chain(readings(step.told())).next().is_none() {
+    if above(step).chain(readings(step.after_task())).next().is_none() {
         return Ok(Quoted::default());
     }
     let start = TrialRun::of(step, &step.scene, cancel)?;
@@ -83,7 +83,7 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
         Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, cancel)?.known,
-        _ => readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
+        _ => readings(step.after_task()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
     };
     Ok(known)
 }
@@ -95,7 +95,7 @@ fn above(step: &Step) -> impl Iterator<Item = &Reading> {
 
 /// Whether the check and the texts of a step use numbers of the tab Torque.
 fn uses_torque(step: &Step) -> bool {
-    let quoted = above(step).chain(readings(step.told()));
+    let quoted = above(step).chain(readings(step.after_task()));
     let mut used = step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live));
     used.any(|live| live.tab() == Live::Stall.tab())
 }
@@ -178,7 +178,7 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
             Some(unmet) => findings.push(Finding::Error(format!("try does not fulfil the check: {unmet}"))),
             None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
             None => {
-                let unknown = readings(step.told()).filter(|reading| !done.known.contains_key(&reading.source));
+                let unknown = readings(step.after_task()).filter(|reading| !done.known.contains_key(&reading.source));
                 let told = |of: &Reading| format!("{{{}}} is not known in the run that fulfils the task", of.source);
                 findings.extend(unknown.map(told).map(Finding::Error));
             }
@@ -227,7 +227,7 @@ impl TaskCheck<'_> {
         let (now, start) = (self.run.ran(live), self.start.ran(&self.began));
         let unmet = self.task.check.unmet(now, start);
         let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
-        let quoted = unmet.is_none().then(|| readings(self.step.told())).into_iter().flatten();
+        let quoted = unmet.is_none().then(|| readings(self.step.after_task())).into_iter().flatten();
         let known = quoted.filter_map(|of| Some((of.source.clone(), of.value(now, start)?))).collect();
         self.outcome = TaskOutcome { unmet, too_far, known };
     }

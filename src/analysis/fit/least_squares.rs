@@ -5,7 +5,7 @@ use super::model::{Computed, Curve, FitModel};
 use super::starts::{best, distance, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Bounds, Unknown};
-use super::{Stopped, Tell, searched};
+use super::{Report, Stopped, searched};
 use crate::analysis::error::AnalysisError;
 use crate::control::Cancel;
 use crate::digits::{short, significant, with_error};
@@ -85,7 +85,7 @@ pub struct FittedUnknown {
 impl FittedUnknown {
     /// Its value with the standard error, for people: `2.263 ± 0.012 µm`. If the error is wider than the bounds, the value is not
     /// determined: `2.26 µm, not determined`.
-    pub fn told(&self) -> String {
+    pub fn in_words(&self) -> String {
         let Unknown { parameter, from, to, .. } = self.unknown;
         match self.error {
             Some(error) if error > to - from => {
@@ -128,7 +128,7 @@ struct Search<'a> {
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
-    told: Tell<'a>,
+    report: Report<'a>,
     /// Points tried, and the least χ² among them.
     tried: &'a Mutex<(usize, f64)>,
 }
@@ -173,7 +173,7 @@ impl Residual for Search<'_> {
         let mut tried = self.tried.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         tried.0 += 1;
         tried.1 = tried.1.min(chi_squared);
-        (self.told)(tried.0, tried.1);
+        (self.report)(tried.0, tried.1);
         Ok(found)
     }
 }
@@ -222,7 +222,7 @@ pub fn fit(
     bounds: &[Bounds],
     measured: &Measured,
     settings: &Settings,
-    (starts, cancel, told): (usize, &Cancel, Tell<'_>),
+    (starts, cancel, report): (usize, &Cancel, Report<'_>),
 ) -> Result<Option<Fitted>, AnalysisError> {
     let model = &FitModel::new(scene, bounds, settings)?.under(measured)?;
     let own = model.start();
@@ -248,7 +248,7 @@ pub fn fit(
         lower: fixed.iter().map(|at| at.map_or(0.0, Bound::place)).collect(),
         upper: fixed.iter().map(|at| at.map_or(1.0, Bound::place)).collect(),
         cancel,
-        told,
+        report,
         tried: &tried,
     };
     let free = vec![None; unknowns];
@@ -535,7 +535,7 @@ mod tests {
     fn what_is_less_sure_than_its_bounds_is_not_determined() {
         let bounds: Bounds = "stator.normal_amplitude_um=0.5:3".parse().unwrap();
         let unknown = Unknown::new(&Scene::motor(), &bounds).unwrap();
-        let told = |error| FittedUnknown { unknown: unknown.clone(), value: 2.263, error, at: None }.told();
+        let told = |error| FittedUnknown { unknown: unknown.clone(), value: 2.263, error, at: None }.in_words();
         assert_eq!(told(Some(500.0)), "2.26 µm, not determined");
         assert_eq!(told(Some(0.012)), "2.263 ± 0.012 µm");
         assert_eq!(told(None), "2.2630 µm");

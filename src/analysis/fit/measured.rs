@@ -17,6 +17,8 @@ pub const LARGEST_TABLE: u64 = 10;
 /// The name of the table that is built into the program: Table I of Maeno and Bogy (1992).
 pub const TABLE1: &str = "table1";
 const MOST_LINES: usize = 10_000;
+/// Names of lines in a message, at most.
+const MOST_NAMED: usize = 20;
 
 /// The column of the rotor's speed, which goes with [`TORQUE`].
 const SPEED: &str = "rotor_speed_rpm";
@@ -364,12 +366,16 @@ impl Measured {
 
     /// Removes the lines with these names; at least one must remain.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
+        let mut known: Vec<String> = self.measurements.iter().map(|one| show_text(&one.label)).collect();
+        known.dedup();
+        known.truncate(MOST_NAMED);
         for label in labels {
             let before = self.measurements.len();
             self.measurements.retain(|one| one.label != *label);
             if self.measurements.len() == before {
-                let label = show_text(label);
-                return Err(AnalysisError::Input(format!("{}: skip {label}: no line has this name", self.name)));
+                let (label, known) = (show_text(label), known.join(", "));
+                let message = format!("{}: skip {label}: no line has this name; allowed: {known}", self.name);
+                return Err(AnalysisError::Input(message));
             }
         }
         if self.measurements.is_empty() {

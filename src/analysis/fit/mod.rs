@@ -35,7 +35,7 @@ pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
 
 /// Reports the progress of a fit or an optimisation: the number of points tried, and the best value so far (χ² for a fit, the sought number
 /// for an optimum; NaN before there is one).
-pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);
+pub type Report<'a> = &'a (dyn Fn(usize, f64) + Sync);
 
 /// The error that tells the search library that the caller has cancelled.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use super::measured::{Observable, named, names};
 use super::model::{Computed, FitModel};
 use super::starts::{best, distance, spread};
 use super::unknown::{Bound, Bounds, Unknown};
-use super::{Stopped, Tell, searched};
+use super::{Report, Stopped, searched};
 use crate::analysis::attempt::attempt;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::quantity::Quantity;
@@ -90,7 +90,7 @@ impl Limit {
     }
 
     /// The limit, beside the number `found` of an optimum, in words.
-    pub fn told(&self, found: &Estimate) -> String {
+    pub fn in_words(&self, found: &Estimate) -> String {
         format!("{}: {self}", if self.is_kept(found) { "allowed" } else { "NOT KEPT" })
     }
 }
@@ -194,9 +194,9 @@ pub struct Scan {
 
 impl Scan {
     /// The value and the ends of [`Self::flat`], rounded to the same number of digits, so that they stay in order.
-    pub fn told(&self) -> (String, Option<[String; 2]>) {
-        let told = |value| significant(value, 4);
-        (told(self.value), self.flat.map(|(from, to)| [told(from), told(to)]))
+    pub fn in_digits(&self) -> (String, Option<[String; 2]>) {
+        let digits = |value| significant(value, 4);
+        (digits(self.value), self.flat.map(|(from, to)| [digits(from), digits(to)]))
     }
 }
 
@@ -208,7 +208,7 @@ struct Search<'a> {
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
-    told: Tell<'a>,
+    report: Report<'a>,
     /// Points tried, and the best number so far.
     tried: &'a Mutex<(usize, f64)>,
     /// The last point and its outcome: the library asks for the number and for its limits separately.
@@ -238,7 +238,7 @@ impl Search<'_> {
         {
             tried.1 = *cost;
         }
-        (self.told)(tried.0, tried.1 * self.size * if self.goal.greatest { -1.0 } else { 1.0 });
+        (self.report)(tried.0, tried.1 * self.size * if self.goal.greatest { -1.0 } else { 1.0 });
         *last = Some((x, found.clone()));
         Ok(found)
     }
@@ -283,7 +283,7 @@ pub fn optimise(
     bounds: &[Bounds],
     goal: &Goal,
     settings: &Settings,
-    (starts, cancel, told): (usize, &Cancel, Tell<'_>),
+    (starts, cancel, report): (usize, &Cancel, Report<'_>),
 ) -> Result<Option<Optimum>, AnalysisError> {
     let model = FitModel::new(scene, bounds, settings)?.asking(goal.asked());
     let own = model.start();
@@ -313,7 +313,7 @@ pub fn optimise(
             lower: vec![0.0; count],
             upper: vec![1.0; count],
             cancel,
-            told,
+            report,
             tried: &tried,
             last: Mutex::new(None),
         };
@@ -341,7 +341,7 @@ pub fn optimise(
     }
     let mut found = describe(&model, goal, (own, x, at, converged), cancel)?;
     if let (Some(found), Some((value, x))) = (&mut found, lesser) {
-        let at = model.unknowns.iter().zip(x).map(|(unknown, x)| unknown.told(x));
+        let at = model.unknowns.iter().zip(x).map(|(unknown, x)| unknown.with_value(x));
         found.warnings.push(format!(
             "another start ended at {}, with {} = {}: more starts may find a better optimum (--starts)",
             at.collect::<Vec<_>>().join(", "),
@@ -404,7 +404,7 @@ fn describe(
                 && sign * (there.value - best.value) > (there.error + best.error).max(0.0)
                 && better.as_ref().is_none_or(|(_, other)| sign * (there.value - other) > 0.0)
             {
-                better = Some((unknown.told(*place), there.value));
+                better = Some((unknown.with_value(*place), there.value));
             }
         }
         let points: Vec<(f64, Option<f64>)> = numbers
@@ -416,7 +416,7 @@ fn describe(
             let Some((place, Some(Err(reason)))) = numbers.get(beside).map(|(at, found)| (at, found.first())) else {
                 continue;
             };
-            warnings.push(format!("{} cannot be computed: {reason}", unknown.told(*place)));
+            warnings.push(format!("{} cannot be computed: {reason}", unknown.with_value(*place)));
         }
         let end = |upwards| edge((&points, &kept), (middle, best.value, little), upwards);
         let flat = within.then(|| (end(false), end(true)));
@@ -530,7 +530,7 @@ mod tests {
         let unknown = Unknown::new(&Scene::motor(), &"film.min_spacing_nm=100:400".parse().unwrap()).unwrap();
         let (points, kept) = (Vec::new(), Vec::new());
         let scan = Scan { unknown, value: 166.84, at: None, points, kept, flat: Some((166.84, 168.0)) };
-        assert_eq!(scan.told(), ("166.8".to_owned(), Some(["166.8", "168.0"].map(str::to_owned))));
+        assert_eq!(scan.in_digits(), ("166.8".to_owned(), Some(["166.8", "168.0"].map(str::to_owned))));
     }
 
     #[test]

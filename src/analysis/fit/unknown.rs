@@ -172,7 +172,7 @@ impl Unknown {
     }
 
     /// Its key and its value at x, for people: `film.min_spacing_nm = 200 nm`.
-    pub(super) fn told(&self, x: f64) -> String {
+    pub(super) fn with_value(&self, x: f64) -> String {
         format!("{} = {}", self.parameter.key, self.parameter.with_unit(short(self.value(x), 4)))
     }
 }

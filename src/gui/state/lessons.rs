@@ -187,7 +187,7 @@ impl LessonState {
     /// Whether the quoted numbers are from a run of another scene than `scene`.
     pub fn tells_of_another_run(&self, scene: &Scene) -> bool {
         let (Some(running), Some((_, step))) = (&self.running, self.step()) else { return false };
-        readings(step.told()).any(|reading| {
+        readings(step.after_task()).any(|reading| {
             let (kept, present) = (running.kept(reading), running.present(reading, scene));
             kept.zip(present).is_some_and(|(kept, present)| reading.text(kept) != reading.text(present))
         })

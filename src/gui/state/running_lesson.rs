@@ -123,7 +123,8 @@ impl RunningLesson {
         let does = ready && unmet.is_none() && !beyond;
         let moved = |live: Live| live.is_done_by_hand() && now.live.get(live) != before.live.get(live);
         let tried = now.scene != before.scene || task.check.live().any(moved);
-        let told = readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?))).collect();
+        let told =
+            readings(step.after_task()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?))).collect();
         let Some(work) = self.work.get_mut(self.step) else { return };
         let open = work.stage(step) == Stage::Task;
         if open && ready {

@@ -316,12 +316,12 @@ fn optimum(ui: &mut Ui, found: &Optimum, drawn: &FitDrawing, height: f32, cx: &D
         let value = found.value.to_string();
         row(ui, sought, "The result that is sought, with its numerical error", value, before);
         for (((limit, _), words), reached) in found.goal.limits.iter().zip(limited).zip(&found.limited) {
-            row(ui, words, "A result that is limited", reached.to_string(), limit.told(reached));
+            row(ui, words, "A result that is limited", reached.to_string(), limit.in_words(reached));
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
             let at = scan.at.map(|bound| format!("at its {} bound", bound.name()));
-            let (value, flat) = scan.told();
+            let (value, flat) = scan.in_digits();
             let flat = flat.map(|[from, to]| {
                 let ends = format!("from {from} to {}", parameter.with_unit(to));
                 format!("the result stays within {} of the optimum {ends}", percent(found.flatness()))
@@ -344,7 +344,7 @@ fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {
     let parameter = one.unknown.parameter;
     let name = ui.label(RichText::new(label(parameter)).color(cx.colours.quiet));
     name.hint(parameter.about);
-    let told = RichText::new(one.told()).color(ui.visuals().strong_text_color());
+    let told = RichText::new(one.in_words()).color(ui.visuals().strong_text_color());
     glossary::term(ui, told, "Standard error");
     ui.label(match one.at {
         Some(Bound::Lower) => "at its lower bound",

@@ -123,11 +123,11 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     title(ui, &name, &judged);
     legend(ui, &[&panel]);
     let chart = Chart { name: &name, height, panel: &panel, words: (Some("Solve time"), &judged) };
-    chart.show_with(ui, |plot| plot.label_formatter(|at| told(tradeoff, at)));
+    chart.show_with(ui, |plot| plot.label_formatter(|at| setting_at(tradeoff, at)));
 }
 
 /// The setting under the pointer, in words.
-fn told(tradeoff: &Tradeoff, at: &HoverPosition<'_>) -> Option<String> {
+fn setting_at(tradeoff: &Tradeoff, at: &HoverPosition<'_>) -> Option<String> {
     let HoverPosition::NearDataPoint { position, .. } = at else { return None };
     let point = tradeoff.points.iter().find(|point| point.median.log10() == position.x)?;
     let error = point.error.map_or_else(String::new, |error| format!("\nerror {}", percent(error)));
