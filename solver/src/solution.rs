@@ -60,9 +60,9 @@ impl StoppedBy {
 /// The accuracy of the headline, relative to it; that of α to a hundredth of the load where the film carries less than that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// Asked for; 0 on grids that the scene prescribes.
+    /// The relative error asked for; 0 on grids that the scene prescribes.
     pub asked: f64,
-    /// Stated.
+    /// The stated relative error.
     pub stated: f64,
     /// Why no finer grid was solved.
     pub stopped_by: StoppedBy,

@@ -99,9 +99,9 @@ impl Sensitivity {
     }
 
     /// By what share of itself an output changes with a key: for a change of the key by as large a share of its own scale
-    /// ([`KeyDerivatives::scale`]), or by one unit of a key that has none. Its error by the grids is how it changes itself without the finest one, which is
-    /// less than that of the derivative where that is off as the output is. `None` if it is not known, or the output is nothing but its
-    /// error.
+    /// ([`KeyDerivatives::scale`]), or by one unit of a key that has none. Its error due to the grids is its own change if the finest grid is
+    /// left out; that is less than the error of the derivative where derivative and output have the same relative error. `None` if it is
+    /// not known, or if the error of the output is as large as the output.
     pub fn elasticity(&self, output: usize, column: usize) -> Option<Estimate> {
         let (slope, scale) = (self.column_slope(output, column)?, self.columns[column].scale().unwrap_or(1.0));
         let Estimate { value, error } = self.values[output];
@@ -110,8 +110,8 @@ impl Sensitivity {
         let of = |slope: f64, value: f64| slope * scale / value.abs();
         let found = of(slope.value, value);
         let grids = (found - of(slope.coarse, self.coarse[output].value)).abs();
-        // Where both ladders have the same whole or half number to rounding, the output is that power of the key. Any other they may have in common
-        // because both have the same nodes across.
+        // If both give the same whole or half number to rounding, the output is that power of the key. Any other number may be the same in
+        // both only because they have the same nodes across.
         let power = grids < SAME && (2.0 * found - (2.0 * found).round()).abs() < SAME;
         let least = if power { 0.0 } else { of(slope.least, value) };
         let error = of(slope.step_error + slope.left_out, value) + grids.max(least);

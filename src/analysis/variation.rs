@@ -73,9 +73,10 @@ pub struct Slope {
     pub least: f64,
     /// Its estimated error due to the length of the step, absolute.
     pub step_error: f64,
-    /// Its estimated error by rounding, and by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
-    /// the key does, and the derivative with it by ε of the number over the scale of the key. Where a ring has other elements at each point, what
-    /// they leave is another share there: ε of the number over the step, of a one-sided derivative four times that.
+    /// Its estimated error, absolute, due to rounding and to what the plan leaves out of the model. A term that changes the number by a share ε
+    /// is taken to be proportional to the key, so it changes the derivative by ε times the number over the scale of the key. Where the ring
+    /// has different elements on both sides of the step, their errors differ as well: ε times the number over the step, and four times that
+    /// for a one-sided derivative.
     pub left_out: f64,
 }
 

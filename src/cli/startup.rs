@@ -42,12 +42,11 @@ Files of --out:
 /// A plate starts at rest at its mean gap and first moves away from the wall. Its cycles are counted from a quarter of a period later,
 /// when the gap is widest. Every tooth is solved. The result is compared
 /// with the periodic solve, which does not march in time: the two agree within their stated errors plus the remaining change, which
-/// --tolerance bounds. Grids
-/// are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
+/// --tolerance bounds. Grids are refined until the main result of every cycle is as accurate as asked, relative to the largest of them.
 ///
-/// A plate under a load is dropped instead, from twice the gap at which it floats, while the vibration comes up within four cycles, and followed until its height no longer changes. It shakes a
-/// little with the vibration, unlike the plate of the periodic solve. A heavy plate bounces for thousands of cycles, which may take a
-/// minute.
+/// A plate under a load is dropped instead, from twice the gap at which it floats, while the vibration builds up within four cycles. Its
+/// height is computed until it no longer changes. The plate shakes a little with the vibration, unlike that of the periodic solve. A heavy
+/// plate bounces for thousands of cycles, which may take a minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {

@@ -215,8 +215,9 @@ fn residuals(measured: &Measured, computed: &[Computed], used: &[usize]) -> Vec<
 /// also at the best of as many points, spread over the bounds and solved as drafts. A measurement that cannot be computed at the start is
 /// left out, and reported. `None` if cancelled.
 ///
-/// Keys that cannot be chosen, or whose values are all set by the table; a condition that the scene does not accept; fewer computable
-/// measurements than unknowns; or an error of the search library.
+/// # Errors
+/// If a key cannot be chosen, or the table sets all its values; if the scene does not accept a condition; if fewer measurements can be computed
+/// than there are unknowns; or if the search library fails.
 pub fn fit(
     scene: &Scene,
     bounds: &[Bounds],

@@ -61,7 +61,7 @@ impl FromStr for Limit {
         let name = if name == "α" { Quantity::Alpha.name() } else { name };
         let known = Quantity::all().find(|quantity| quantity.name() == name);
         let unit = known.map_or("", Quantity::usual_unit);
-        // Of a number that there is not the unit may be any: a goal, which knows the scene, tells which there are.
+        // An unknown name is accepted with any unit here; the goal, which knows the scene, then refuses it and lists the names.
         let any = Quantity::all().filter(|_| known.is_none()).map(Quantity::usual_unit);
         match std::iter::once(unit).chain(any).find_map(|unit| quantity_text::number(unit, value)) {
             Some(value) => Ok(Self { name: name.to_owned(), below, value }),

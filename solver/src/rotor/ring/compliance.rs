@@ -64,11 +64,11 @@ pub struct RingCompliances {
 /// cos mθ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Deflection {
-    /// U.
+    /// Amplitude U of the radial deflection, for each node.
     pub radial: Vec<f64>,
-    /// V.
+    /// Amplitude V of the circumferential deflection.
     pub circumferential: Vec<f64>,
-    /// W.
+    /// Amplitude W of the axial deflection.
     pub axial: Vec<f64>,
 }
 
