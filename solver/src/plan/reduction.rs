@@ -219,19 +219,25 @@ fn end_share(motor: &Motor) -> f64 {
     (motor.contact_width / motor.tooth_width).min(1.0)
 }
 
-/// Boundary layers of the closed film \[m\] at the ends of a tooth and at its sides. Between rough faces they differ, the more so the narrower
-/// the gap, which under load is narrower than the minimum spacing.
-fn layers(numbers: &Dimensionless, motor: &Motor) -> [f64; 2] {
-    let ratio = motor.surface.flow.map_or(1.0, |roughness| {
-        let gaps = [motor.min_spacing, LEAST_RATIO * roughness.rms];
-        gaps.map(|gap| roughness.at(gap)).map(|flow| flow.along / flow.across).into_iter().fold(0.0, f64::max)
-    });
-    [numbers.boundary_layer * ratio.sqrt(), numbers.boundary_layer]
+/// Flow along a tooth over that across it, least and greatest: between rough faces they differ, the more so the narrower the gap, which under
+/// load is narrower than the minimum spacing.
+fn along_over_across(motor: &Motor) -> [f64; 2] {
+    let Some(roughness) = &motor.surface.flow else { return [1.0, 1.0] };
+    let [a, b] = [motor.min_spacing, LEAST_RATIO * roughness.rms].map(|gap| roughness.at(gap));
+    let [a, b] = [a, b].map(|flow| flow.along / flow.across);
+    [a.min(b), a.max(b)]
 }
 
-/// Diffusivities of the gas in the closed film \[m²/s\], along a tooth and across it.
+/// Boundary layers of the closed film \[m\] at the ends of a tooth, at most, and at its sides.
+fn layers(numbers: &Dimensionless, motor: &Motor) -> [f64; 2] {
+    let [_, greatest] = along_over_across(motor);
+    [numbers.boundary_layer * greatest.sqrt(), numbers.boundary_layer]
+}
+
+/// Diffusivities of the gas in the closed film \[m²/s\], along a tooth, at least, and across it.
 fn diffusivities(numbers: &Dimensionless, motor: &Motor) -> [f64; 2] {
-    layers(numbers, motor).map(|layer| 0.5 * layer.powi(2) * TAU * motor.frequency)
+    let (across, [least, _]) = (0.5 * numbers.boundary_layer.powi(2) * TAU * motor.frequency, along_over_across(motor));
+    [across * least, across]
 }
 
 /// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
