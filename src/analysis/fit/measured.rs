@@ -366,13 +366,13 @@ impl Measured {
 
     /// Removes the lines with these names; at least one must remain.
     pub fn without(mut self, labels: &[String]) -> Result<Self, AnalysisError> {
-        let mut known: Vec<String> = self.measurements.iter().map(|one| show_text(&one.label)).collect();
-        known.dedup();
-        known.truncate(MOST_NAMED);
         for label in labels {
             let before = self.measurements.len();
             self.measurements.retain(|one| one.label != *label);
             if self.measurements.len() == before {
+                let mut known: Vec<String> = self.measurements.iter().map(|one| show_text(&one.label)).collect();
+                known.dedup();
+                known.truncate(MOST_NAMED);
                 let (label, known) = (show_text(label), known.join(", "));
                 let message = format!("{}: skip {label}: no line has this name; allowed: {known}", self.name);
                 return Err(AnalysisError::Input(message));
