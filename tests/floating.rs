@@ -348,6 +348,21 @@ fn a_load_that_no_film_carries_is_refused_with_the_amplitude_it_needs() {
         assert!((25.0..32.0).contains(&needed), "{error}");
         assert!(with(&(1.02 * needed).to_string(), "196").is_ok(), "{needed}");
     }
+    // A strip that is 16 µm long carries next to nothing at the first amplitudes that are tried.
+    let narrow = |amplitude: &str| {
+        let plate = [("plate.length_mm", "0.01607"), ("plate.load_n", "7e-6"), ("plate.frequency_khz", "5.308")];
+        let gas = [
+            ("film.ambient_pressure_kpa", "374.7"),
+            ("film.mean_free_path_nm", "313.2"),
+            ("film.slip", "fukui-kaneko"),
+        ];
+        let set = [("plate.amplitude_um", amplitude)];
+        solved(&scene("plate-crossover", &[&plate, &gas, &set]), Fidelity::Draft).1
+    };
+    let error = narrow("0.00725").unwrap_err().to_string();
+    let needed: f64 =
+        error.split("about ").nth(1).unwrap_or_else(|| panic!("{error}")).split(' ').next().unwrap().parse().unwrap();
+    assert!(narrow(&(1.02 * needed).to_string()).is_ok() && narrow(&(0.95 * needed).to_string()).is_err(), "{needed}");
     // A load that is 10¹⁸ times what ambient pressure would carry, as well.
     for absurd in [&[("plate.load_n", "1e5")][..], &[("plate.load_n", "1e6"), ("plate.radius_mm", "0.001")]] {
         let refused = solved(&scene("floating-disc", &[absurd]), Fidelity::Draft).1.unwrap_err();

@@ -344,7 +344,9 @@ impl GapSearch<'_> {
             if low == most {
                 return Ok(None);
             }
-            high = most.min(low * of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0));
+            // Near touching the load grows with the square root of the amplitude, and nowhere faster than with its square.
+            let growth = of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0);
+            high = most.min(low * growth.max(of_low.max(NOTHING.exp()).powf(-0.5)));
             let of_high = carried(self, high)?;
             if of_high >= 1.0 {
                 break;
@@ -361,6 +363,10 @@ impl GapSearch<'_> {
                     if left.max(right) >= 1.0 {
                         (low, high) = (before, if left >= 1.0 { inner[0] } else { inner[1] });
                         break;
+                    }
+                    // Beyond its greatest value it falls at most with the sixth power.
+                    if left.max(right) * (high / low).powi(6) < 1.0 {
+                        return Ok(None);
                     }
                     if left < right {
                         low = inner[0];
