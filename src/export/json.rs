@@ -55,36 +55,18 @@ pub struct Summary {
 }
 
 /// The numbers of the object that are results of a solve, in its order.
-const RESULTS: [Quantity; 28] = [
-    Quantity::Alpha,
-    Quantity::AlphaError,
-    Quantity::FilmLoad,
-    Quantity::FilmLoadError,
-    Quantity::FilmLoadMin,
-    Quantity::FilmLoadMax,
-    Quantity::FilmLoadMinError,
-    Quantity::FilmLoadMaxError,
-    Quantity::ContactLoad,
-    Quantity::StallTorque,
-    Quantity::StallTorqueError,
-    Quantity::MaxTorque,
-    Quantity::MaxTorqueError,
-    Quantity::TeethInContact,
-    Quantity::TeethInContactError,
-    Quantity::MinGap,
-    Quantity::MinGapError,
-    Quantity::MaxPressure,
-    Quantity::MaxPressureError,
-    Quantity::LoadRatio,
-    Quantity::LoadRatioError,
-    Quantity::LoadRatioMin,
-    Quantity::LoadRatioMax,
-    Quantity::LoadRatioMinError,
-    Quantity::LoadRatioMaxError,
-    Quantity::SqueezeNumber,
-    Quantity::BearingNumber,
-    Quantity::KnudsenNumber,
-];
+const RESULTS: [&[Quantity]; 7] = {
+    use Quantity::*;
+    [
+        &[Alpha, AlphaError],
+        &[FilmLoad, FilmLoadError, FilmLoadMin, FilmLoadMax, FilmLoadMinError, FilmLoadMaxError, ContactLoad],
+        &[StallTorque, StallTorqueError, MaxTorque, MaxTorqueError],
+        &[TeethInContact, TeethInContactError],
+        &[MinGap, MinGapError, MaxPressure, MaxPressureError],
+        &[LoadRatio, LoadRatioError, LoadRatioMin, LoadRatioMax, LoadRatioMinError, LoadRatioMaxError],
+        &[SqueezeNumber, BearingNumber, KnudsenNumber],
+    ]
+};
 
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -112,7 +94,7 @@ impl Serialize for Summary {
         for (name, value) in accuracy_entries(Some(self.accuracy)) {
             map.serialize_entry(name, &value)?;
         }
-        for quantity in RESULTS {
+        for quantity in RESULTS.concat() {
             // Between the numbers are entries that are not numbers, or not numbers of every solve.
             match quantity {
                 Quantity::FilmLoad => map.serialize_entry("force_unit", force_unit(&self.problem))?,
@@ -277,7 +259,7 @@ impl Summary {
             Quantity::StallTorqueError => false,
             other => own.contains(other),
         };
-        let results = [Quantity::Residual, Quantity::Tolerance].into_iter().chain(RESULTS);
+        let results = [Quantity::Residual, Quantity::Tolerance].into_iter().chain(RESULTS.concat());
         let unknown = results.filter(|quantity| expected(quantity) && !known(*quantity)).map(Quantity::name);
         let accuracy = (!self.accuracy.stated.is_finite()).then_some("accuracy_stated");
         let time = (!self.wall_s.is_finite()).then_some("stats.wall_s");
