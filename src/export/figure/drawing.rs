@@ -3,7 +3,6 @@
 use super::colour::Colour;
 use super::description::Figure;
 use super::layout::Layout;
-use super::panel;
 use super::placed::{FOOT, TITLE};
 use super::svg::{Raster, Svg, Type};
 
@@ -25,9 +24,9 @@ impl Drawing {
         for (at, line) in &layout.title {
             svg.text(*at, line, &Type::new(TITLE, "start"));
         }
-        for (placed, panel) in layout.panels.iter().zip(&figure.panels) {
-            pictures.extend(panel::pictures(placed, panel));
-            panel::draw(&mut svg, placed, panel);
+        for panel in &layout.panels {
+            pictures.extend(panel.pictures());
+            panel.draw(&mut svg);
         }
         for (at, line) in &layout.foot {
             svg.text(*at, line, &Type { colour: Colour::QUIET, ..Type::new(FOOT, "start") });

@@ -28,27 +28,27 @@ const LEAST: f64 = 24.0;
 
 /// The positions of everything in a figure.
 #[derive(Clone, Debug)]
-pub(super) struct Layout {
+pub(super) struct Layout<'a> {
     pub(super) width: f64,
     pub(super) height: f64,
     pub(super) title: Vec<([f64; 2], String)>,
-    pub(super) panels: Vec<Placed>,
+    pub(super) panels: Vec<Placed<'a>>,
     pub(super) foot: Vec<([f64; 2], String)>,
 }
 
-impl Layout {
-    pub(super) fn new(figure: &Figure) -> Self {
+impl<'a> Layout<'a> {
+    pub(super) fn new(figure: &'a Figure) -> Self {
         let width = figure.width.points();
         let count = figure.panels.len();
         let columns = figure.columns.clamp(1, count.max(1));
-        let mut panels: Vec<Placed> = Vec::with_capacity(count);
+        let mut panels: Vec<Placed<'_>> = Vec::with_capacity(count);
         for (index, panel) in figure.panels.iter().enumerate() {
             let shared = |i: usize| i == index || (figure.share_x && i % columns == index % columns);
             let together = (0..count).filter(|i| shared(*i)).map(|i| &figure.panels[i]);
             let lowest = index + columns >= count;
             panels.push(Placed::beside(panel, ranges(panel, together), !figure.share_x || lowest));
         }
-        place_columns(figure, &mut panels, columns, width);
+        place_columns(&mut panels, columns, width);
 
         let mut y = MARGIN;
         let title = set(text::wrapped(&figure.title, TITLE, width - 2.0 * MARGIN), TITLE, &mut y);
@@ -56,14 +56,12 @@ impl Layout {
             y += 5.0;
         }
         for start in (0..count).step_by(columns) {
-            let row = start..(start + columns).min(count);
-            let above: Vec<f64> = row.clone().map(|i| panels[i].above(&figure.panels[i])).collect();
-            let top = y + above.iter().copied().fold(0.0, f64::max);
+            let row = &mut panels[start..(start + columns).min(count)];
+            let top = y + row.iter().map(Placed::above).fold(0.0, f64::max);
             let mut bottom = top;
-            for i in row {
-                let height = panels[i].rect.height;
-                panels[i].lower(&figure.panels[i], y, top);
-                bottom = bottom.max(top + height + panels[i].below());
+            for panel in row {
+                panel.lower(y, top);
+                bottom = bottom.max(top + panel.rect.height + panel.below());
             }
             y = bottom + ROW_GAP;
         }
@@ -193,23 +191,22 @@ fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
     false
 }
 
-impl Placed {
+impl<'a> Placed<'a> {
     /// The part of the layout that does not depend on the width: ranges, and what is beside the axes.
-    fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
+    fn beside(panel: &'a Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
         let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
         let bar = first_map(panel).map(|map| {
             // The ticks of a horizontal axis depend on its width.
             let (axis, range) = (Axis::new(&map.label, &map.unit), map_range(map));
             Bar { rect: Rect::default(), upright: height >= LOW, ruler: upright(&axis, range, height) }
         });
+        let rect = Rect { height, ..Rect::default() };
+        let (x, y) = (Ruler::new(&panel.x, x, Ticks::default()), upright(&panel.y, y, height));
         Self {
-            rect: Rect { height, ..Rect::default() },
-            x: Ruler::new(&panel.x, x, Ticks::default()),
-            y: upright(&panel.y, y, height),
             right: panel.right.as_ref().zip(right).map(|(axis, range)| upright(axis, range, height)),
             x_labels,
             bar,
-            ..Self::default()
+            ..Self::new(panel, rect, x, y)
         }
     }
 
@@ -222,12 +219,12 @@ impl Placed {
     }
 
     /// Height needed above the plotting area, for title, legend and colour bar.
-    fn above(&self, panel: &Panel) -> f64 {
-        let text = legend::height(self, panel);
+    fn above(&self) -> f64 {
+        let text = legend::height(self);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
-        let title = if panel.title.trim().is_empty() { 0.0 } else { HEAD * LEADING + 2.0 };
+        let title = if self.panel.title.trim().is_empty() { 0.0 } else { HEAD * LEADING + 2.0 };
         // A title and a colour bar are on one line if there is room for both.
-        let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
+        let stacked = text::width(&self.panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
         text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
     }
 
@@ -245,12 +242,12 @@ impl Placed {
     }
 
     /// Sets the top of the plotting area, and places what is above it; titles of a row are at the same height, at its top.
-    fn lower(&mut self, panel: &Panel, row: f64, top: f64) {
+    fn lower(&mut self, row: f64, top: f64) {
         self.rect.y = top;
         let rect = self.rect;
-        let legend = legend::height(self, panel);
+        let legend = legend::height(self);
         self.title = [rect.x, row + HEAD];
-        legend::place(self, panel);
+        legend::place(self);
         if let Some(bar) = &mut self.bar {
             bar.rect = if bar.upright {
                 Rect { x: rect.right() + BAR_GAP, y: rect.y, width: BAR, height: rect.height }
@@ -268,12 +265,12 @@ fn level_bar(rect: &Rect) -> f64 {
 }
 
 /// Sets the left edge and width of every panel; the plotting areas of a column have the same.
-fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: f64) {
+fn place_columns(panels: &mut [Placed<'_>], columns: usize, width: f64) {
     let sides: Vec<[f64; 2]> = (0..columns)
         .map(|column| {
-            let of_column = || (column..panels.len()).step_by(columns);
-            let left = of_column().map(|i| room(&panels[i].y)).fold(0.0, f64::max);
-            let right = of_column().map(|i| panels[i].right_side()).fold(0.0, f64::max);
+            let of_column = || panels.iter().skip(column).step_by(columns);
+            let left = of_column().map(|placed| room(&placed.y)).fold(0.0, f64::max);
+            let right = of_column().map(Placed::right_side).fold(0.0, f64::max);
             [left, right]
         })
         .collect();
@@ -281,19 +278,16 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
     let plot = ((width - taken) / columns as f64).max(LEAST);
     let mut x = MARGIN;
     for (column, [left, right]) in sides.iter().enumerate() {
-        for i in (column..panels.len()).step_by(columns) {
-            let placed = &mut panels[i];
+        for placed in panels.iter_mut().skip(column).step_by(columns) {
             placed.rect.width = plot;
-            let (axis, range) = (&figure.panels[i].x, placed.x.range);
+            let (axis, range) = (&placed.panel.x, placed.x.range);
             placed.x = Ruler::new(axis, range, level_ticks(axis, &range, plot, ((plot / 26.0) as usize).clamp(2, 9)));
             let width = level_bar(&placed.rect);
-            if let (Some(bar), Some(map)) =
-                (placed.bar.as_mut().filter(|bar| !bar.upright), first_map(&figure.panels[i]))
-            {
+            if let (Some(bar), Some(map)) = (placed.bar.as_mut().filter(|bar| !bar.upright), first_map(placed.panel)) {
                 let (axis, range) = (Axis::new(&map.label, &map.unit), bar.ruler.range);
                 bar.ruler = Ruler::new(&axis, range, level_ticks(&axis, &range, width, 4));
             }
-            legend::choose(placed, &figure.panels[i]);
+            legend::choose(placed);
             placed.rect.x = x + left;
         }
         x += left + plot + right + COLUMN_GAP;

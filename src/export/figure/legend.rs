@@ -40,9 +40,9 @@ fn entries(panel: &Panel) -> Vec<Entry> {
 
 /// Decides where the legend goes, while the plotting area still has its corner at the origin. A legend inside is placed at once, a legend
 /// above the axes when the area has its place.
-pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
-    let entries = entries(panel);
-    if entries.is_empty() || panel.legend != Legend::Auto || fills(panel) {
+pub(super) fn choose(placed: &mut Placed<'_>) {
+    let entries = entries(placed.panel);
+    if entries.is_empty() || placed.panel.legend != Legend::Auto || fills(placed.panel) {
         return;
     }
     let line = LEADING * NOTE;
@@ -52,7 +52,7 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     if width + 2.0 * INSET > area.width || width * height > MOST * area.width * area.height || height > area.height {
         return;
     }
-    let drawn = drawn(placed, panel, true);
+    let drawn = drawn(placed, true);
     let (left, right) = (INSET, area.width - INSET - width);
     let (top, bottom) = (INSET, area.height - INSET - height);
     // Corners are tried first, then places along the sides, then any place.
@@ -80,7 +80,7 @@ pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
 }
 
 /// Points along everything that is drawn, close together; with those of marks if `marks`.
-pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]> {
+pub(super) fn drawn(placed: &Placed<'_>, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
         for part in clipped_line(line, &placed.rect) {
@@ -90,7 +90,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, marks: bool) -> Vec<[f64; 2]
         }
     };
     let mut single = Vec::new();
-    for layer in &panel.layers {
+    for layer in &placed.panel.layers {
         match layer {
             Layer::Line(line) => path(&mut line.points.iter().map(|p| placed.at(*p, line.right))),
             Layer::Band(band) => {
@@ -134,16 +134,16 @@ fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
 }
 
 /// Height that a legend above the axes takes.
-pub(super) fn height(placed: &Placed, panel: &Panel) -> f64 {
+pub(super) fn height(placed: &Placed<'_>) -> f64 {
     if placed.legend_box.is_some() {
         return 0.0;
     }
-    let rows = in_rows(entries(panel), placed.rect.width).len();
+    let rows = in_rows(entries(placed.panel), placed.rect.width).len();
     rows as f64 * LEADING * NOTE + if rows > 0 { 2.5 } else { 0.0 }
 }
 
 /// Places the legend now that the plotting area has its place.
-pub(super) fn place(placed: &mut Placed, panel: &Panel) {
+pub(super) fn place(placed: &mut Placed<'_>) {
     let area = placed.rect;
     if let Some(rect) = &mut placed.legend_box {
         rect.x += area.x;
@@ -153,7 +153,7 @@ pub(super) fn place(placed: &mut Placed, panel: &Panel) {
         }
         return;
     }
-    let rows = in_rows(entries(panel), area.width);
+    let rows = in_rows(entries(placed.panel), area.width);
     let (count, line) = (rows.len(), LEADING * NOTE);
     for (i, row) in rows.into_iter().enumerate() {
         let y = area.y - MAJOR - (count - i) as f64 * line + 0.5 * line;

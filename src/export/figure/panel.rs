@@ -30,49 +30,6 @@ const RIM: f64 = 4.0;
 /// Distance from the baseline to half the height of a digit, relative to the size.
 const HALF_HEIGHT: f64 = 0.35;
 
-/// Draws the panel's pictures, which are below everything else.
-pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Raster> {
-    let Placed { rect, x, y, .. } = placed;
-    let of = |layer: &Layer| match layer {
-        Layer::Map(map) => plane::map(map, rect, &x.range, &y.range, &map_range(map)),
-        Layer::Categories(kinds) => plane::categories(kinds, rect, &x.range, &y.range),
-        _ => None,
-    };
-    let mut pictures: Vec<Raster> = panel.layers.iter().filter_map(of).collect();
-    if let (Some(bar), Some(map)) = (&placed.bar, first_map(panel)) {
-        pictures.push(plane::bar(map.colours, &bar.rect, bar.upright));
-    }
-    pictures
-}
-
-/// Draws everything except the pictures.
-pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
-    let on = On { placed, panel };
-    svg.open(&on.attributes());
-    let mut curve = 0;
-    for layer in &panel.layers {
-        match layer {
-            Layer::Line(line) => {
-                on.line(svg, line, curve);
-                curve += 1;
-            }
-            Layer::Band(band) => on.band(svg, band),
-            Layer::Points(points) => on.points(svg, points),
-            Layer::Mark(mark) => on.mark(svg, mark),
-            Layer::Map(map) => on.contours(svg, map),
-            Layer::Categories(_) | Layer::Text(_) => {}
-        }
-    }
-    on.names(svg);
-    on.axes(svg);
-    if let Some(bar) = &placed.bar {
-        colour_bar(svg, bar);
-    }
-    on.legend(svg);
-    svg.text(placed.title, &panel.title, &Type::new(HEAD, "start"));
-    svg.close();
-}
-
 /// A name, its position, and the line to what it names if that is not beside it.
 #[cfg(feature = "gui")]
 pub(crate) type PlacedName = (String, [f64; 2], Option<[[f64; 2]; 2]>);
@@ -89,14 +46,9 @@ pub(crate) fn names(
 ) -> Vec<PlacedName> {
     let ruler =
         |axis: &Axis, [from, to]: [f64; 2]| Ruler::new(axis, Scaled { from, to, scale: axis.scale }, Ticks::default());
-    let placed = Placed {
-        rect: Rect { x: 0.0, y: 0.0, width, height },
-        x: ruler(&panel.x, ends[0]),
-        y: ruler(&panel.y, ends[1]),
-        ..Placed::default()
-    };
-    let on = On { placed: &placed, panel };
-    let names = on.named_places(words).into_iter();
+    let rect = Rect { x: 0.0, y: 0.0, width, height };
+    let placed = Placed::new(panel, rect, ruler(&panel.x, ends[0]), ruler(&panel.y, ends[1]));
+    let names = placed.named_places(words).into_iter();
     names.map(|(name, at, place)| (name.text.clone(), [place.x, place.y], leader(at, &place))).collect()
 }
 
@@ -107,38 +59,74 @@ fn leader([x, y]: [f64; 2], name: &Rect) -> Option<[[f64; 2]; 2]> {
     (share < RIM / FAR).then(|| [[x + share * (near[0] - x), y + share * (near[1] - y)], near])
 }
 
-/// A panel at its place.
-struct On<'a> {
-    placed: &'a Placed,
-    panel: &'a Panel,
-}
+impl Placed<'_> {
+    /// Draws the panel's pictures, which are below everything else.
+    pub(super) fn pictures(&self) -> Vec<Raster> {
+        let Self { panel, rect, x, y, .. } = self;
+        let of = |layer: &Layer| match layer {
+            Layer::Map(map) => plane::map(map, rect, &x.range, &y.range, &map_range(map)),
+            Layer::Categories(kinds) => plane::categories(kinds, rect, &x.range, &y.range),
+            _ => None,
+        };
+        let mut pictures: Vec<Raster> = panel.layers.iter().filter_map(of).collect();
+        if let (Some(bar), Some(map)) = (&self.bar, first_map(panel)) {
+            pictures.push(plane::bar(map.colours, &bar.rect, bar.upright));
+        }
+        pictures
+    }
 
-impl On<'_> {
+    /// Draws everything except the pictures.
+    pub(super) fn draw(&self, svg: &mut Svg) {
+        svg.open(&self.attributes());
+        let mut curve = 0;
+        for layer in &self.panel.layers {
+            match layer {
+                Layer::Line(line) => {
+                    self.line(svg, line, curve);
+                    curve += 1;
+                }
+                Layer::Band(band) => self.band(svg, band),
+                Layer::Points(points) => self.points(svg, points),
+                Layer::Mark(mark) => self.mark(svg, mark),
+                Layer::Map(map) => self.contours(svg, map),
+                Layer::Categories(_) | Layer::Text(_) => {}
+            }
+        }
+        self.names(svg);
+        self.axes(svg);
+        if let Some(bar) = &self.bar {
+            colour_bar(svg, bar);
+        }
+        self.legend(svg);
+        svg.text(self.title, &self.panel.title, &Type::new(HEAD, "start"));
+        svg.close();
+    }
+
     /// Attributes of the SVG group from which a reader of the file can convert positions to values.
     fn attributes(&self) -> String {
-        let Rect { x, y, width, height } = self.placed.rect;
+        let Rect { x, y, width, height } = self.rect;
         let axis = |Ruler { range, .. }: &Ruler| {
             let scale = if range.scale == Scale::Log { "log" } else { "linear" };
             format!("{:e} {:e} {scale}", range.from, range.to)
         };
-        let right = self.placed.right.as_ref().map_or(String::new(), |it| format!(r#" data-right="{}""#, axis(it)));
+        let right = self.right.as_ref().map_or(String::new(), |it| format!(r#" data-right="{}""#, axis(it)));
         format!(
             r#"class="panel" data-title="{}" data-area="{x:.4} {y:.4} {width:.4} {height:.4}" data-x="{}" data-y="{}"{right}"#,
             escaped(&text::plain(&self.panel.title)),
-            axis(&self.placed.x),
-            axis(&self.placed.y),
+            axis(&self.x),
+            axis(&self.y),
         )
     }
 
     fn line(&self, svg: &mut Svg, line: &Line, curve: usize) {
         let style = &line.style;
         svg.open(&named("line", &line.name));
-        let mut places: Vec<[f64; 2]> = line.points.iter().map(|point| self.placed.at(*point, line.right)).collect();
-        for part in clipped_line(places.iter().copied(), &self.placed.rect) {
+        let mut places: Vec<[f64; 2]> = line.points.iter().map(|point| self.at(*point, line.right)).collect();
+        for part in clipped_line(places.iter().copied(), &self.rect) {
             svg.polyline(&part, style);
         }
         if let Some(marker) = &style.marker {
-            places.retain(|point| self.placed.rect.holds(*point));
+            places.retain(|point| self.rect.holds(*point));
             for point in sparse(&places, curve) {
                 svg.marker(point, marker, style.colour);
             }
@@ -148,20 +136,20 @@ impl On<'_> {
 
     fn band(&self, svg: &mut Svg, band: &Band) {
         svg.open(&named("band", &band.name));
-        let at = |p: &[f64; 3]| [self.placed.at([p[0], p[1]], false), self.placed.at([p[0], p[2]], false)];
+        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], false), self.at([p[0], p[2]], false)];
         let known = |p: &[f64; 3]| at(p).iter().flatten().all(|c| !c.is_nan());
         for run in band.points.split(|p| !known(p)) {
             let there = run.iter().map(|p| at(p)[0]);
             let back = run.iter().rev().map(|p| at(p)[1]);
             let outline: Vec<[f64; 2]> = there.chain(back).collect();
-            svg.polygon(&clipped_area(&outline, &self.placed.rect), band.colour, band.opacity);
+            svg.polygon(&clipped_area(&outline, &self.rect), band.colour, band.opacity);
         }
         svg.close();
     }
 
     fn points(&self, svg: &mut Svg, points: &Points) {
         svg.open(&named("points", &points.name));
-        let rect = &self.placed.rect;
+        let rect = &self.rect;
         let mut bars = Vec::new();
         for (i, [x, y]) in points.points.iter().enumerate() {
             let error = points.error(i);
@@ -170,7 +158,7 @@ impl On<'_> {
             }
             // The part of an error bar that a logarithmic axis cannot show ends at the lower edge.
             let ends = [y + error, y - error].map(|y| {
-                let [px, py] = self.placed.at([*x, y], false);
+                let [px, py] = self.at([*x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
             });
             for part in clipped_line(ends.into_iter(), rect) {
@@ -185,7 +173,7 @@ impl On<'_> {
             }
         }
         svg.segments(&bars, &Style::solid(points.colour).width(0.7));
-        let places = points.points.iter().map(|point| self.placed.at(*point, false));
+        let places = points.points.iter().map(|point| self.at(*point, false));
         for at in places.filter(|at| rect.holds(*at)) {
             svg.marker(at, &points.marker, points.colour);
         }
@@ -193,8 +181,8 @@ impl On<'_> {
     }
 
     fn mark(&self, svg: &mut Svg, mark: &Mark) {
-        let rect = &self.placed.rect;
-        let [from, to] = self.placed.mark_ends(mark);
+        let rect = &self.rect;
+        let [from, to] = self.mark_ends(mark);
         if !(rect.holds(from) && rect.holds(to)) {
             return;
         }
@@ -210,7 +198,7 @@ impl On<'_> {
 
     /// The place of a mark's text: along the line, on the first side and at the first end where nothing else is drawn.
     fn place_of_words(&self, mark: &Mark, from: [f64; 2]) -> Rect {
-        let area = &self.placed.rect;
+        let area = &self.rect;
         let (width, height) = (text::width(&mark.label, NOTE), NOTE);
         let place = |x: f64, y: f64| Rect { x, y, width, height };
         let places: Vec<Rect> = match mark.direction {
@@ -231,7 +219,7 @@ impl On<'_> {
 
     /// The place inside the axes with the fewest obstacles; of several, the first.
     fn freest(&self, places: &[Rect], in_the_way: impl Fn(&Rect) -> usize) -> Rect {
-        let area = &self.placed.rect;
+        let area = &self.rect;
         let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
         let freest = places.iter().filter(inside).min_by_key(|&rect| in_the_way(rect));
         freest.or(places.first()).copied().unwrap_or_default()
@@ -239,8 +227,8 @@ impl On<'_> {
 
     /// Points of everything that is drawn, including the legend; with those of marks if `marks`.
     fn taken(&self, marks: bool) -> Vec<[f64; 2]> {
-        let mut taken = drawn(self.placed, self.panel, marks);
-        taken.extend(self.placed.legend_box.iter().flat_map(Rect::points));
+        let mut taken = drawn(self, marks);
+        taken.extend(self.legend_box.iter().flat_map(Rect::points));
         taken
     }
 
@@ -262,9 +250,9 @@ impl On<'_> {
     /// and below, then at the corners, then the same farther away. No line to a name crosses another name if that can be avoided. `size`
     /// gives width and height of a text.
     fn named_places(&self, size: impl Fn(&str) -> [f64; 2]) -> Vec<(&Text, [f64; 2], Rect)> {
-        let area = &self.placed.rect;
+        let area = &self.rect;
         let names = self.panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Text(words) => Some((words, self.placed.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
+            Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
             _ => None,
         });
         let names: Vec<(&Text, [f64; 2])> = names.collect();
@@ -296,15 +284,15 @@ impl On<'_> {
         let Some(error) = map.contours.filter(|_| plane::fits(x, y, values.len())) else { return };
         let (levels, step) = levels(values, error);
         // Values are first converted to positions, so that lines are straight on paper on both kinds of axes.
-        let px: Vec<f64> = x.iter().map(|x| self.placed.px(*x)).collect();
-        let py: Vec<f64> = y.iter().map(|y| self.placed.py(*y, false)).collect();
+        let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
+        let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
         let mut lines = Vec::new();
         for level in levels {
             let style = Style::solid(contrast(map, level)).width(0.7);
             let label = on_contour(level, step);
             for line in contour(&px, &py, values, level) {
-                for part in clipped_line(line.into_iter(), &self.placed.rect) {
+                for part in clipped_line(line.into_iter(), &self.rect) {
                     lines.push(Isoline::new(part, &label, style));
                 }
             }
@@ -314,7 +302,7 @@ impl On<'_> {
     }
 
     fn axes(&self, svg: &mut Svg) {
-        let Placed { rect, x, y, right, .. } = self.placed;
+        let Placed { rect, x, y, right, .. } = self;
         let style = Style::solid(Colour::BLACK).width(THIN);
         if fills(self.panel) {
             svg.rect(rect, &style, None);
@@ -329,9 +317,9 @@ impl On<'_> {
         let mut strokes = Vec::new();
         let length = |major: bool| if major { MAJOR } else { MINOR };
         for tick in &x.ticks.ticks {
-            let at = self.placed.px(tick.at);
+            let at = self.px(tick.at);
             strokes.push([at, rect.bottom(), at, rect.bottom() + length(tick.label.is_some())]);
-            if let Some(label) = tick.label.as_ref().filter(|_| self.placed.x_labels) {
+            if let Some(label) = tick.label.as_ref().filter(|_| self.x_labels) {
                 let baseline = rect.bottom() + MAJOR + GAP + 0.74 * TICK;
                 svg.text([at, baseline], label, &Type::new(TICK, "middle"));
             }
@@ -341,7 +329,7 @@ impl On<'_> {
             strokes.extend(upright_ticks(svg, right, rect, 1.0));
         }
         svg.segments(&strokes, &style);
-        if self.placed.x_labels {
+        if self.x_labels {
             let baseline = rect.bottom() + MAJOR + GAP + TICK + GAP + 0.76 * LABEL;
             svg.text([rect.x + 0.5 * rect.width, baseline], &x.label, &Type::new(LABEL, "middle"));
         }
@@ -352,11 +340,11 @@ impl On<'_> {
     }
 
     fn legend(&self, svg: &mut Svg) {
-        if self.placed.legend.is_empty() {
+        if self.legend.is_empty() {
             return;
         }
         svg.open(r#"class="legend""#);
-        for (entry, [x, y]) in &self.placed.legend {
+        for (entry, [x, y]) in &self.legend {
             let sample = entry.sample();
             match &entry.sign {
                 Sign::Line(style) => {

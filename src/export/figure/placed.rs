@@ -62,9 +62,10 @@ pub(super) struct Bar {
     pub(super) ruler: Ruler,
 }
 
-/// The position of a panel.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Placed {
+/// A panel at its place.
+#[derive(Clone, Debug)]
+pub(super) struct Placed<'a> {
+    pub(super) panel: &'a Panel,
     pub(super) rect: Rect,
     pub(super) x: Ruler,
     pub(super) y: Ruler,
@@ -78,7 +79,13 @@ pub(super) struct Placed {
     pub(super) title: [f64; 2],
 }
 
-impl Placed {
+impl<'a> Placed<'a> {
+    /// A panel whose plotting area and axes have this place, without anything round them.
+    pub(super) fn new(panel: &'a Panel, rect: Rect, x: Ruler, y: Ruler) -> Self {
+        let (legend, title) = (Vec::new(), [0.0; 2]);
+        Self { panel, rect, x, y, right: None, x_labels: false, bar: None, legend, legend_box: None, title }
+    }
+
     /// The left vertical axis, or the right one if `right` and there is one.
     fn upright(&self, right: bool) -> &Scaled {
         &self.right.as_ref().filter(|_| right).unwrap_or(&self.y).range
