@@ -10,7 +10,7 @@
 //! strip's forces are per metre of width, and its columns have names to match.
 
 use super::fields;
-use crate::problem::{Problem, Scenario};
+use crate::problem::Problem;
 use crate::recording::Recording;
 use serde::Serialize;
 use serde_json::Value;
@@ -22,26 +22,13 @@ use std::io::{self, Write};
 /// measured from its middle, over the half that was solved.
 pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
-    let (motor, per_metre) = match &problem.scenario {
-        Scenario::Motor(motor) => (Some(motor), false),
-        Scenario::Plate(plate) => (None, plate.width.is_none()),
-    };
-    let film = if per_metre { "film_n_per_m2" } else { "film_n_per_m" };
+    let motor = problem.scenario.motor();
+    let per_area = problem.scenario.plate().is_some_and(|plate| plate.width.is_none());
+    let film = if per_area { "film_n_per_m2" } else { "film_n_per_m" };
     let [position, size] = if recording.radial { ["radius_m", "area_m2"] } else { ["x_m", "length_m"] };
+    let of_teeth = ["stator_nm", "film_thickness_nm", "gap_nm", "rotor_nm", "contact_n_per_m", film];
     match motor {
-        Some(_) => table.header(&[
-            "time_s",
-            "phase",
-            "tooth",
-            position,
-            size,
-            "stator_nm",
-            "film_thickness_nm",
-            "gap_nm",
-            "rotor_nm",
-            "contact_n_per_m",
-            film,
-        ])?,
+        Some(_) => table.header(&[&["time_s", "phase", "tooth", position, size][..], &of_teeth].concat())?,
         None => table.header(&["time_s", "phase", position, size, "film_thickness_nm", film])?,
     }
     for frame in 0..recording.frames {
