@@ -204,12 +204,12 @@ impl Page {
     }
 
     /// Figures side by side where there is room, each with its name in bold before its caption (the name may be empty).
-    pub fn figures<'a>(&mut self, figures: impl IntoIterator<Item = (&'a str, &'a Figure)>) {
+    pub fn figures<'a, S: AsRef<str>>(&mut self, figures: impl IntoIterator<Item = (S, &'a Figure)>) {
         self.body.push_str("<div class=\"figures\">\n");
         for (name, figure) in figures {
             let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
             let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
-            self.caption(name, &figure.caption);
+            self.caption(name.as_ref(), &figure.caption);
             self.body.push_str("</figure>\n");
         }
         self.body.push_str("</div>\n");

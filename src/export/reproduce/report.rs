@@ -7,7 +7,6 @@ use crate::analysis::reproduce::{Both, FIELDS, ReproducedRow, Reproduction};
 use crate::analysis::validity::outside;
 use crate::digits::change;
 use crate::export::compare::{again, limits};
-use crate::export::figure::Figure;
 use crate::export::html::{CellKind, Page, Table};
 use crate::solution::{Solution, Status};
 
@@ -52,13 +51,8 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     );
 
     page.section("What the text says, checked");
-    let mut table = Table::default().heads([
-        (CellKind::Words, "the paper says"),
-        (CellKind::Words, "published"),
-        (CellKind::Words, "paper's algorithm"),
-        (CellKind::Words, "converged"),
-        (CellKind::Words, ""),
-    ]);
+    let heads = ["the paper says", "published", "paper's algorithm", "converged", ""];
+    let mut table = Table::default().heads(heads.map(|head| (CellKind::Words, head)));
     for statement in statements(all) {
         table.row([
             (CellKind::Words, statement.says.to_owned()),
@@ -90,11 +84,8 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     }
     for (heading, numbers) in SECTIONS {
         page.heading(heading);
-        let of = |(number, figure): &'_ (u32, Figure)| {
-            numbers.contains(number).then(|| (format!("Fig. {number}."), figure.clone()))
-        };
-        let shown: Vec<(String, Figure)> = figures.iter().filter_map(of).collect();
-        page.figures(shown.iter().map(|(name, figure)| (name.as_str(), figure)));
+        let shown = figures.iter().filter(|(number, _)| numbers.contains(number));
+        page.figures(shown.map(|(number, figure)| (format!("Fig. {number}."), figure)));
     }
     page.heading("What is not here, and why");
     page.list(LEFT_OUT);
@@ -168,19 +159,10 @@ fn row_name(row: &ReproducedRow) -> String {
 }
 
 fn table1(all: &Reproduction) -> Table {
+    let of_each = ["load, N", "α", "difference"].map(|head| (CellKind::Number, head));
     let mut table = Table::default()
         .groups([(1, ""), (2, "published"), (3, "paper's algorithm, paper's meshes"), (3, "converged")])
-        .heads([
-            (CellKind::Words, "changed"),
-            (CellKind::Number, "load, N"),
-            (CellKind::Number, "α"),
-            (CellKind::Number, "load, N"),
-            (CellKind::Number, "α"),
-            (CellKind::Number, "difference"),
-            (CellKind::Number, "load, N"),
-            (CellKind::Number, "α"),
-            (CellKind::Number, "difference"),
-        ]);
+        .heads([&[(CellKind::Words, "changed")][..], &of_each[..2], &of_each, &of_each].concat());
     for row in &all.rows {
         let mut cells = vec![
             (CellKind::Words, row_name(row)),
