@@ -106,17 +106,18 @@ pub fn write(
     cancel: &Cancel,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let movie = || cycle(problem, solution, options, done, cancel);
-    let stopped = |error| stopped(error, cancel);
     match Format::of(path)? {
-        Format::Gif => {
-            let movie = movie()?;
-            write_file(path, |out| movie.gif(out, cancel)).map_err(stopped)?;
+        format @ (Format::Gif | Format::Apng) => {
+            let (movie, encode) = (movie()?, if format == Format::Gif { Movie::gif } else { Movie::apng });
+            write_file(path, |out| encode(&movie, out, cancel)).map_err(|error| stopped(error, cancel))?;
         }
-        Format::Apng => {
-            let movie = movie()?;
-            write_file(path, |out| movie.apng(out, cancel)).map_err(stopped)?;
-        }
+        #[cfg(feature = "video")]
         Format::Mp4 => write_video(path, problem, solution, options, done, cancel)?,
+        #[cfg(not(feature = "video"))]
+        Format::Mp4 => {
+            let source = io::Error::other("this program was built without video, and cannot write MP4");
+            return Err(WriteError { path: path.to_owned(), source }.into());
+        }
         Format::Folder => return movie()?.folder(path, cancel),
     }
     Ok(vec![path.to_owned()])
@@ -148,19 +149,6 @@ fn write_video(
     let source = Provenance::of(problem, solution).line();
     write_file(path, |out| mp4::write(shown, &picture, &source, out, done, cancel))
         .map_err(|error| stopped(error, cancel))
-}
-
-#[cfg(not(feature = "video"))]
-fn write_video(
-    path: &Path,
-    _: &Problem,
-    _: &Solution,
-    _: &Options,
-    _: &dyn Fn(),
-    _: &Cancel,
-) -> Result<(), ExportError> {
-    let source = io::Error::other("this program was built without video, and cannot write MP4");
-    Err(WriteError { path: path.to_owned(), source }.into())
 }
 
 /// The file name of a frame in a folder; the first is number 1.
@@ -208,7 +196,7 @@ fn drawn(figure: &Figure, options: &Options) -> Result<Pixels, FigureError> {
 }
 
 /// Why a file was not written.
-fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
+pub(super) fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
     if cancel.is_cancelled() { ExportError::Cancelled } else { error.into() }
 }
 

@@ -255,11 +255,9 @@ pub fn animation(
 /// A movie as GIF. `path` is that of the file, for errors.
 pub fn gif(movie: &Movie, path: &Path, cancel: &Cancel) -> Result<Vec<u8>, ExportError> {
     let mut gif = Vec::new();
-    match movie.gif(&mut gif, cancel) {
-        Err(_) if cancel.is_cancelled() => Err(ExportError::Cancelled),
-        Err(source) => Err(WriteError { path: path.to_owned(), source }.into()),
-        Ok(()) => Ok(gif),
-    }
+    let failed = |source| animation::stopped(WriteError { path: path.to_owned(), source }, cancel);
+    movie.gif(&mut gif, cancel).map_err(failed)?;
+    Ok(gif)
 }
 
 /// Animations of several runs as GIF, each with its name.
