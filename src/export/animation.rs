@@ -180,14 +180,13 @@ fn figure_of<'a>(
     let slower = slow_motion(recording, options.seconds);
     move |frame: usize| {
         let frame = frame * recording.frames / count;
-        let mut figure = match &problem.scenario {
+        let figure = match &problem.scenario {
             Scenario::Motor(motor) => figures::motor::moving(motor, recording, frame),
             Scenario::Plate(plate) => figures::plate::moving(plate, recording, frame),
         };
         let phase = frame as f64 / recording.frames as f64;
-        figure.title = format!("{} · t/T = {phase:.2} · {slower}", show_text(&problem.name));
-        figure.provenance = Provenance::of(problem, solution);
-        figure
+        let title = format!("{} · t/T = {phase:.2} · {slower}", show_text(&problem.name));
+        Figure { title, provenance: Provenance::of(problem, solution), ..figure }
     }
 }
 

@@ -192,15 +192,11 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
 pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
     let (motors, plates) = motors_and_plates(runs);
     let prefix = if motors.is_empty() { "" } else { "plate-" };
-    let of_motors = figures::motors(&motors, &performances(runs));
-    let mut all: Vec<(String, Figure)> =
-        of_motors.into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
-    all.extend(figures::plates(&plates).into_iter().map(|(name, figure)| (format!("{prefix}{name}"), figure)));
+    let of_motors = figures::motors(&motors, &performances(runs)).into_iter().map(|named| ("", named));
+    let of_plates = figures::plates(&plates).into_iter().map(|named| (prefix, named));
     let provenance = provenance(runs);
-    for (_, figure) in &mut all {
-        figure.provenance = provenance.clone();
-    }
-    all
+    let whole = |figure| Figure { provenance: provenance.clone(), ..figure };
+    of_motors.chain(of_plates).map(|(prefix, (name, figure))| (format!("{prefix}{name}"), whole(figure))).collect()
 }
 
 /// Animations of the runs in phase, one of the motors and one of the plates, each with its file name without extension.

@@ -80,8 +80,9 @@ pub fn panel(cycles: &[Cycle], floats: Option<Estimate>) -> Panel {
 }
 
 /// The panel as a figure of its own.
-pub fn figure(problem: &Problem, cycles: &[Cycle], floats: Option<Estimate>) -> Figure {
+pub fn figure(problem: &Problem, fidelity: Fidelity, ended: &Fall, cycles: &[Cycle]) -> Figure {
     let caption = "Height of the plate, the gap without the vibration, from where it is dropped.";
-    let figure = Figure { provenance: Provenance::named(&problem.name), ..Figure::new("dropped on the vibration") };
-    figure.panel(panel(cycles, floats)).caption(caption)
+    let provenance = Provenance { fidelity: fidelity.to_string(), ..Provenance::named(&problem.name) };
+    let figure = Figure { provenance, ..Figure::new("dropped on the vibration") };
+    figure.panel(panel(cycles, floats(ended))).caption(caption)
 }

@@ -5,7 +5,7 @@ use super::animation::{self, Movie, Options};
 use super::compare::{self, all_figures, movies, report};
 pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
-use super::json::{self, Summary, TIME_UP};
+use super::json::{self, Summary};
 use super::{csv, fall, figures, fit, npz, sensitivity, startup, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
@@ -20,7 +20,7 @@ use crate::input::read_so_far;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::Scene;
-use crate::solution::{Solution, StoppedBy};
+use crate::solution::Solution;
 use crate::solve::Settings;
 use crate::startup::Startup;
 use rayon::prelude::*;
@@ -379,16 +379,7 @@ pub fn startup(
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| startup::write_csv(problem, &rows, out))?;
     files.json("startup.json", &startup::object(problem, settings, ended, &rows, wall_s))?;
-    let loads = cycles.iter().map(|cycle| cycle.recording.film_load.as_slice());
-    let mut drawn = startup::figure(problem, &rows, startup::steady(problem, ended), loads);
-    drawn.provenance.fidelity = settings.fidelity.to_string();
-    if ended.accuracy.stopped_by == StoppedBy::Budget {
-        drawn.provenance.note = TIME_UP.to_owned();
-    }
-    if let Some(last) = rows.last() {
-        drawn.provenance.error = format!("ends at {}", last.numbers.main());
-    }
-    files.figure("startup", &drawn)?;
+    files.figure("startup", &startup::figure(problem, settings, ended, &rows, cycles))?;
     files.text("scene.toml", &scene.to_toml())?;
     files.commit()
 }
@@ -405,9 +396,7 @@ pub fn fall(
     let mut files = Files::new(folder)?;
     files.add("startup.csv", |out| csv::rows(cycles.iter().map(fall::row), out))?;
     files.json("startup.json", &fall::object(problem, fidelity, ended, cycles, wall_s))?;
-    let mut drawn = fall::figure(problem, cycles, fall::floats(ended));
-    drawn.provenance.fidelity = fidelity.to_string();
-    files.figure("startup", &drawn)?;
+    files.figure("startup", &fall::figure(problem, fidelity, ended, cycles))?;
     files.text("scene.toml", &scene.to_toml())?;
     files.commit()
 }

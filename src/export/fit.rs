@@ -256,25 +256,22 @@ pub const BEYOND: &str = "beyond";
 
 /// Lines through the optimum, a panel for each unknown; they are dashed where a limit is broken.
 pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
-    let words = found.goal.quantity.label(problem);
-    let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
+    let (label, unit) = (found.goal.quantity.words(), found.goal.quantity.unit(problem));
     let size = if found.goal.greatest { "large" } else { "small" };
-    let mut figure = Figure::new(format!("{label}, as {size} as possible"));
-    figure.provenance = Provenance::named(&found.scene.name);
     let limits = found.goal.limits.iter().map(|(limit, _)| limit.to_string()).collect::<Vec<_>>().join(", ");
     let names =
         if limits.is_empty() { [limits.clone(), limits] } else { [format!("within {limits}"), BEYOND.to_owned()] };
-    for line in &found.lines {
+    let panel = |line: &Scan| {
         let parameter = line.unknown.parameter;
         let curve = || line.points.iter().map(|(value, computed)| [*value, computed.unwrap_or(f64::NAN)]);
         let within = curve().zip(&line.kept).map(|(point, kept)| if *kept { point } else { [f64::NAN; 2] });
         let x = Axis { scale: line.unknown.scale, ..Axis::new(parameter.words(), parameter.unit) };
         let [kept, beyond] = &names;
-        let panel = Panel::new("", x, Axis::new(label, unit))
+        Panel::new("", x, Axis::new(label, unit))
             .layer(Line::new(beyond, curve(), Style::quiet().dash(Dash::Dashed)))
             .layer(Line::new(kept, within, Style::solid(Colour::FILM)))
-            .layer(Points::new("", [[line.value, found.value.value]], Colour::CONTACT, Marker::solid(Shape::Diamond)));
-        figure = figure.panel(panel);
-    }
-    figure
+            .layer(Points::new("", [[line.value, found.value.value]], Colour::CONTACT, Marker::solid(Shape::Diamond)))
+    };
+    let (panels, provenance) = (found.lines.iter().map(panel).collect(), Provenance::named(&found.scene.name));
+    Figure { panels, provenance, ..Figure::new(format!("{label}, as {size} as possible")) }
 }

@@ -2,13 +2,13 @@
 
 use super::csv;
 use super::estimates::finite;
-use super::json::kind;
+use super::json::{TIME_UP, kind};
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::validity::{ExceededLimit, of_outcome};
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Marker, Panel, Provenance, Style};
 use crate::problem::{Problem, Scenario};
-use crate::solution::{Accuracy, PlateResult, Status};
+use crate::solution::{Accuracy, PlateResult, Status, StoppedBy};
 use crate::startup::{Cycle, Settings, Startup};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -152,13 +152,8 @@ pub(super) fn periodic(value: f64) -> Mark {
     Mark { style: Style::solid(Colour::ROTOR).dash(Dash::Dashed), ..Mark::horizontal(value, "periodic solve") }
 }
 
-/// Cycle means as they approach the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
-pub fn figure<'a>(
-    problem: &Problem,
-    rows: &[CycleRow],
-    steady: Option<Estimate>,
-    loads: impl Iterator<Item = &'a [f64]>,
-) -> Figure {
+/// Cycle means as they approach the steady state, and the film load at every instant. `rows` are those of the cycles.
+pub fn figure(problem: &Problem, settings: &Settings, ended: &Startup, rows: &[CycleRow], cycles: &[Cycle]) -> Figure {
     let label = match &problem.scenario {
         Scenario::Motor(_) => "film share of the load α",
         Scenario::Plate(plate) if plate.is_strip() => "film load over p_a × length",
@@ -172,7 +167,8 @@ pub fn figure<'a>(
     let means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
         .layer(Band::new("error of the grids", band, Colour::FILM))
         .layer(Line::new("mean of the cycle", line, Style { marker: alone, ..Style::solid(Colour::FILM) }))
-        .layers(steady.map(|found| periodic(found.value)));
+        .layers(steady(problem, ended).map(|found| periodic(found.value)));
+    let loads = cycles.iter().map(|cycle| &cycle.recording.film_load);
     let instants = loads.enumerate().flat_map(|(cycle, loads)| {
         let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;
         loads.iter().enumerate().map(move |(step, load)| [at(step), *load])
@@ -180,6 +176,12 @@ pub fn figure<'a>(
     let every = Line::new("", instants, Style::solid(Colour::FILM));
     let film = Panel::new("", Axis::new("t/T", ""), Axis::new("film load", force_unit(problem))).layer(every);
     let caption = "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.";
-    let figure = Figure { provenance: Provenance::named(&problem.name), ..Figure::new("start-up from rest") };
+    let provenance = Provenance {
+        fidelity: settings.fidelity.to_string(),
+        error: rows.last().map_or_else(String::new, |last| format!("ends at {}", last.numbers.main())),
+        note: if ended.accuracy.stopped_by == StoppedBy::Budget { TIME_UP.to_owned() } else { String::new() },
+        ..Provenance::named(&problem.name)
+    };
+    let figure = Figure { provenance, ..Figure::new("start-up from rest") };
     figure.panel(means).panel(film).caption(caption)
 }

@@ -196,10 +196,9 @@ fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64
 /// The film's pressure under all teeth of every run, with one colour scale.
 pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let (span, _) = common_pressure(runs.iter().map(|run| run.recording));
-    let panels = runs.iter().map(|run| {
-        let map = all_teeth(run.recording, nearest_frame(run.recording, phase), span);
-        Panel { title: run.name.to_owned(), height: 11.0, ..map }
-    });
+    let panels = runs
+        .iter()
+        .map(|run| all_teeth(run.name, run.recording, nearest_frame(run.recording, phase), span).height(11.0));
     let caption = format!(
         "Absolute pressure of the air film under all teeth at t/T = {phase:.3}{}; one scale of colours covers the whole cycle.",
         of_every(runs)

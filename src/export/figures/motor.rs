@@ -153,7 +153,7 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
 }
 
 /// The film's pressure under all teeth, absolute, with colours that cover `span` \[Pa\].
-pub(super) fn all_teeth(recording: &Recording, frame: usize, span: [f64; 2]) -> Panel {
+pub(super) fn all_teeth(title: &str, recording: &Recording, frame: usize, span: [f64; 2]) -> Panel {
     let (unit, scale) = pressure_unit(span[1]);
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
@@ -177,7 +177,7 @@ pub(super) fn all_teeth(recording: &Recording, frame: usize, span: [f64; 2]) -> 
     }
     let grid = Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values };
     let map = pressure_map(grid, &unit, Range::Fixed(span[0] * scale, span[1] * scale));
-    Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
+    Panel::new(title, x_axis(recording), Axis::new("y", "mm")).layer(map)
 }
 
 pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
@@ -186,12 +186,10 @@ pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
 
 /// Surfaces, pressures and the film's map at a frame, for animations.
 pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut map = all_teeth(recording, frame, pressure_span(recording));
-    map.title = "(c) air film from above".to_owned();
     let panels = vec![
         surfaces(motor, recording, frame).height(30.0),
         pressures(motor, recording, frame).height(24.0),
-        map.height(9.0),
+        all_teeth("(c) air film from above", recording, frame, pressure_span(recording)).height(9.0),
     ];
     Figure { panels, width: Width::Millimetres(130.0), share_x: true, ..Figure::default() }
 }
@@ -207,8 +205,7 @@ pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit
 /// The film's pressure under all teeth, and a larger map with contours of the middle tooth.
 pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     let span = pressure_span(recording);
-    let mut all = all_teeth(recording, frame, span).height(14.0);
-    all.title = "(a) all teeth".to_owned();
+    let all = all_teeth("(a) all teeth", recording, frame, span).height(14.0);
     let one = one_tooth(recording, frame, Range::Auto, pressure_unit(span[1]));
     let one = Panel { title: "(b) the tooth in the middle".to_owned(), ..one };
     let phase = phase(recording, frame);
@@ -242,7 +239,7 @@ mod tests {
 
     #[test]
     fn teeth_without_grooves_are_one_map() {
-        let panel = all_teeth(&two_teeth(1e-3), 1, [0.0, 20e3]);
+        let panel = all_teeth("", &two_teeth(1e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         assert_eq!((map.grid.x.as_slice(), map.grid.values.len()), ([-0.5, 0.5, 1.5].as_slice(), 9));
         assert!(map.grid.values.iter().all(|value| value.is_finite()));
@@ -250,7 +247,7 @@ mod tests {
 
     #[test]
     fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
-        let panel = all_teeth(&two_teeth(2e-3), 1, [0.0, 20e3]);
+        let panel = all_teeth("", &two_teeth(2e-3), 1, [0.0, 20e3]);
         let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
         let near = |found: &[f64], expected: &[f64]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(

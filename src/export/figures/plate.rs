@@ -86,14 +86,14 @@ pub fn loads(plate: &Plate, recording: &Recording) -> Figure {
 
 /// Mean gauge pressure over the gap for one cycle.
 pub fn pressure_gap_loop(plate: &Plate, recording: &Recording) -> Figure {
-    Figure::new("pressure against gap").panel(loop_panel(plate, recording, 0, "t = 0")).caption(
+    Figure::new("pressure against gap").panel(loop_panel("", plate, recording, 0, "t = 0")).caption(
         "Mean gauge pressure of the film against the gap, once round the cycle. The area of the loop is what \
          the film takes from the plate in a cycle, for each unit of area.",
     )
 }
 
-/// The loop, with a point at a frame.
-fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) -> Panel {
+/// The loop, with a point of this name at a frame.
+fn loop_panel(title: &str, plate: &Plate, recording: &Recording, frame: usize, name: &str) -> Panel {
     let area = plate.area();
     let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max((load / area).abs()));
     let (unit, scale) = pressure_unit(greatest);
@@ -102,7 +102,7 @@ fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) ->
     let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
     let line = Line::new("", closed.filter_map(at), Style::solid(Colour::FILM));
     let now = Points::new(name, at(frame), Colour::CONTACT, Marker { size: 5.0, ..Marker::solid(Shape::Circle) });
-    Panel::new("", Axis::new("gap", length), Axis::new("mean gauge pressure", unit))
+    Panel::new(title, Axis::new("gap", length), Axis::new("mean gauge pressure", unit))
         .layer(rest(0.0, ""))
         .layer(line)
         .layer(now)
@@ -141,8 +141,7 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
         .layer(Band::new("", area, Colour::FILM))
         .layer(rest(ambient * scale, ""))
         .layer(Line::new("", points.iter().copied(), Style::solid(Colour::FILM)));
-    let mut round = loop_panel(plate, recording, frame, "");
-    round.title = "(b) once round the cycle".to_owned();
+    let round = loop_panel("(b) once round the cycle", plate, recording, frame, "");
     let mut load = loads(plate, recording).panels.remove(0);
     load.title = "(d) over the cycle".to_owned();
     load = load.layer(Mark::vertical(phase(recording, frame), ""));

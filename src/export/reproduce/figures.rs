@@ -82,13 +82,11 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
     }
     let panel =
         |runs: &[MotorRun<'_>], title: &str, of| pressures(runs, phase, title, of).height(28.0).legend(Legend::Above);
-    let mut figure = Figure::new(title)
+    let (width, provenance) = (Width::Millimetres(115.0), Provenance::of(&both.problem, solution));
+    let figure = Figure { share_x: true, width, provenance, ..Figure::new(title) }
         .panel(surfaces(motor, ours, frame).height(36.0))
         .panel(panel(&contact, "(b) contact pressure", |recording| &recording.contact))
         .panel(panel(&film, "(c) film pressure, gauge", |recording| &recording.film));
-    figure.share_x = true;
-    figure.width = Width::Millimetres(115.0);
-    figure.provenance = Provenance::of(&both.problem, solution);
     Some(figure)
 }
 
