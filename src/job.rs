@@ -61,7 +61,7 @@ pub struct SolvedScene {
     /// The fidelity it was solved at.
     pub fidelity: Fidelity,
     /// The result.
-    pub solution: Solution,
+    pub solution: Arc<Solution>,
     /// The limits of the model that the scene exceeds.
     pub validity: Vec<ExceededLimit>,
     /// Wall time of this fidelity's solve \[s\].
@@ -142,7 +142,7 @@ impl SolvedScene {
             problem: settled(&problem, &solution.outcome).into_owned(),
             fidelity,
             validity: outside(&problem, &solution),
-            solution,
+            solution: Arc::new(solution),
             wall_s,
             history,
         }

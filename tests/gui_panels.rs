@@ -29,6 +29,7 @@ use squeezefilm::recording::Recording;
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Method, Settings, solve};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A scene that is edited in the panel, with the commands that came of it.
@@ -591,7 +592,7 @@ fn run_by(method: Method, preset: &str, set: &[(&str, &str)]) -> SolvedScene {
     let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
     let mut history = Vec::new();
     let mut listen = |progress: &Progress| history.push(*progress);
-    let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
+    let solution = Arc::new(solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap());
     let validity = outside(&problem, &solution);
     SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
@@ -640,8 +641,9 @@ fn the_results_show_alpha_and_what_goes_with_it() {
 #[test]
 fn levitation_missing_convergence_and_warnings_are_said_plainly() {
     let mut run = run("levitating");
-    run.solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
-    run.solution.warnings = vec!["the film is thinner than a mean free path".into()];
+    let solution = Arc::make_mut(&mut run.solution);
+    solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
+    solution.warnings = vec!["the film is thinner than a mean free path".into()];
     let harness = shown(run, 300.0, 1.0);
     harness.get_by_label("Levitated");
     harness.get_by_label("Not converged");
@@ -668,7 +670,7 @@ fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
 #[test]
 fn the_words_of_the_regime_say_what_the_film_carries_here() {
     let mut run = run("fundamental");
-    let Outcome::Motor(result) = &mut run.solution.outcome else { panic!("a motor") };
+    let Outcome::Motor(result) = &mut Arc::make_mut(&mut run.solution).outcome else { panic!("a motor") };
     result.alpha.value = -0.05;
     let harness = shown(run, 300.0, 1.0);
     harness.get_by_label_contains("is a spring");
@@ -764,7 +766,7 @@ fn pointing_reads_x_and_clicking_follows_a_tooth() {
 #[test]
 fn extremes_do_not_disturb_it() {
     let mut still = run("levitating");
-    let nothing = &mut still.solution.recording;
+    let nothing = &mut Arc::make_mut(&mut still.solution).recording;
     let lines = &mut nothing.lines;
     for field in [&mut nothing.stator, &mut lines.contact, &mut lines.film, &mut lines.film_thickness] {
         field.fill(0.0);
@@ -773,7 +775,7 @@ fn extremes_do_not_disturb_it() {
     let draw = |run: &SolvedScene| look(run, egui::vec2(600.0, 600.0), false);
     draw(&still);
     still.number = 2;
-    still.solution.recording = Recording::default();
+    Arc::make_mut(&mut still.solution).recording = Recording::default();
     draw(&still);
     for teeth in ["1", "64"] {
         draw(&run_with("fundamental", &[("stator.teeth_per_wave", teeth), ("stator.tooth_width_mm", "0.3")]));

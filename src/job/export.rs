@@ -220,7 +220,7 @@ mod tests {
         let timed = (solution, 0.5);
         let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
         assert!(made_twice("run", &|| Content::Run(Box::new(run.clone()))) > 8);
-        let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(Arc::new(run.solution)))];
+        let runs = [ComparedRun::new("a".to_owned(), run.scene, posed.problem, Ok(run.solution))];
         assert!(made_twice("report.html", &|| Content::Report(runs.to_vec())) == 1);
     }
 

@@ -9,7 +9,6 @@ use crate::job::pin::PinWork;
 use crate::job::task::TaskOf;
 use crate::scene::{Scene, Value, show_up_to};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// A page of the comparison of pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -333,16 +332,6 @@ pub fn told_apart(scene: &Scene, other: &Scene) -> Option<String> {
         let room = LONGEST_LABEL.saturating_sub(differing.chars().count() + 3).max(SHORTEST_NAME);
         format!("{}, {differing}", show_up_to(room, &scene.name))
     })
-}
-
-/// A run of the window in the form for comparisons.
-pub fn to_compare(run: &crate::job::SolvedScene) -> ComparedRun {
-    ComparedRun {
-        label: run.scene.name.clone(),
-        scene: run.scene.clone(),
-        problem: run.problem.clone(),
-        solved: Ok(Arc::new(run.solution.clone())),
-    }
 }
 
 #[cfg(test)]

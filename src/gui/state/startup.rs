@@ -162,7 +162,7 @@ impl StartupState {
 
 /// A cycle in the form that the views draw: as a solve.
 fn as_solved(number: u64, posed: Posed, fidelity: Fidelity, outcome: Outcome, recording: Recording) -> SolvedScene {
-    let solution = Solution {
+    let solution = Arc::new(Solution {
         status: Status::Converged,
         outcome,
         performance: None,
@@ -172,7 +172,7 @@ fn as_solved(number: u64, posed: Posed, fidelity: Fidelity, outcome: Outcome, re
         model: Model::default(),
         warnings: Vec::new(),
         recording,
-    };
+    });
     let Posed { scene, problem } = posed;
     let (validity, history) = (Vec::new(), Vec::new());
     SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }

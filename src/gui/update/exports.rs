@@ -1,9 +1,9 @@
 //! Exports, in the background. They use the same code and the same file names as the command line.
 
 use super::updater::{REDRAW, Updater};
+use crate::analysis::compare::ComparedRun;
 use crate::analysis::tradeoff::Target;
 use crate::gui::state::dialogs::{Export, Purpose, complete};
-use crate::gui::state::pins::to_compare;
 use crate::job::SolvedScene;
 use crate::job::export::{Content, Files};
 use crate::job::work::Posed;
@@ -59,7 +59,10 @@ impl Updater {
             Export::Figures => Content::Figures(run()?),
             Export::Fields => Content::Fields(run()?),
             Export::Animation => Content::Animation(run()?),
-            Export::Report => Content::Report(vec![to_compare(&self.named()?)]),
+            Export::Report => {
+                let SolvedScene { scene, problem, solution, .. } = self.named()?;
+                Content::Report(vec![ComparedRun::new(scene.name.clone(), scene, problem, Ok(solution))])
+            }
             Export::ComparisonReport => Content::Report(self.state.pins.runs.to_vec()),
             Export::Comparison => Content::Comparison(self.state.pins.runs.to_vec(), self.state.pins.all_parameters),
             Export::Sweep => Content::Sweep(sweep()?, rows()?),

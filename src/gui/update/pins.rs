@@ -1,8 +1,9 @@
 //! Carries out the commands for the pins.
 
 use super::updater::Updater;
+use crate::analysis::compare::ComparedRun;
 use crate::gui::command::PinCommand;
-use crate::gui::state::pins::{to_compare, told_apart};
+use crate::gui::state::pins::told_apart;
 use crate::job::pin::PinWork;
 use crate::scene::presets;
 use std::time::Duration;
@@ -11,16 +12,15 @@ impl Updater {
     pub(super) fn pin(&mut self, command: PinCommand) {
         match command {
             PinCommand::Shown => {
-                if let Some(run) = self.shown() {
-                    let mut run = to_compare(&run);
+                if let Some(mut run) = self.shown() {
                     let mut named = run.scene.clone();
                     named.retitle(self.state.document.saved());
                     // The pin may be named by the keys that distinguish it from others, but must not keep a description that is no longer
                     // true.
                     let told_apart = told_apart(&run.scene, self.state.document.saved());
-                    run.label = told_apart.filter(|_| named.name != run.scene.name).unwrap_or(named.name);
+                    let label = told_apart.filter(|_| named.name != run.scene.name).unwrap_or(named.name);
                     run.scene.about = named.about;
-                    self.state.pins.add(run);
+                    self.state.pins.add(ComparedRun::new(label, run.scene, run.problem, Ok(run.solution)));
                 }
             }
             PinCommand::Preset(name) => self.pin_preset(name),
