@@ -12,7 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::PlotStyle;
 use crate::gui::ui::plot::{between, dots, level, line, upright};
 use crate::job::SolvedScene;
-use crate::problem::Scenario;
+use crate::problem::{Plate, Scenario};
 use eframe::egui::{CursorIcon, Rect, Sense, Ui, pos2, vec2};
 use egui_plot::{Axis, LineStyle, Span};
 
@@ -21,61 +21,34 @@ const FEWEST: usize = 8;
 /// Error bands are drawn up to this many times the range of the values, because the errors of the first cycles may be large.
 const WIDEST_BAND: f64 = 0.5;
 
-/// Curve of a plot over the cycles: a result, times a factor.
-struct Curve {
-    /// Titles, long to short.
-    titles: [&'static str; 3],
-    /// Its glossary term.
-    word: &'static str,
-    of: (Quantity, f64),
-}
+/// A curve over the cycles: its titles, long to short, its glossary term, and a result with the factor from its unit to that of the titles.
+type Curve<'a> = ([&'a str; 3], &'static str, (Quantity, f64));
 
-const ALPHA: Curve = Curve {
-    titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
-    word: "α",
-    of: (Quantity::Alpha, 1.0),
-};
-const RATIO: Curve = Curve {
-    titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle", "Load ratio"],
-    word: "Load ratio",
-    of: (Quantity::LoadRatio, 1.0),
-};
-const RATIO_OF_STRIP: Curve = Curve {
-    titles: [
-        "Load ratio, film load over p_a × length, against the cycle",
-        "Load ratio against the cycle",
-        "Load ratio",
-    ],
-    ..RATIO
-};
-const THICKNESS: Curve = Curve {
-    titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
-    word: "Least film thickness",
-    of: (Quantity::MinGap, 1e-3),
-};
-const PRESSURE: Curve = Curve {
-    titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
-    word: "Highest pressure",
-    of: (Quantity::MaxPressure, 1.0),
-};
-const OF_MOTOR: &[(Curve, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
-/// The curves where there is no space for three; the text above has the number that is left out.
-const OF_MOTOR_NARROW: &[(Curve, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
+const ALPHA: Curve<'_> =
+    (["Film's share of the load α against the cycle", "α against the cycle", "α"], "α", (Quantity::Alpha, 1.0));
+const THICKNESS: Curve<'_> =
+    (["Least film thickness, µm", "Least h, µm", "h, µm"], "Least film thickness", (Quantity::MinGap, 1e-3));
+const PRESSURE: Curve<'_> =
+    (["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"], "Highest pressure", (Quantity::MaxPressure, 1.0));
+/// With less width than this, in lines of text, there is no space for three curves.
 const NARROW: f32 = 36.0;
-/// The gap of a plate is prescribed.
-const OF_PLATE: &[(Curve, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
-const OF_STRIP: &[(Curve, f32)] = &[(RATIO_OF_STRIP, 0.62), (PRESSURE, 0.38)];
 
 /// Draws the numbers of the start-up into the next `height` of `ui`; a click chooses a cycle. `periodic` is the periodic solve of the same
 /// scene.
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let curves = match &startup.posed.problem.scenario {
-        Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
-        Scenario::Motor(_) => OF_MOTOR,
-        Scenario::Plate(plate) if plate.is_strip() => OF_STRIP,
-        Scenario::Plate(_) => OF_PLATE,
+    let scenario = &startup.posed.problem.scenario;
+    let over = if scenario.plate().is_some_and(Plate::is_strip) { "length" } else { "area" };
+    let ratio = format!("Load ratio, film load over p_a × {over}, against the cycle");
+    let ratio = [ratio.as_str(), "Load ratio against the cycle", "Load ratio"];
+    // The curves, and their shares of the width.
+    let curves: &[(Curve<'_>, f32)] = match scenario {
+        // The text above has the number that is left out.
+        Scenario::Motor(_) if area.width() < NARROW * style.row => &[(ALPHA, 0.6), (PRESSURE, 0.4)],
+        Scenario::Motor(_) => &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)],
+        // The gap of a plate is prescribed.
+        Scenario::Plate(_) => &[((ratio, "Load ratio", (Quantity::LoadRatio, 1.0)), 0.62), (PRESSURE, 0.38)],
     };
     let mut left = area.left();
     for (curve, share) in curves {
@@ -97,13 +70,13 @@ fn plot(
     ui: &mut Ui,
     style: &PlotStyle,
     rect: Rect,
-    curve: &Curve,
+    (titles, word, (quantity, factor)): &Curve<'_>,
     startup: &StartupState,
     periodic: Option<&SolvedScene>,
     cx: &DrawContext<'_>,
 ) {
     let points = &startup.points;
-    let of = |numbers: &Numbers| numbers.known(curve.of.0) * curve.of.1;
+    let of = |numbers: &Numbers| numbers.known(*quantity) * *factor;
     let steady = periodic.map(|run| of(&Numbers::of_outcome(&startup.posed.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
     let [low, high] = span(found.iter().chain(&steady).map(|found| found.value));
@@ -111,11 +84,11 @@ fn plot(
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", good)];
     let legend = if steady.is_some() { &both[..] } else { &[] };
-    style.title(rect, curve.word, &curve.titles, legend);
+    style.title(rect, word, titles, legend);
 
     let cap = WIDEST_BAND * (high - low);
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };
-    let name = format!("{}: click to look at a cycle", curve.titles[0]);
+    let name = format!("{}: click to look at a cycle", titles[0]);
     let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], with_margin([low, high], 0.12)];
     let inset = Inset { name: &name, rect, bounds, below: Some("cycle") };
     let present = startup.chosen as f64;
