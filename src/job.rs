@@ -5,28 +5,23 @@
 //! `wake`, which is called after every event. In a process a named thread solves (`thread`), which is cancelled and joined on drop. On a
 //! page a worker does (`page`): scenes are sent to it as bytes, and it is ended and replaced when it is cancelled.
 
-pub mod drop;
 pub mod export;
-pub mod face;
 pub mod fit;
 pub mod hold;
 #[cfg(target_arch = "wasm32")]
 mod line;
-pub mod new_motor;
 #[cfg(target_arch = "wasm32")]
 mod page;
-pub mod pin;
-pub mod rotor;
 pub mod sensitivity;
 #[cfg(target_arch = "wasm32")]
 pub mod serve;
-pub mod startup;
+pub mod single;
 pub mod sweep;
 pub mod task;
 #[cfg(not(target_arch = "wasm32"))]
 mod thread;
-pub mod torque;
 pub mod tradeoff;
+pub mod transient;
 pub mod work;
 
 #[cfg(target_arch = "wasm32")]

@@ -1,18 +1,13 @@
 //! The worker of a page: it receives work with its name, does it, and sends back messages and the result.
 
-use super::drop::DropWork;
 use super::export::Files;
-use super::face::FaceWork;
 use super::fit::FitWork;
-use super::new_motor::NewMotorWork;
 use super::page::RequestStep;
-use super::pin::PinWork;
-use super::rotor::RotorWork;
 use super::sensitivity::{Derivatives, Draws};
-use super::startup::StartupWork;
+use super::single::{FaceWork, NewMotorWork, PinWork, RotorWork, TorqueWork};
 use super::sweep::SweepWork;
-use super::torque::TorqueWork;
 use super::tradeoff::TradeoffWork;
+use super::transient::{DropWork, StartupWork};
 use super::work::{Sent, Work};
 use crate::control::Cancel;
 use crate::platform::worker::{reply, serve};

@@ -83,10 +83,8 @@ pub(super) mod tests {
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
     use crate::job::SolvedScene;
-    use crate::job::face::FaceWork;
-    use crate::job::pin::PinWork;
+    use crate::job::single::{FaceWork, PinWork, TorqueWork};
     use crate::job::sweep::SweepWork;
-    use crate::job::torque::TorqueWork;
     use crate::scene::presets;
     use crate::solution::Stats;
     use crate::solve::{Settings, solve};
@@ -141,7 +139,7 @@ pub(super) mod tests {
         let timed = (solution, 0.5);
         let run = SolvedScene::of(1, posed.clone(), Fidelity::Draft, timed, Vec::new());
         both(TorqueWork(Arc::new(run)));
-        both(PinWork { scene: posed.scene.clone(), fidelity: Fidelity::Draft });
+        both(PinWork(posed.scene.clone(), Fidelity::Draft));
         let face = tempfile::NamedTempFile::new().unwrap();
         let row = |y: usize| (0..20).map(|x| format!("{}", (x * y + x * x) % 7)).collect::<Vec<_>>().join(",");
         let heights = (0..20).map(row).collect::<Vec<_>>().join("\n");

@@ -3,7 +3,7 @@
 use super::background::BackgroundOf;
 use super::dialogs::Purpose;
 use crate::digits::rounded;
-use crate::job::face::FaceWork;
+use crate::job::single::FaceWork;
 use crate::job::task::TaskOf;
 use crate::scene::Scene;
 use crate::scene::heights::keys_of;

@@ -5,7 +5,7 @@ use crate::analysis::compare::{ComparedRun, LONGEST_LABEL, ParameterRow, ResultR
 use crate::digits::rounded;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
-use crate::job::pin::PinWork;
+use crate::job::single::PinWork;
 use crate::job::task::TaskOf;
 use crate::scene::{Scene, Value, show_up_to};
 use serde::{Deserialize, Serialize};

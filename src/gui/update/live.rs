@@ -8,11 +8,9 @@ use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
-use crate::job::drop::DropWork;
 use crate::job::hold::{HeldPlate, slowed};
-use crate::job::rotor::RotorWork;
-use crate::job::startup::StartupWork;
-use crate::job::torque::TorqueWork;
+use crate::job::single::{RotorWork, TorqueWork};
+use crate::job::transient::{DropWork, StartupWork};
 use crate::job::work::Posed;
 use crate::problem::Scenario;
 use crate::startup;
@@ -134,7 +132,7 @@ impl Updater {
         // Every tooth is solved on three grids; a finer fidelity would take minutes.
         let fidelity = self.state.document.target().min(Fidelity::Standard);
         if posed.scene.floats() {
-            let work = DropWork { posed: posed.clone(), fidelity };
+            let work = DropWork(posed.clone(), fidelity);
             if let Some(task) = self.start_work("The plate cannot be dropped", work, Duration::ZERO) {
                 self.state.dropped = Some(Dropped::new(task, posed, fidelity));
             }
@@ -143,7 +141,7 @@ impl Updater {
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // Only one start-up runs at a time: the previous one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count + 1);
-        let work = StartupWork { posed: posed.clone(), settings };
+        let work = StartupWork(posed.clone(), settings);
         if let Some(task) = self.start_work("The start-up cannot be started", work, Duration::ZERO) {
             self.state.startup = Some(StartupState::new(task, posed, fidelity, count));
         }

@@ -4,7 +4,7 @@ use super::updater::Updater;
 use crate::analysis::compare::ComparedRun;
 use crate::gui::command::PinCommand;
 use crate::gui::state::pins::told_apart;
-use crate::job::pin::PinWork;
+use crate::job::single::PinWork;
 use crate::scene::presets;
 use std::time::Duration;
 
@@ -44,7 +44,7 @@ impl Updater {
             Err(error) => return self.state.fail(error),
         };
         let fidelity = self.state.document.target();
-        let work = PinWork { scene: scene.clone(), fidelity };
+        let work = PinWork(scene.clone(), fidelity);
         if let Some(task) = self.start_work("The preset cannot be solved", work, Duration::ZERO) {
             self.state.pins.wait(scene, fidelity, task);
         }
@@ -56,7 +56,7 @@ impl Updater {
             return;
         }
         let Some((id, scene, fidelity)) = self.state.pins.turn() else { return };
-        let work = PinWork { scene: scene.clone(), fidelity };
+        let work = PinWork(scene.clone(), fidelity);
         match self.start_work("A pinned run cannot be solved again", work, Duration::ZERO) {
             Some(task) => self.state.pins.begin(id, task),
             None => self.state.pins.remove(id),

@@ -12,7 +12,7 @@ use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
-use crate::job::new_motor::NewMotorWork;
+use crate::job::single::NewMotorWork;
 use crate::scene::Parameter;
 use std::path::PathBuf;
 use std::time::Duration;
