@@ -702,7 +702,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
         let path = folder.path().join(file);
         window.get_by_label(button).click();
         answer(&mut window, &path);
-        until(&mut window, "written", |app| app.state().exports.written().is_some());
+        until(&mut window, "written", |app| app.state().exports.written.is_some());
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
     }
 

@@ -238,14 +238,14 @@ fn a_file_holds_what_its_name_says() {
     assert!(!folder.path().join("x.jpg").exists());
     // Without an extension it gets its own, but replaces nothing that nobody was asked about.
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
-    until(&mut window, "written", |app| app.state().exports.written().is_some());
+    until(&mut window, "written", |app| app.state().exports.written.is_some());
     assert!(folder.path().join("x.npz").is_file() && !folder.path().join("x").exists());
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
     window.get_by_label_contains("give its whole name");
     window.click_on("Close");
     begin_export(&mut window, "Animation…", &folder.path().join("cycle"));
     until(&mut window, "the animation is under way or done", |app| {
-        app.state().exports.running.is_some() || app.state().exports.written().is_some()
+        app.state().exports.running.is_some() || app.state().exports.written.is_some()
     });
     until(&mut window, "the animation", |app| app.state().exports.running.is_none());
     assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());

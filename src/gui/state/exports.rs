@@ -27,7 +27,7 @@ pub struct ExportState {
     /// The export that is being written.
     pub running: Option<RunningExport>,
     /// Files written last, and when; shown as a note for a while.
-    written: Option<(Vec<PathBuf>, Instant)>,
+    pub written: Option<(Vec<PathBuf>, Instant)>,
 }
 
 /// How long the note about written files is shown.
@@ -38,21 +38,6 @@ impl ExportState {
     pub fn begin(&mut self, export: Export, task: TaskOf<Files>, started: Instant) {
         self.written = None;
         self.running = Some(RunningExport { export, work: task.into(), started, drawn: (0, 0) });
-    }
-
-    /// Files written last, while the note about them is shown.
-    pub fn written(&self) -> Option<&[PathBuf]> {
-        self.written.as_ref().map(|(paths, _)| paths.as_slice())
-    }
-
-    /// Shows a note about these files.
-    pub fn wrote(&mut self, paths: Vec<PathBuf>, now: Instant) {
-        self.written = Some((paths, now));
-    }
-
-    /// Closes the note.
-    pub fn close_note(&mut self) {
-        self.written = None;
     }
 
     /// Takes progress and results since the last call; returns an error to be shown.
@@ -66,7 +51,7 @@ impl ExportState {
         }
         let end = end?;
         self.running = None;
-        end.map(|paths| paths.into_iter().for_each(|paths| self.wrote(paths, now))).err()
+        end.map(|paths| paths.into_iter().for_each(|paths| self.written = Some((paths, now)))).err()
     }
 }
 
@@ -77,10 +62,10 @@ mod tests {
     #[test]
     fn what_was_written_is_told_for_a_while() {
         let (mut exports, now) = (ExportState::default(), Instant::now());
-        exports.wrote(vec![PathBuf::from("scene.toml")], now);
+        exports.written = Some((vec![PathBuf::from("scene.toml")], now));
         exports.drain(now + TOLD);
-        assert!(exports.written().is_some());
+        assert!(exports.written.is_some());
         exports.drain(now + 2 * TOLD);
-        assert!(exports.written().is_none());
+        assert!(exports.written.is_none());
     }
 }

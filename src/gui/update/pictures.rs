@@ -29,7 +29,7 @@ impl Updater {
         writing.retain(|task| {
             match task.drain().end {
                 None => return true,
-                Some(Ok(paths)) => paths.into_iter().for_each(|paths| state.exports.wrote(paths, now)),
+                Some(Ok(paths)) => paths.into_iter().for_each(|paths| state.exports.written = Some((paths, now))),
                 Some(Err(error)) => state.fail(error),
             }
             false

@@ -84,7 +84,7 @@ impl Updater {
             Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
             Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::CancelExport => state.exports.running.iter_mut().for_each(|running| running.work.cancel()),
-            Command::CloseExportNote => state.exports.close_note(),
+            Command::CloseExportNote => state.exports.written = None,
             Command::TogglePlay => match state.held() {
                 Some(hold) => hold.toggle_play(),
                 None => state.view.playing = !state.view.playing,

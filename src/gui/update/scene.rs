@@ -169,8 +169,7 @@ impl Updater {
     fn save_to(&mut self, path: &Path, then: Option<Next>) -> Result<(), String> {
         self.state.document.save(path).map_err(|error| error.to_string())?;
         self.state.remember(path);
-        let now = self.now();
-        self.state.exports.wrote(vec![path.to_owned()], now);
+        self.state.exports.written = Some((vec![path.to_owned()], self.now()));
         then.into_iter().filter(|next| !is_of_file(next, path)).for_each(|next| self.proceed_now(next));
         Ok(())
     }

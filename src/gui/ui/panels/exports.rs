@@ -22,7 +22,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             ui.label(if running.work.cancelled { "Ending…" } else { running.export.title() });
         });
-    } else if let Some(paths) = exports.written() {
+    } else if let Some((paths, _)) = &exports.written {
         ui.horizontal(|ui| {
             cx.small_button(ui, ("✕", "Closes this note"), "Close the note", Command::CloseExportNote);
             let list = paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
