@@ -72,6 +72,13 @@ pub struct Fall {
     pub outcome: Option<Outcome>,
 }
 
+impl Fall {
+    /// A fall that was cancelled before it had any result.
+    pub fn cancelled() -> Self {
+        Self { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()), outcome: None }
+    }
+}
+
 /// Drops the plate of `problem` and passes every cycle to the caller. It ends after so many `cycles`, when a budget is spent, or when the
 /// height is within `tolerance` of its final value, as estimated from its changes over 32 cycles. `None` if the scene has no plate under a
 /// load.

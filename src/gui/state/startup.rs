@@ -1,12 +1,11 @@
 //! A start-up in the window: its scene, the numbers of every cycle, the recordings that are kept, and the cycle on screen.
 
-use super::background::Background;
-use super::document::solved_alike;
+use super::transient::Transient;
 use crate::export::startup::{CycleRow, place};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::{Ranges, Scales};
 use crate::job::SolvedScene;
-use crate::job::task::{News, TaskOf};
+use crate::job::task::TaskOf;
 use crate::job::transient::StartupWork;
 use crate::job::work::Posed;
 use crate::recording::Recording;
@@ -45,24 +44,16 @@ fn bytes(recording: &Recording) -> usize {
 /// A start-up, under way or ended.
 #[derive(Debug)]
 pub struct StartupState {
-    /// The task: its messages are the cycles, its result is the outcome.
-    pub work: Background<Cycle, Startup>,
-    /// The scene that was started, and its problem.
-    pub posed: Posed,
-    /// The fidelity of its grids and steps.
-    pub fidelity: Fidelity,
+    /// Its scene, its cycles and its outcome.
+    pub of: Transient<Cycle, Startup>,
     /// Its number in this window.
     pub count: u64,
     /// All cycles, in order.
     pub points: Vec<CycleRow>,
-    /// All cycles without their fields, in order.
-    pub cycles: Vec<Cycle>,
     /// Runs that are kept, by the number of their cycle.
     kept: BTreeMap<usize, Arc<SolvedScene>>,
     /// Ranges of the axes over all cycles so far.
     pub ranges: Option<Ranges>,
-    /// The outcome.
-    pub ended: Option<Result<Startup, String>>,
     /// Number of the cycle on screen; 0 before the first.
     pub chosen: usize,
     /// Whether the newest cycle is looked at.
@@ -73,15 +64,11 @@ impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
     pub fn new(task: TaskOf<StartupWork>, posed: Posed, fidelity: Fidelity, count: u64) -> Self {
         Self {
-            work: task.into(),
-            posed,
-            fidelity,
+            of: Transient::new(task, posed, fidelity),
             count,
             points: Vec::new(),
-            cycles: Vec::new(),
             kept: BTreeMap::new(),
             ranges: None,
-            ended: None,
             chosen: 0,
             follows_newest: true,
         }
@@ -89,25 +76,18 @@ impl StartupState {
 
     /// Takes progress and results since the last call; cancels the task if `scene` differs from the scene that was started.
     pub fn drain(&mut self, scene: &Scene) {
-        let News { messages, end } = self.work.news();
-        messages.into_iter().for_each(|cycle| self.take(cycle));
-        if let Some(end) = end {
-            self.ended = Some(end.map(|ended| ended.unwrap_or_else(Startup::cancelled)));
-        }
-        if self.stale(scene) {
-            self.work.cancel();
-        }
+        self.of.news(scene, Startup::cancelled).into_iter().for_each(|cycle| self.take(cycle));
     }
 
     fn take(&mut self, cycle: Cycle) {
         let newest = cycle.number > self.points.len();
-        place(&mut self.points, cycle.number, CycleRow::of(&self.posed.problem, &cycle));
-        place(&mut self.cycles, cycle.number, cycle.slim());
+        place(&mut self.points, cycle.number, CycleRow::of(&self.of.posed.problem, &cycle));
+        place(&mut self.of.cycles, cycle.number, cycle.slim());
         let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
-        let run = as_solved(number_of_run, self.posed.clone(), self.fidelity, outcome, recording);
+        let run = as_solved(number_of_run, self.of.posed.clone(), self.of.fidelity, outcome, recording);
         keep(&mut self.kept, number, Arc::new(run), MOST_BYTES);
         if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;
@@ -152,11 +132,6 @@ impl StartupState {
     /// The cycle looked at.
     pub fn run(&self) -> Option<&Arc<SolvedScene>> {
         self.kept.get(&self.chosen)
-    }
-
-    /// Whether `scene` differs from the scene that was started.
-    pub fn stale(&self, scene: &Scene) -> bool {
-        !solved_alike(&self.posed.scene, scene)
     }
 }
 

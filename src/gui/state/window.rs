@@ -4,7 +4,6 @@ use super::activity::Activity;
 use super::background::Background;
 use super::dialogs::{Export, PICTURE, Purpose};
 use super::document::{Document, absolute, solved_alike};
-use super::dropped::Dropped;
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::face::FaceState;
@@ -20,6 +19,7 @@ use super::startup::StartupState;
 use super::sweep::SweepState;
 use super::switch_effect::SwitchHistory;
 use super::tradeoff::TradeoffState;
+use super::transient::Dropped;
 use super::view::{Tab, View};
 use crate::job::SolvedScene;
 use crate::platform::HAS_FILES;
@@ -184,7 +184,7 @@ impl State {
             Tab::Sensitivity => self.sensitivity.cancel(),
             Tab::Startup => {
                 self.dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
-                self.startup.iter_mut().for_each(|startup| startup.work.cancel());
+                self.startup.iter_mut().for_each(|startup| startup.of.work.cancel());
             }
             Tab::Tradeoff => self.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             _ => {}
@@ -205,7 +205,7 @@ impl State {
             Export::Startup if self.document.scene().floats() => {
                 self.dropped.as_ref().is_some_and(|dropped| matches!(dropped.ended, Some(Ok(_))))
             }
-            Export::Startup => self.startup.as_ref().is_some_and(|startup| matches!(startup.ended, Some(Ok(_)))),
+            Export::Startup => self.startup.as_ref().is_some_and(|startup| matches!(startup.of.ended, Some(Ok(_)))),
             Export::Answers => !self.lessons.records().is_empty(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff.points.is_empty())

@@ -3,9 +3,9 @@
 use super::updater::Updater;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
-use crate::gui::state::dropped::Dropped;
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
+use crate::gui::state::transient::Dropped;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
 use crate::job::hold::{HeldPlate, slowed};

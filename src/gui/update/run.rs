@@ -3,6 +3,7 @@
 use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
 use crate::citation;
+use crate::fall::Fall;
 use crate::gui::command::Command;
 use crate::gui::state::activity::Running;
 use crate::gui::state::background::Background;
@@ -184,7 +185,10 @@ impl Updater {
         state.sensitivity.drain();
         let scene = state.document.scene();
         state.startup.iter_mut().for_each(|startup| startup.drain(scene));
-        state.dropped.iter_mut().for_each(|dropped| dropped.drain(scene));
+        if let Some(dropped) = &mut state.dropped {
+            let cycles = dropped.news(scene, Fall::cancelled);
+            dropped.cycles.extend(cycles);
+        }
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
         match self.state.made() {
             Some(Ok(scene)) => self.proceed(Next::Given(Box::new(Document::made(scene)))),

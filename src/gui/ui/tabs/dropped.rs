@@ -6,7 +6,7 @@ use crate::export::fall::panel;
 use crate::fall::{Fall, struck};
 use crate::gui::command::{Command, StartupCommand};
 use crate::gui::state::dialogs::Export;
-use crate::gui::state::dropped::Dropped;
+use crate::gui::state::transient::Dropped;
 use crate::gui::ui::chart::Chart;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
