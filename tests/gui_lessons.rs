@@ -134,7 +134,7 @@ fn act(window: &mut Window, doing: &Doing) {
             Act::StartUp => {
                 window.click_on("Start from rest");
                 until(window, "the start-up ends", |app| {
-                    app.state().startup.as_ref().is_some_and(|starting| starting.of.ended.is_some())
+                    app.state().startup.as_ref().is_some_and(|starting| starting.transient.ended.is_some())
                 });
             }
         }

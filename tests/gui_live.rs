@@ -70,8 +70,8 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
     let first = starting(window.state()).points[0].numbers.main().value;
-    until(&mut window, "it repeats", |app| starting(app).of.ended.is_some());
-    assert_eq!(starting(window.state()).of.ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
+    until(&mut window, "it repeats", |app| starting(app).transient.ended.is_some());
+    assert_eq!(starting(window.state()).transient.ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
     window.get_by_label_contains("repeats within");
     agrees(window.state());
     // It is not the bar of a plate that would be dropped.
@@ -118,13 +118,13 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
     window.type_into("Minimum spacing H_m in nm", "150");
     window.get_by_label_contains("before the scene changed; start again");
-    until(&mut window, "it has ended", |app| !starting(app).of.work.running());
+    until(&mut window, "it has ended", |app| !starting(app).transient.work.running());
 
     window.click_on("Start from rest");
     assert!(window.query_by_label_contains("before the scene changed; start again").is_none());
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
     window.click_on("Cancel the start-up");
-    until(&mut window, "it has ended", |app| !starting(app).of.work.running());
+    until(&mut window, "it has ended", |app| !starting(app).transient.work.running());
     window.get_by_label_contains("Cancelled after cycle");
     // The scene that it was started on was an edited one, the present one is not.
     window.ctrl(Key::Z);
@@ -138,7 +138,7 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
 fn a_plate_starts_from_rest_too() {
     let mut window = once_solved(window("plate-crossover", STARTUP));
     window.click_on("Start from rest");
-    until(&mut window, "it repeats", |app| starting(app).of.ended.is_some());
+    until(&mut window, "it repeats", |app| starting(app).transient.ended.is_some());
     window.get_by_label_contains("repeats within");
     window.get_by_label_contains("load ratio");
     window.get_by_label_contains("film load over p_a × length, against the cycle: click");

@@ -203,7 +203,7 @@ fn started(results: &mut SnapshotResults) {
         let mut window = window(preset, size, keys);
         window.get_by_label("Start from rest").click();
         until(&mut window, "the start-up ends", |app| {
-            app.state().startup.as_ref().is_some_and(|starting| starting.of.ended.is_some())
+            app.state().startup.as_ref().is_some_and(|starting| starting.transient.ended.is_some())
         });
         compare(results, &mut window, name);
     }

@@ -51,7 +51,7 @@ impl OffTabs {
                 self.now.read_held(rest.0, rest.1);
             }
         }
-        if let Some(startup) = seen.startup.filter(|startup| !startup.of.stale(&run.scene)) {
+        if let Some(startup) = seen.startup.filter(|startup| !startup.transient.stale(&run.scene)) {
             let points = &startup.points;
             for (readings, point) in [(&mut self.start, points.first()), (&mut self.now, points.last())] {
                 point.into_iter().for_each(|row| readings.read_cycle(row));

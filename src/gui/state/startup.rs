@@ -45,7 +45,7 @@ fn bytes(recording: &Recording) -> usize {
 #[derive(Debug)]
 pub struct StartupState {
     /// Its scene, its cycles and its outcome.
-    pub of: Transient<Cycle, Startup>,
+    pub transient: Transient<Cycle, Startup>,
     /// Its number in this window.
     pub count: u64,
     /// All cycles, in order.
@@ -64,7 +64,7 @@ impl StartupState {
     /// A start-up of `scene`, number `count` of this window.
     pub fn new(task: TaskOf<StartupWork>, posed: Posed, fidelity: Fidelity, count: u64) -> Self {
         Self {
-            of: Transient::new(task, posed, fidelity),
+            transient: Transient::new(task, posed, fidelity),
             count,
             points: Vec::new(),
             kept: BTreeMap::new(),
@@ -76,18 +76,18 @@ impl StartupState {
 
     /// Takes progress and results since the last call; cancels the task if `scene` differs from the scene that was started.
     pub fn drain(&mut self, scene: &Scene) {
-        self.of.news(scene, Startup::cancelled).into_iter().for_each(|cycle| self.take(cycle));
+        self.transient.news(scene, Startup::cancelled).into_iter().for_each(|cycle| self.take(cycle));
     }
 
     fn take(&mut self, cycle: Cycle) {
         let newest = cycle.number > self.points.len();
-        place(&mut self.points, cycle.number, CycleRow::of(&self.of.posed.problem, &cycle));
-        place(&mut self.of.cycles, cycle.number, cycle.slim());
+        place(&mut self.points, cycle.number, CycleRow::of(&self.transient.posed.problem, &cycle));
+        place(&mut self.transient.cycles, cycle.number, cycle.slim());
         let Cycle { number, outcome, recording, .. } = cycle;
         let ranges = Scales::new(&recording).ranges;
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
-        let run = as_solved(number_of_run, self.of.posed.clone(), self.of.fidelity, outcome, recording);
+        let run = as_solved(number_of_run, self.transient.posed.clone(), self.transient.fidelity, outcome, recording);
         keep(&mut self.kept, number, Arc::new(run), MOST_BYTES);
         if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;

@@ -184,7 +184,7 @@ impl State {
             Tab::Sensitivity => self.sensitivity.cancel(),
             Tab::Startup => {
                 self.dropped.iter_mut().for_each(|dropped| dropped.work.cancel());
-                self.startup.iter_mut().for_each(|startup| startup.of.work.cancel());
+                self.startup.iter_mut().for_each(|startup| startup.transient.work.cancel());
             }
             Tab::Tradeoff => self.tradeoff.iter_mut().for_each(|measured| measured.work.cancel()),
             _ => {}
@@ -205,7 +205,9 @@ impl State {
             Export::Startup if self.document.scene().floats() => {
                 self.dropped.as_ref().is_some_and(|dropped| matches!(dropped.ended, Some(Ok(_))))
             }
-            Export::Startup => self.startup.as_ref().is_some_and(|startup| matches!(startup.of.ended, Some(Ok(_)))),
+            Export::Startup => {
+                self.startup.as_ref().is_some_and(|startup| matches!(startup.transient.ended, Some(Ok(_))))
+            }
             Export::Answers => !self.lessons.records().is_empty(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff.points.is_empty())

@@ -88,7 +88,7 @@ impl Updater {
                 Content::Fall(posed, dropped.fidelity, ended, dropped.cycles.clone())
             }
             Export::Startup => {
-                let startup = &self.state.startup.as_ref()?.of;
+                let startup = &self.state.startup.as_ref()?.transient;
                 let settings = Settings { fidelity: startup.fidelity, ..Settings::default() };
                 let ended = Box::new(startup.ended.clone()?.ok()?);
                 Content::Startup(Box::new(startup.posed.clone()), settings, ended, startup.cycles.clone())

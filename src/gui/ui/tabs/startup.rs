@@ -34,7 +34,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     }
     let line = ui.text_style_height(&TextStyle::Body);
     let plots = (PLOTS_SHARE * height).clamp(LINES.0 * line, LINES.1 * line);
-    let periodic = cx.state.run.as_deref().filter(|run| !startup.of.stale(&run.scene));
+    let periodic = cx.state.run.as_deref().filter(|run| !startup.transient.stale(&run.scene));
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
     cx.name_part(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
@@ -44,7 +44,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        if cx.state.startup.as_ref().is_some_and(|startup| startup.of.work.running()) {
+        if cx.state.startup.as_ref().is_some_and(|startup| startup.transient.work.running()) {
             let about = "Ends it; the cycles computed so far stay";
             cx.button(ui, "Cancel the start-up", about, Command::CancelTab);
         } else {
@@ -87,12 +87,12 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     let (text, colour) = ending(startup, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).color(colour));
-        ui.label(RichText::new(format!("computed at {}", startup.of.fidelity)).color(cx.colours.quiet));
+        ui.label(RichText::new(format!("computed at {}", startup.transient.fidelity)).color(cx.colours.quiet));
     });
-    if let Some(Ok(ended)) = &startup.of.ended {
+    if let Some(Ok(ended)) = &startup.transient.ended {
         cx.warn(ui, &ended.warnings);
     }
-    let (name, stale) = (startup.of.posed.scene.headline(), startup.of.stale(cx.state.document.scene()));
+    let (name, stale) = (startup.transient.posed.scene.headline(), startup.transient.stale(cx.state.document.scene()));
     cx.alarm(ui, stale.then(|| format!("Of “{name}” before the scene changed; start again")));
     if let Some(row) = startup.points.get(startup.chosen.wrapping_sub(1)) {
         let text = format!("Shown is {}", views::history::words(row));
@@ -109,7 +109,7 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
     } else {
         "not yet repeating".to_owned()
     };
-    match &startup.of.ended {
+    match &startup.transient.ended {
         None if cycles == 0 => ("The first cycle is being computed".to_owned(), usual),
         None if remaining < Settings::default().tolerance => {
             (format!("Cycle {cycles}: repeats; cycles follow on finer grids"), usual)
@@ -118,7 +118,7 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
         Some(Ok(ended)) => match ended.status {
             Status::Converged => {
-                let of_present = !startup.of.stale(cx.state.document.scene());
+                let of_present = !startup.transient.stale(cx.state.document.scene());
                 let colour = if of_present { cx.colours.good } else { cx.colours.quiet };
                 (format!("Cycle {cycles}: repeats within {}", percent(ended.remaining)), colour)
             }

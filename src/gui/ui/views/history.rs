@@ -38,7 +38,7 @@ const NARROW: f32 = 36.0;
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let scenario = &startup.of.posed.problem.scenario;
+    let scenario = &startup.transient.posed.problem.scenario;
     let over = if scenario.plate().is_some_and(Plate::is_strip) { "length" } else { "area" };
     let ratio = format!("Load ratio, film load over p_a × {over}, against the cycle");
     let ratio = [ratio.as_str(), "Load ratio against the cycle", "Load ratio"];
@@ -77,7 +77,7 @@ fn plot(
 ) {
     let points = &startup.points;
     let of = |numbers: &Numbers| numbers.known(*quantity) * *factor;
-    let steady = periodic.map(|run| of(&Numbers::of_outcome(&startup.of.posed.problem, &run.solution.outcome)));
+    let steady = periodic.map(|run| of(&Numbers::of_outcome(&startup.transient.posed.problem, &run.solution.outcome)));
     let found: Vec<Estimate> = points.iter().map(|row| of(&row.numbers)).collect();
     let [low, high] = span(found.iter().chain(&steady).map(|found| found.value));
     let (film, good) = (style.palette.film, style.palette.good);
