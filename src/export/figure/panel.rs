@@ -4,6 +4,7 @@
 use super::axis::Axis;
 use super::axis::{Range, Scale};
 use super::colour::Colour;
+#[cfg(feature = "gui")]
 use super::description::Panel;
 use super::geometry::{along, clipped_area, clipped_line, contour, distance, is_contour};
 use super::isoline::{self, Isoline};
