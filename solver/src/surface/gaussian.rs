@@ -9,21 +9,25 @@ use std::sync::LazyLock;
 
 pub(super) static HEIGHTS: Heights = Heights { name: "gaussian", moment };
 
-/// ln Fₙ over u.
-struct Table {
-    /// ln Fₙ and its slope times `STEP`, from [`DEEPEST`] on.
-    nodes: Vec<(f64, f64)>,
-}
-
 const STEP: f64 = 1.0 / 64.0;
 const LAST: f64 = 38.0;
 
-/// One for each [`Order`].
-static TABLES: [LazyLock<Table>; 3] =
-    [LazyLock::new(|| Table::new(2)), LazyLock::new(|| Table::new(3)), LazyLock::new(|| Table::new(5))];
+/// For each [`Order`], ln Fₙ and its slope times `STEP` at the nodes, from [`DEEPEST`] on.
+static NODES: [LazyLock<Vec<(f64, f64)>>; 3] =
+    [LazyLock::new(|| nodes(2)), LazyLock::new(|| nodes(3)), LazyLock::new(|| nodes(5))];
 
+/// ln Fₙ and its slope. Beyond the last node it falls as steeply as there: to nothing.
 fn moment(order: Order, u: f64) -> (f64, f64) {
-    TABLES[order as usize].at(u)
+    let nodes = &NODES[order as usize];
+    let place = (u - DEEPEST) / STEP;
+    let left = (place.max(0.0) as usize).min(nodes.len() - 2);
+    let ((a, start), (b, end)) = (nodes[left], nodes[left + 1]);
+    if u > LAST {
+        return (b + end * (u - LAST) / STEP, end / STEP);
+    }
+    let (t, rise) = (place - left as f64, b - a);
+    let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
+    (a + t * (start + t * (square + t * cube)), (start + t * (2.0 * square + 3.0 * t * cube)) / STEP)
 }
 
 /// F₁(u) and its derivative, u ≥ 0: what the mean gap exceeds the separation by.
@@ -42,27 +46,12 @@ fn scaled(twice: i32, u: f64) -> f64 {
     (0..PANELS).map(|panel| gauss_legendre(at(panel), at(panel + 1), integrand)).sum()
 }
 
-impl Table {
-    /// Of n, given 2n.
-    fn new(twice: i32) -> Self {
-        let node = |i: usize| {
-            let u = DEEPEST + i as f64 * STEP;
-            let whole = scaled(twice, u);
-            (whole.ln() - 0.5 * (u * u + TAU.ln()), -0.5 * f64::from(twice) * scaled(twice - 2, u) / whole * STEP)
-        };
-        Self { nodes: (0..=((LAST - DEEPEST) / STEP) as usize).map(node).collect() }
-    }
-
-    /// ln Fₙ and its slope. Beyond the last node it falls as steeply as there: to nothing.
-    fn at(&self, u: f64) -> (f64, f64) {
-        let place = (u - DEEPEST) / STEP;
-        let left = (place.max(0.0) as usize).min(self.nodes.len() - 2);
-        let ((a, start), (b, end)) = (self.nodes[left], self.nodes[left + 1]);
-        if u > LAST {
-            return (b + end * (u - LAST) / STEP, end / STEP);
-        }
-        let (t, rise) = (place - left as f64, b - a);
-        let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
-        (a + t * (start + t * (square + t * cube)), (start + t * (2.0 * square + 3.0 * t * cube)) / STEP)
-    }
+/// The nodes of n, given 2n.
+fn nodes(twice: i32) -> Vec<(f64, f64)> {
+    let node = |i: usize| {
+        let u = DEEPEST + i as f64 * STEP;
+        let whole = scaled(twice, u);
+        (whole.ln() - 0.5 * (u * u + TAU.ln()), -0.5 * f64::from(twice) * scaled(twice - 2, u) / whole * STEP)
+    };
+    (0..=((LAST - DEEPEST) / STEP) as usize).map(node).collect()
 }
