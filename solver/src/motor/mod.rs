@@ -95,21 +95,13 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search {
-        motor,
-        warm_rounds: WARM_ROUNDS,
-        predicting: true,
-        marching: false,
-        observer,
-        cancel,
-        stats: &mut stats,
-    };
-    let found = climb(&mut search, plan, last.as_ref(), cancel)?;
+    let mut solver = MotorSolver::new(motor, WARM_ROUNDS, observer, cancel, &mut stats);
+    let found = climb(&mut solver, plan, last.as_ref(), cancel)?;
     if let Status::NotConverged { .. } = found.status {
         // A cycle may repeat on grids of half the spacing although it does not on those of the plan.
         let refined = (plan.most_grids > plan.grids.len()).then(|| plan.finer());
         for plan in [Some(plan), refined.as_ref()].into_iter().flatten() {
-            if let Some(settled) = search.march(plan) {
+            if let Some(settled) = solver.march(plan) {
                 return Ok(finish(motor, plan, &settled, stats));
             }
         }
@@ -132,18 +124,10 @@ pub fn periodic_near(
     plan: &Plan,
     cancel: &Cancel,
 ) -> Result<(Nested<Periodic>, Warm, Plan), MotorError> {
-    let mut stats = Stats::default();
+    let (mut stats, mut nobody) = (Stats::default(), ());
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search {
-        motor,
-        warm_rounds: NEAR_ROUNDS,
-        predicting: true,
-        marching: false,
-        observer: &mut (),
-        cancel,
-        stats: &mut stats,
-    };
-    let mut found = climb(&mut search, plan, last, cancel)?;
+    let mut solver = MotorSolver::new(motor, NEAR_ROUNDS, &mut nobody, cancel, &mut stats);
+    let mut found = climb(&mut solver, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));
     Ok((nested, Warm { found: Some(found) }, pinned))
@@ -163,16 +147,9 @@ pub fn touching(
     for heavier in HEAVIER {
         let plan = if heavier > 1.0 { &unrefined } else { plan };
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
-        let mut search = Search {
-            motor: &motor,
-            warm_rounds: WARM_ROUNDS,
-            predicting: false,
-            marching: false,
-            observer: &mut *observer,
-            cancel,
-            stats: &mut *stats,
-        };
-        let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
+        let mut solver = MotorSolver::new(&motor, WARM_ROUNDS, observer, cancel, stats);
+        solver.predicting = false;
+        let found = climb_once(&mut solver, plan, last.as_ref(), cancel).ok()?;
         let floats = |level: &MotorLevel| level.alpha() > NEARLY_FLOATS;
         if found.status != Status::Converged || found.levels.last().is_some_and(floats) {
             return None;
@@ -183,7 +160,7 @@ pub fn touching(
 }
 
 /// One solve of a motor by a plan.
-struct Search<'a> {
+struct MotorSolver<'a> {
     motor: &'a Motor,
     /// Most rounds of a solve that starts from another motor's state.
     warm_rounds: usize,
@@ -197,7 +174,17 @@ struct Search<'a> {
     stats: &'a mut Stats,
 }
 
-impl Search<'_> {
+impl<'a> MotorSolver<'a> {
+    fn new(
+        motor: &'a Motor,
+        warm_rounds: usize,
+        observer: &'a mut dyn Observer,
+        cancel: &'a Cancel,
+        stats: &'a mut Stats,
+    ) -> Self {
+        Self { motor, warm_rounds, predicting: true, marching: false, observer, cancel, stats }
+    }
+
     /// The state to which marching every tooth, cycle after cycle, converges on the grids of `plan`; `None` if it does not converge, or if
     /// work or memory exceed what a solve may take.
     fn march(&mut self, plan: &Plan) -> Option<SolvedGrids<MotorLevel>> {
@@ -208,13 +195,13 @@ impl Search<'_> {
             return None;
         }
         let (observer, stats) = (&mut *self.observer, &mut *self.stats);
-        let mut marching = Search { marching: true, observer, stats, ..*self };
+        let mut marching = MotorSolver { marching: true, observer, stats, ..*self };
         let found = climb_once(&mut marching, &plan, None, self.cancel).ok()?;
         (found.status == Status::Converged).then_some(found)
     }
 }
 
-impl GridSolver for Search<'_> {
+impl GridSolver for MotorSolver<'_> {
     type Level = MotorLevel;
     type Error = MotorError;
     const WIDTH_AIM: f64 = 0.3;
@@ -323,7 +310,7 @@ impl<'a> MotorTransient<'a> {
         let marched = march_cycle(
             &mut self.levels,
             stats,
-            |level, stats, told| level.transient_cycle(tolerance, stats, cancel, told),
+            |level, stats, record| level.transient_cycle(tolerance, stats, cancel, record),
             |level| level.line_loads(motor),
             |level, coarser| level.recording(motor, plan, coarser),
         );

@@ -13,7 +13,7 @@
 use super::level::PlateLevel;
 use super::result::{add_errors, first_harmonic, numbers};
 use super::slow::slow_motion;
-use super::{Periodic, Search, finish, stated, turned};
+use super::{Periodic, PlateSolver, finish, stated, turned};
 use crate::control::{Cancel, Observer};
 use crate::digits::brief;
 use crate::estimate::Estimate;
@@ -211,8 +211,9 @@ impl GapSearch<'_> {
         let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;
         let plate = &turned(plate, plan);
         let warm = self.warm.take().filter(|warm| warm.spectral == plan.spectral && !plan.turned);
-        let mut search = Search { plate, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
-        let found = climb(&mut search, plan, warm.as_ref(), self.cancel)?;
+        let mut solver =
+            PlateSolver { plate, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
+        let found = climb(&mut solver, plan, warm.as_ref(), self.cancel)?;
         if found.status == Status::Cancelled {
             return Err(Interrupted::Cancelled.into());
         }

@@ -41,7 +41,7 @@ pub fn periodic(
 ) -> Result<Periodic, Interrupted> {
     let plate = &turned(plate, plan);
     let mut stats = Stats::default();
-    let found = climb(&mut Search { plate, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
+    let found = climb(&mut PlateSolver { plate, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
     Ok(finish(plate, plan, &found, stats))
 }
 
@@ -52,7 +52,8 @@ pub fn periodic(
 pub fn periodic_near(plate: &Plate, plan: &Plan, cancel: &Cancel) -> Result<(Nested<Periodic>, Plan), Interrupted> {
     let plate = &turned(plate, plan);
     let mut stats = Stats::default();
-    let mut found = climb(&mut Search { plate, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
+    let mut found =
+        climb(&mut PlateSolver { plate, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
     let pinned = found.pinned(plan);
     Ok((found.nested(|found| finish(plate, &pinned, found, stats)), pinned))
 }
@@ -130,14 +131,14 @@ fn stated(plate: &Plate, plan: &Plan, found: &SolvedGrids<PlateLevel>) -> Estima
 }
 
 /// One solve of a plate by a plan.
-struct Search<'a> {
+struct PlateSolver<'a> {
     plate: &'a Plate,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
     stats: &'a mut Stats,
 }
 
-impl GridSolver for Search<'_> {
+impl GridSolver for PlateSolver<'_> {
     type Level = PlateLevel;
     type Error = Interrupted;
     /// Small, so that spring and damping are as accurate as the mean.
