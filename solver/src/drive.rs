@@ -61,14 +61,14 @@ const VARIES: f64 = 0.05;
 /// Distribution of the contact load over the wave, on one grid.
 #[derive(Clone, Debug, Default)]
 pub struct Drive {
-    frames: Frames,
+    frames: ContactIntegrals,
     /// The integrals over every other frame, if c is to be extrapolated from both.
-    coarse: Option<Frames>,
+    coarse: Option<ContactIntegrals>,
 }
 
 /// Integrals of the contact load up to any phase, over the frames of a cycle or some of them.
 #[derive(Clone, Debug, Default)]
-struct Frames {
+struct ContactIntegrals {
     lines: Vec<Line>,
     /// Cycle mean of the contact load on one wavelength \[N\].
     load: f64,
@@ -113,7 +113,7 @@ struct Marks {
     efficiency: (f64, f64),
 }
 
-impl Frames {
+impl ContactIntegrals {
     /// The integrals over every `every`-th frame of a cycle.
     fn new(cycle: &LineLoads, every: usize) -> Self {
         let (nodes, frames) = (cycle.x.len(), cycle.frames / every);
@@ -152,13 +152,13 @@ impl Frames {
 impl Drive {
     /// The distribution for the contact of one cycle.
     pub fn new(cycle: &LineLoads) -> Self {
-        let coarse = cycle.frames.is_multiple_of(2).then(|| Frames::new(cycle, 2));
+        let coarse = cycle.frames.is_multiple_of(2).then(|| ContactIntegrals::new(cycle, 2));
         Self { coarse, ..Self::as_solved(cycle) }
     }
 
     /// The same without the extrapolation from every other frame.
     fn as_solved(cycle: &LineLoads) -> Self {
-        Self { frames: Frames::new(cycle, 1), coarse: None }
+        Self { frames: ContactIntegrals::new(cycle, 1), coarse: None }
     }
 
     /// Cycle mean of the contact load on one wavelength \[N\].
@@ -171,7 +171,7 @@ impl Drive {
     pub fn at(&self, v: f64) -> (f64, f64) {
         let cos = v.clamp(-1.0, 1.0);
         let (half, sin) = (cos.acos() / TAU, (1.0 - cos * cos).sqrt());
-        let at = |frames: &Frames| frames.at(half, (sin, cos));
+        let at = |frames: &ContactIntegrals| frames.at(half, (sin, cos));
         let Some((s0, s1)) = at(&self.frames) else { return (0.0, 0.0) };
         let Some((coarse_0, coarse_1)) = self.coarse.as_ref().and_then(at) else { return (s0, s1) };
         // Second order: a third of the difference is still missing. The limits are that all of the contact pulls one way, and that friction

@@ -90,7 +90,7 @@ fn even_step(done: &mut f64, duration: f64, most: f64) -> f64 {
     left / count
 }
 
-/// A plate held above its stator.
+/// A plate held above a flat face.
 #[derive(Clone, Debug)]
 pub struct Hold {
     plate: Plate,

@@ -134,33 +134,33 @@ pub fn startup(
     let cancel = &cancel.started();
     let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
     let mut plan = plan(problem, settings, known, cancel)?;
-    let mut way = Way::new(problem, settings, periodic.as_ref(), each);
-    let mut stopped = match way.march(&plan, None, cancel) {
+    let mut run = Run::new(problem, settings, periodic.as_ref(), each);
+    let mut stopped = match run.march(&plan, None, cancel) {
         // A polynomial across may oscillate to negative pressure; finite volumes cannot.
         Err(SolveError::Motor(_) | SolveError::Plate(_)) if plan.spectral => {
             plan = plan.volumes();
-            way.march(&plan, None, cancel)
+            run.march(&plan, None, cancel)
         }
         marched => marched,
     }?;
     while !stopped && !cancel.is_spent() {
-        let allowed = plan.accuracy * way.unit;
-        let Some(cycles) = way.unresolved(allowed) else { break };
+        let allowed = plan.accuracy * run.unit;
+        let Some(cycles) = run.unresolved(allowed) else { break };
         let Some(finer) = finer(problem, &plan, settings.kept) else { break };
         plan = finer;
-        let before = way.worst();
-        match way.march(&plan, Some(cycles), &cancel.within_budget()) {
+        let before = run.worst();
+        match run.march(&plan, Some(cycles), &cancel.within_budget()) {
             Ok(cut) => stopped = cut && cancel.is_cancelled(),
             // The result of the coarser grids remains valid.
             Err(_) => break,
         }
         // The remaining grids would not be enough.
         let left = plan.most_grids.saturating_sub(plan.grids.len());
-        if way.worst() * (way.worst() / before).powi(left as i32) > allowed {
+        if run.worst() * (run.worst() / before).powi(left as i32) > allowed {
             break;
         }
     }
-    Ok(way.end(&plan, stopped, cancel))
+    Ok(run.end(&plan, stopped, cancel))
 }
 
 /// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as accurate as
@@ -198,8 +198,8 @@ fn need(problem: &Problem, plan: &Plan, kept: usize) -> Need {
     }
 }
 
-/// A start-up on its way.
-struct Way<'a> {
+/// A start-up that is being marched.
+struct Run<'a> {
     problem: &'a Problem,
     settings: &'a Settings,
     each: &'a mut dyn FnMut(Cycle),
@@ -215,7 +215,7 @@ struct Way<'a> {
     unsettled: Option<(f64, f64)>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> Run<'a> {
     fn new(
         problem: &'a Problem,
         settings: &'a Settings,

@@ -147,13 +147,13 @@ impl PlateLevel {
         }
     }
 
-    /// Marches one cycle without acceleration; `told` receives it, its first frame being the present state. Returns the largest change of
+    /// Marches one cycle without acceleration; `record` receives it, its first frame being the present state. Returns the largest change of
     /// ln Z.
     pub(super) fn transient_cycle(
         &mut self,
         stats: &mut Stats,
         cancel: &Cancel,
-        told: &mut dyn FnMut(&Self),
+        record: &mut dyn FnMut(&Self),
     ) -> Result<f64, Interrupted> {
         let before = self.state.clone();
         for step in 1..self.steps() {
@@ -162,7 +162,7 @@ impl PlateLevel {
             }
             self.advance(self.dt[step], step, step, stats)?;
         }
-        told(self);
+        record(self);
         self.advance(self.dt[0], self.steps(), 0, stats)?;
         self.cycle.remember(true);
         Ok(self.state.change_since(&before))

@@ -53,7 +53,7 @@ pub(super) fn slow_motion(plate: &Plate, load: f64, floating: &Floating) -> Opti
     others.push(SlowFilm { trapped: film.trapped * (1.0 + film.doubt), ..film });
     others.push(SlowFilm { time: film.time * (1.0 + film.doubt), ..film });
     let known = others.len() == 4;
-    let told = |number: &dyn Fn(&SlowFilm) -> Option<f64>| {
+    let estimate = |number: &dyn Fn(&SlowFilm) -> Option<f64>| {
         let value = number(&film)?;
         let off = |other: &SlowFilm| number(other).map_or(f64::INFINITY, |other| (other - value).abs());
         let error = if known { others.iter().map(off).sum() } else { f64::INFINITY };
@@ -62,14 +62,14 @@ pub(super) fn slow_motion(plate: &Plate, load: f64, floating: &Floating) -> Opti
     let (creep, swing) = film.roots();
     let near = |root: Option<Complex<f64>>| move |film: &SlowFilm| film.newton(root?);
     let (creep, swing) = (near(creep), near(swing));
-    let damping = told(&|film| Some(film.damping()))?;
+    let damping = estimate(&|film| Some(film.damping()))?;
     let ratio = |film: &SlowFilm| film.damping() / (2.0 * (film.stiffness * mass).sqrt());
     Some(SlowMotion {
         damping,
-        damping_ratio: told(&|film| Some(ratio(film)))?,
-        creep_time: told(&|film| Some(-1.0 / creep(film)?.re)),
-        swing_frequency: told(&|film| Some(swing(film)?.im / TAU)),
-        swing_decay: told(&|film| Some(-1.0 / swing(film)?.re)),
+        damping_ratio: estimate(&|film| Some(ratio(film)))?,
+        creep_time: estimate(&|film| Some(-1.0 / creep(film)?.re)),
+        swing_frequency: estimate(&|film| Some(swing(film)?.im / TAU)),
+        swing_decay: estimate(&|film| Some(-1.0 / swing(film)?.re)),
     })
 }
 

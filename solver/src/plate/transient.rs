@@ -44,7 +44,7 @@ impl PlateTransient {
         let marched = march_cycle(
             &mut self.levels,
             stats,
-            |level, stats, told| level.transient_cycle(stats, cancel, told),
+            |level, stats, record| level.transient_cycle(stats, cancel, record),
             |level| level.fields(plate, false).0,
             |level, coarser| level.recording(plate, plan, coarser),
         );

@@ -66,11 +66,11 @@ const UNEVEN: f64 = 0.02;
 pub fn begins_as_heights(text: &str) -> bool {
     let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).filter(|line| !line.is_empty());
     let key = |line: &str| line.strip_prefix('#').and_then(|line| Some(line.split_once('=')?.0.trim().to_owned()));
-    let told =
+    let unit =
         |line: &str| key(line).is_some_and(|key| key == "height" || key.starts_with("dx_") || key.starts_with("dy_"));
     let head = lines.by_ref().take_while(|line| line.starts_with('#') || line.starts_with("x_"));
     head.into_iter()
-        .any(|line| told(line) || line.starts_with("x_") && cells(line).nth(1).is_some_and(|z| z.starts_with("z_")))
+        .any(|line| unit(line) || line.starts_with("x_") && cells(line).nth(1).is_some_and(|z| z.starts_with("z_")))
 }
 
 /// Metres in a unit.

@@ -53,7 +53,7 @@ impl MotorLevel {
         Ok(())
     }
 
-    /// Marches one cycle from the present instant, t = 0 of the cycle, with each step solved to `tolerance` in ln ζ. `told` receives the
+    /// Marches one cycle from the present instant, t = 0 of the cycle, with each step solved to `tolerance` in ln ζ. `record` receives the
     /// cycle, whose first frame is the present state. Returns the largest change of ln Z over the cycle. The level's residual is then the
     /// largest residual of a step.
     pub(in crate::motor) fn transient_cycle(
@@ -61,7 +61,7 @@ impl MotorLevel {
         tolerance: f64,
         stats: &mut Stats,
         cancel: &Cancel,
-        told: &mut dyn FnMut(&Self),
+        record: &mut dyn FnMut(&Self),
     ) -> Result<f64, Stop> {
         let exact = step_tolerance(tolerance / self.stiffness);
         self.films.iter_mut().for_each(|film| film.set_tolerance(exact));
@@ -75,7 +75,7 @@ impl MotorLevel {
             self.transient_step(step, tolerance, stats)?;
             worst = worst.max(self.residual);
         }
-        told(self);
+        record(self);
         self.transient_step(0, tolerance, stats)?;
         self.residual = worst.max(self.residual);
         self.films.iter_mut().for_each(|film| film.remember(true));
