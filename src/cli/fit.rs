@@ -127,9 +127,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         folder.iter().try_for_each(|folder| spare_inputs(folder, &["fitted.toml"]))?;
         let goal = Goal::new(&scene, name, greatest, &arguments.subject_to)?;
         let (found, wall_s) = Bar::solve("").timed(|bar| {
-            let told =
+            let report =
                 |points: usize, best: f64| bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
-            optimise(&scene, &arguments.vary, &goal, &settings, (starts, &cancel, &told as _))
+            optimise(&scene, &arguments.vary, &goal, &settings, (starts, &cancel, &report as _))
         });
         let Some(found) = found? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&found.scene)?;
@@ -149,10 +149,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         folder.iter().try_for_each(|folder| spare_inputs(folder, &["fit.csv", "fitted.toml"]))?;
         let measured = measured.without(&arguments.skip)?.with_errors(&arguments.error)?;
         let (fitted, wall_s) = Bar::solve("").timed(|bar| {
-            let told = |points: usize, chi_squared: f64| {
+            let report = |points: usize, chi_squared: f64| {
                 bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
             };
-            fit(&scene, &arguments.vary, &measured, &settings, (starts, &cancel, &told as _))
+            fit(&scene, &arguments.vary, &measured, &settings, (starts, &cancel, &report as _))
         });
         let Some(fitted) = fitted? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&fitted.scene)?;
@@ -175,12 +175,8 @@ fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
     parameter.with_unit(format!("{} … {}", short(from, 5), short(to, 5)))
 }
 
-fn at_bound(at: Option<Bound>) -> &'static str {
-    match at {
-        Some(Bound::Lower) => "AT ITS LOWER BOUND",
-        Some(Bound::Upper) => "AT ITS UPPER BOUND",
-        None => "",
-    }
+fn at_bound(at: Option<Bound>) -> String {
+    at.map_or_else(String::new, |bound| format!("AT ITS {} BOUND", bound.name().to_uppercase()))
 }
 
 /// A fit for people.
@@ -195,7 +191,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             found.in_words(),
             short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
-            at_bound(found.at).to_owned(),
+            at_bound(found.at),
         ]);
     }
     text.push_str(&columns.text(&[2]));
@@ -296,7 +292,7 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
             parameter.with_unit(value),
             bounds((line.unknown.from, line.unknown.to), parameter),
             flat.map_or_else(|| "–".to_owned(), |ends| parameter.with_unit(ends.join(" … "))),
-            at_bound(line.at).to_owned(),
+            at_bound(line.at),
         ]);
     }
     text.push_str(&columns.text(&[]));

@@ -70,14 +70,14 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
             pieces.push(Piece::Axes(axes.map(str::to_owned)));
         }
         if let Some(observe) = step.observe.as_ref().filter(|observe| !observe.ask.is_empty()) {
-            pieces.extend(lines(&observe.ask, &known.told).map(Piece::Text));
+            pieces.extend(lines(&observe.ask, &known.after).map(Piece::Text));
             choices(pieces, observe, answers);
         }
     }
     if answers {
         let why = step.question.iter().flat_map(|question| &question.why);
-        let told = why.chain(step.task.iter().flat_map(|task| &task.then));
-        pieces.extend(lines(told, &known.told).map(Piece::Answer));
+        let explanation = why.chain(step.task.iter().flat_map(|task| &task.then));
+        pieces.extend(lines(explanation, &known.after).map(Piece::Answer));
     }
 }
 

@@ -36,16 +36,6 @@ pub enum Finding {
     Advice(String),
 }
 
-impl Finding {
-    fn error(words: &str) -> Self {
-        Self::Error(words.to_owned())
-    }
-
-    fn advice(words: &str) -> Self {
-        Self::Advice(words.to_owned())
-    }
-}
-
 /// Tries every task of a lesson, until it is cancelled, and returns what is wrong, with the step. `each` is called with a step before it is tried.
 pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(&Step), cancel: &Cancel) -> Vec<(usize, Finding)> {
     let mut findings = Vec::new();
@@ -67,7 +57,7 @@ pub struct Quoted {
     /// Numbers of the run that the step begins with, in the texts above the task.
     pub before: BTreeMap<String, f64>,
     /// Numbers of the run that fulfils the task, in the texts that are shown then.
-    pub told: BTreeMap<String, f64>,
+    pub after: BTreeMap<String, f64>,
 }
 
 /// The numbers that the texts of a step quote, if its task is done as `try` says.
@@ -81,7 +71,7 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     let start = TrialRun::of(step, &step.scene, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
     known.before = above(step).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
-    known.told = match &step.task {
+    known.after = match &step.task {
         Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, cancel)?.known,
         _ => readings(step.after_task()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
     };
@@ -107,8 +97,8 @@ fn replies(step: &Step) -> Vec<Finding> {
     for (asked, of) in [(step.question.as_ref(), ""), (observe, " of observe")] {
         let Some(Answer::Choice { choices, right }) = asked.map(|question| &question.answer) else { continue };
         let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
-        let told = |i: usize| Finding::Advice(format!("choice {}{of} is wrong and has no reply", i + 1));
-        findings.extend(silent.map(|(i, _)| told(i)));
+        let advice = |i: usize| Finding::Advice(format!("choice {}{of} is wrong and has no reply", i + 1));
+        findings.extend(silent.map(|(i, _)| advice(i)));
     }
     findings
 }
@@ -168,26 +158,28 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Finding>, S
     let mut findings = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
-        findings.push(Finding::error("the check holds from the start: there is nothing to do"));
+        findings.push(Finding::Error("the check holds from the start: there is nothing to do".to_owned()));
     }
     if task.example.is_empty() {
-        findings.push(Finding::advice("no try: the task cannot be shown to a student, and its check is not tested"));
+        findings.push(Finding::Advice(
+            "no try: the task cannot be shown to a student, and its check is not tested".to_owned(),
+        ));
     } else {
         let done = act(step, task, &task.example, &start, cancel)?;
         match done.unmet {
             Some(unmet) => findings.push(Finding::Error(format!("try does not fulfil the check: {unmet}"))),
-            None if done.too_far => findings.push(Finding::error("try goes too far: too_far holds")),
+            None if done.too_far => findings.push(Finding::Error("try goes too far: too_far holds".to_owned())),
             None => {
                 let unknown = readings(step.after_task()).filter(|reading| !done.known.contains_key(&reading.source));
-                let told = |of: &Reading| format!("{{{}}} is not known in the run that fulfils the task", of.source);
-                findings.extend(unknown.map(told).map(Finding::Error));
+                let words = |of: &Reading| format!("{{{}}} is not known in the run that fulfils the task", of.source);
+                findings.extend(unknown.map(words).map(Finding::Error));
             }
         }
     }
     if task.wrong.is_empty() {
-        findings.push(Finding::advice("no wrong: it is not tested whether the check can fail"));
+        findings.push(Finding::Advice("no wrong: it is not tested whether the check can fail".to_owned()));
     } else if act(step, task, &task.wrong, &start, cancel)?.unmet.is_none() {
-        findings.push(Finding::error("wrong fulfils the check"));
+        findings.push(Finding::Error("wrong fulfils the check".to_owned()));
     }
     Ok(findings)
 }
