@@ -163,8 +163,8 @@ pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
     let row = |parameter: &'static Parameter| {
         let values: Vec<_> = scenes.iter().map(|scene| scene.get(parameter.key)).collect();
         let has = scenes.iter().map(|scene| scene.has(parameter)).collect();
-        let told = !matches!(parameter.key, "name" | "about") && values.iter().any(Option::is_some);
-        told.then_some(ParameterRow { parameter, values, has })
+        let listed = !matches!(parameter.key, "name" | "about") && values.iter().any(Option::is_some);
+        listed.then_some(ParameterRow { parameter, values, has })
     };
     PARAMETERS.iter().filter_map(row).collect()
 }

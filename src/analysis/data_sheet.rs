@@ -43,8 +43,8 @@ pub fn agreeing(answers: &Answers, cancel: &Cancel) -> Result<NewMotor, String> 
     }
     // If the time limit was reached, this is not known.
     let has = solved(&least.scene, cancel).map_or_else(String::new, |numbers| {
-        let known = |quantity| numbers.estimate(quantity).filter(|found| found.error < found.value);
-        match [Quantity::StallTorque, Quantity::NoLoadSpeed].map(known) {
+        let resolved = |quantity| numbers.estimate(quantity).filter(|found| found.error < found.value);
+        match [Quantity::StallTorque, Quantity::NoLoadSpeed].map(resolved) {
             _ if numbers.get(Quantity::NoLoadSpeed).is_none() => ": solved, this one is not driven".to_owned(),
             [Some(torque), Some(speed)] => {
                 let [torque, speed] = [torque, speed].map(|found| significant(found.value, 3));

@@ -11,10 +11,10 @@ pub enum AnalysisError {
     #[error("{0}")]
     Input(String),
     /// Invalid fields of the form of a sweep.
-    #[error("{told}")]
+    #[error("{message}")]
     Field {
         /// Message for the command line, as [`Self::Input`].
-        told: String,
+        message: String,
         /// Message without key or option, for display beside the fields.
         in_place: String,
     },

@@ -120,7 +120,7 @@ impl Sweep {
             if axes[..i].iter().any(|other| other.parameter.key == axis.parameter.key) {
                 let key = axis.parameter.key;
                 return Err(AnalysisError::Field {
-                    told: format!("vary {key}: given twice: the keys have to differ"),
+                    message: format!("vary {key}: given twice: the keys have to differ"),
                     in_place: "Both axes vary the same parameter: choose another".to_owned(),
                 });
             }
@@ -129,8 +129,8 @@ impl Sweep {
         if found > MOST_POINTS {
             let parts = if part.of() == 1 { String::new() } else { format!(" in one of {} parts", part.of()) };
             let in_place = format!("{found} points{parts}: allowed up to {MOST_POINTS}");
-            let told = format!("vary: {in_place}, or as many in each part of sweep --part");
-            return Err(AnalysisError::Field { told, in_place });
+            let message = format!("vary: {in_place}, or as many in each part of sweep --part");
+            return Err(AnalysisError::Field { message, in_place });
         }
         let at = |point: usize| solvable(scene, &axes, &values_at(&axes, point), settings);
         // If the sweep is larger, a sample of points is checked, which is the same for every part.

@@ -65,8 +65,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Err(ExportError::Cancelled.into());
     }
     runs.iter().for_each(|run| terminal::warnings(&run.label, &run.solved));
-    let told = || json::document(&object(&runs, &settings), command);
-    terminal::result(arguments.common.output.json, told, || {
+    let document = || json::document(&object(&runs, &settings), command);
+    terminal::result(arguments.common.output.json, document, || {
         text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
     });
     terminal::note(&format!("{} in {}", counted(runs.len(), "preset", "presets"), duration(wall_s)));

@@ -30,24 +30,24 @@ pub(super) fn run(
     cancel: &Cancel,
     command: &[String],
 ) -> Result<Option<Exit>, CliError> {
-    let mut seen: Vec<Cycle> = Vec::new();
+    let mut marched: Vec<Cycle> = Vec::new();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let (share, height) = (cycle.number as f64 / cycles as f64, significant(cycle.height.value * 1e6, 4));
             bar.share_done(share, &format!("cycle {}: {height} µm", cycle.number));
-            seen.push(cycle);
+            marched.push(cycle);
         };
         fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
     });
     let Some(ended) = ended? else { return Ok(None) };
-    let (floats, validity) = (floats(&ended), validity(problem, &ended, &seen));
-    let object = object(problem, fidelity, &ended, &seen, wall_s);
+    let (floats, validity) = (floats(&ended), validity(problem, &ended, &marched));
+    let object = object(problem, fidelity, &ended, &marched, wall_s);
     ended.floats.as_ref().err().iter().for_each(|warning| terminal::warning(warning));
-    let human = text(scene, &seen, &ended, (cycles, tolerance), floats, &validity);
+    let human = text(scene, &marched, &ended, (cycles, tolerance), floats, &validity);
     terminal::result(json, || json::document(&object, command), || human);
     terminal::note(&format!("{} in {}", counted(ended.cycles, "cycle", "cycles"), duration(wall_s)));
     if let Some(folder) = folder {
-        let paths = files::fall(folder, (scene, problem), fidelity, (&ended, &seen), wall_s)?;
+        let paths = files::fall(folder, (scene, problem), fidelity, (&ended, &marched), wall_s)?;
         terminal::wrote(folder.path, &paths);
     }
     Ok(Some(Exit::of(&ended.status)))
@@ -62,23 +62,23 @@ fn text(
     validity: &[ExceededLimit],
 ) -> String {
     let rests = cycles.last().is_some_and(|cycle| cycle.rests);
-    let told = counted(ended.cycles, "cycle", "cycles");
+    let after = counted(ended.cycles, "cycle", "cycles");
     let how = match ended.status {
-        Status::Converged if rests => format!("it rests after {told}"),
+        Status::Converged if rests => format!("it rests after {after}"),
         Status::Converged => {
             let near = percent(tolerance);
-            format!("it floats, within {near} of the height at which it settles, after {told}")
+            format!("it floats, within {near} of the height at which it settles, after {after}")
         }
         Status::NotResolved { .. } => {
             format!(
-                "NOT RESOLVED after {told}: the plate bounces, and the errors of steps and grids have grown to half of its height"
+                "NOT RESOLVED after {after}: the plate bounces, and the errors of steps and grids have grown to half of its height"
             )
         }
         Status::NotConverged { .. } if ended.cycles < most => {
-            format!("STILL MOVING after {told}, when the time allowed was up")
+            format!("STILL MOVING after {after}, when the time allowed was up")
         }
-        Status::NotConverged { .. } => format!("STILL MOVING after {told}; --cycles allows more"),
-        Status::Cancelled => format!("CANCELLED after {told}"),
+        Status::NotConverged { .. } => format!("STILL MOVING after {after}; --cycles allows more"),
+        Status::Cancelled => format!("CANCELLED after {after}"),
     };
     let beside = beside_headline(validity).map(|words| format!("; {words}")).unwrap_or_default();
     let mut text = heading(&format!("{}, dropped on its vibration: {how}{beside}", show_text(&scene.name)));
@@ -97,8 +97,8 @@ fn text(
     }
     text.push_str(&columns.text(&[0, 1, 2, 3]));
     if let Some(gap) = floats {
-        let told = format!("The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm.");
-        text.push_str(&paragraph(&told, "\n", ""));
+        let words = format!("The periodic solve, in which the plate does not shake, gives a mean gap of {gap} µm.");
+        text.push_str(&paragraph(&words, "\n", ""));
     }
     if let Some(words) = struck(cycles) {
         text.push_str(&paragraph(&format!("{words}."), "\n", ""));

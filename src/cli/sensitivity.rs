@@ -99,14 +99,14 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let started = Instant::now();
     let bar = Bar::solve("");
     let count = AtomicUsize::new(0);
-    let told = |all: usize, what: &str| {
+    let solved = |all: usize, what: &str| {
         let done = count.fetch_add(1, Ordering::Relaxed) + 1;
         bar.share_done(done as f64 / all.max(1) as f64, what);
     };
-    let sensitivity = Sensitivity::of(&scene, &keys, &settings, &cancel, &|all| told(all, "derivatives"))?;
+    let sensitivity = Sensitivity::of(&scene, &keys, &settings, &cancel, &|all| solved(all, "derivatives"))?;
     count.store(0, Ordering::Relaxed);
     let carlo = sensitivity.as_ref().filter(|_| draws > 0).and_then(|sensitivity| {
-        sensitivity.monte_carlo(&uncertainties, draws, arguments.seed, &cancel, &|| told(draws, "random scenes"))
+        sensitivity.monte_carlo(&uncertainties, draws, arguments.seed, &cancel, &|| solved(draws, "random scenes"))
     });
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
@@ -199,8 +199,8 @@ fn text(found: &SensitivityStudy<'_>) -> String {
     text.push_str(&columns.text(&right));
     for column in sensitivity.columns.iter().filter(|column| column.parameter.unit == "°C") {
         let absolute = column.scale().map_or_else(String::new, |kelvins| significant(kelvins, 5));
-        let told = format!("1 % of {} is 1 % of its {absolute} K above absolute zero.", column.parameter.key);
-        text.push_str(&paragraph(&told, "\n", ""));
+        let words = format!("1 % of {} is 1 % of its {absolute} K above absolute zero.", column.parameter.key);
+        text.push_str(&paragraph(&words, "\n", ""));
     }
     let unknown =
         sensitivity.columns.iter().filter_map(|column| Some((column.parameter.key, column.slopes.as_ref().err()?)));
@@ -295,9 +295,9 @@ fn uncertain(found: &SensitivityStudy<'_>) -> String {
     } else {
         ""
     };
-    let told = format!(
+    let words = format!(
         "the mean of the random scenes is not the value, because the results do not change in proportion to the parameters{again}. Here the range is more informative than the standard deviation."
     );
-    remark(&bent, &told);
+    remark(&bent, &words);
     text
 }

@@ -71,8 +71,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let unmapped: Vec<(&Map, String)> = faults.collect();
     maps.retain(|map| unmapped.iter().all(|(other, _)| other.name != map.name));
     if maps.is_empty() {
-        let told: Vec<String> = unmapped.iter().map(no_map).collect();
-        return Err(CliError::usage(&told.join("\n")));
+        let reasons: Vec<String> = unmapped.iter().map(no_map).collect();
+        return Err(CliError::usage(&reasons.join("\n")));
     }
     let (folder, settings, cancel) = arguments.common.begin(command)?;
     let methods =
@@ -100,8 +100,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let complete = cells.len() == total;
     if complete {
-        let told = || json::document(&object(&scene.name, settings.fidelity, &cells, &unmapped), command);
-        terminal::result(arguments.common.output.json, told, || human);
+        let document = || json::document(&object(&scene.name, settings.fidelity, &cells, &unmapped), command);
+        terminal::result(arguments.common.output.json, document, || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));

@@ -82,23 +82,23 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (cycles, tolerance) = (cycles(usual.cycles), arguments.tolerance);
     let settings = startup::Settings { fidelity: chosen.fidelity, cycles, tolerance, ..usual };
 
-    let mut seen: Vec<Cycle> = Vec::new();
+    let mut marched: Vec<Cycle> = Vec::new();
     let (ended, wall_s) = Bar::solve("").timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = CycleRow::of(&problem, &cycle);
             let main = significant(row.numbers.main().value, 4);
-            if row.cycle > seen.len() {
+            if row.cycle > marched.len() {
                 bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
             } else {
                 bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
             }
-            place(&mut seen, cycle.number, cycle.slim());
+            place(&mut marched, cycle.number, cycle.slim());
         };
         startup::startup(&problem, &settings, &mut each, &cancel)
     });
     let ended = ended?;
     arguments.common.solve.tell_if_late("the start-up", wall_s);
-    let rows: Vec<CycleRow> = seen.iter().map(|cycle| CycleRow::of(&problem, cycle)).collect();
+    let rows: Vec<CycleRow> = marched.iter().map(|cycle| CycleRow::of(&problem, cycle)).collect();
     let steady = steady(&problem, &ended);
     let validity = validity(&problem, &ended);
     let object = object(&problem, &settings, &ended, &rows, wall_s);
@@ -108,7 +108,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let cycles = counted(ended.cycles, "cycle", "cycles");
     terminal::note(&format!("{cycles}, {} film steps in {}", ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = &folder {
-        let paths = files::startup(folder, (&scene, &problem), &settings, (&ended, &seen), wall_s)?;
+        let paths = files::startup(folder, (&scene, &problem), &settings, (&ended, &marched), wall_s)?;
         terminal::wrote(folder.path, &paths);
     }
     Ok(Exit::of(&ended.status))
@@ -164,12 +164,12 @@ fn text(
     }
     text.push_str(&columns.text(&[0, 1, 2, 3, 4, 5, 6]));
     if let Some(found) = steady {
-        let mut told = format!("The periodic solve, without marching, gives {main} = {found}.");
+        let mut words = format!("The periodic solve, without marching, gives {main} = {found}.");
         let off = |last: Estimate| (last.value - found.value).abs() > last.error + found.error;
         if rows.last().is_some_and(|row| off(row.numbers.main())) {
-            told.push_str(" The ± of the last cycle does not include the change still to come.");
+            words.push_str(" The ± of the last cycle does not include the change still to come.");
         }
-        text.push_str(&paragraph(&told, "\n", ""));
+        text.push_str(&paragraph(&words, "\n", ""));
     }
     if ended.accuracy.stated.is_finite() {
         text.push_str(&paragraph(&exactness(&ended.accuracy), "", ""));

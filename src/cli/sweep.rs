@@ -185,8 +185,8 @@ pub(super) fn tell(sweep: &Sweep, rows: &[SweepRow], json: bool, command: &[Stri
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
             let place = place(sweep, row);
-            let told = if reason.starts_with(&place) { reason.clone() } else { format!("{place}: {reason}") };
-            terminal::error(&told);
+            let message = if reason.starts_with(&place) { reason.clone() } else { format!("{place}: {reason}") };
+            terminal::error(&message);
         }
     }
     terminal::result(json, || json::document(&object(sweep, rows), command), || text(sweep, rows));
@@ -196,15 +196,15 @@ pub(super) fn tell(sweep: &Sweep, rows: &[SweepRow], json: bool, command: &[Stri
 /// The command line without `--part`, because results record the command for the whole sweep.
 fn of_the_whole(command: &[String]) -> Vec<String> {
     let mut words = command.iter();
-    let mut kept = Vec::new();
+    let mut whole = Vec::new();
     while let Some(word) = words.next() {
         match word.strip_prefix("--part") {
             Some("") => drop(words.next()),
             Some(rest) if rest.starts_with('=') => {}
-            _ => kept.push(word.clone()),
+            _ => whole.push(word.clone()),
         }
     }
-    kept
+    whole
 }
 
 /// Time after which the points solved so far are saved for the first time.

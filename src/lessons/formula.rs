@@ -87,7 +87,7 @@ const SPACES: &[(&str, f32)] = &[(",", 0.17), (":", 0.22), (";", 0.28), (" ", 0.
 impl Formula {
     /// Reads a formula; `source` is without its dollars.
     pub fn parse(source: &str) -> Result<Self, String> {
-        let mut reader = Reader { rest: source.chars().collect(), at: 0 };
+        let mut reader = FormulaReader { rest: source.chars().collect(), at: 0 };
         Ok(Self { nodes: reader.row(End::Text, 0)? })
     }
 
@@ -138,12 +138,12 @@ enum End {
     Right,
 }
 
-struct Reader {
+struct FormulaReader {
     rest: Vec<char>,
     at: usize,
 }
 
-impl Reader {
+impl FormulaReader {
     fn peek(&self) -> Option<char> {
         self.rest.get(self.at).copied()
     }

@@ -8,7 +8,7 @@ use super::lesson::{Lesson, WindowNames};
 use std::path::Path;
 use step::{BLOCKS, Raw};
 pub(super) use table::Beside;
-use table::{Piece, Reader};
+use table::{LessonReader, Piece};
 
 /// Reads a lesson.
 ///
@@ -21,13 +21,13 @@ pub(super) fn lesson(
     names: WindowNames<'_>,
     beside: Beside<'_>,
 ) -> Result<Lesson, Vec<LessonError>> {
-    let mut reader = Reader { origin, names, beside, faults: Vec::new(), scene: None };
+    let mut reader = LessonReader { origin, names, beside, faults: Vec::new(), scene: None };
     let lesson = reader.lesson(id, source);
     reader.faults.sort_by_key(|fault| fault.line);
     if reader.faults.is_empty() { Ok(lesson) } else { Err(reader.faults) }
 }
 
-impl Reader<'_> {
+impl LessonReader<'_> {
     /// The lesson, without the steps that have no scene; for each of them there is a fault.
     fn lesson(&mut self, id: &str, source: &str) -> Lesson {
         let mut title = String::new();

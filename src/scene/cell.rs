@@ -59,9 +59,9 @@ fn find(key: &str) -> Option<&'static Parameter> {
     }
     let parameter =
         Parameter { key: key.to_owned().leak(), belongs: array.belongs, when: array.when, ..columns[column] };
-    let kept: &'static Parameter = Box::leak(Box::new(parameter));
-    known.insert(key.to_owned(), kept);
-    Some(kept)
+    let parameter: &'static Parameter = Box::leak(Box::new(parameter));
+    known.insert(key.to_owned(), parameter);
+    Some(parameter)
 }
 
 impl Scene {

@@ -72,8 +72,8 @@ fn carry(to: &mut Table, from: &Table, homeless: &mut String) {
 /// `text` without the comments on assumptions of [`NewMotor`](super::new_motor::NewMotor) that this scene no longer makes.
 fn without_old_assumptions(text: &str, scene: &DocumentMut) -> String {
     let held = |line: &str| {
-        let told = line.strip_prefix("# Assumed: ").and_then(|told| told.split_once(" = "));
-        let Some(((table, leaf), value)) = told.and_then(|(key, value)| Some((key.split_once('.')?, value))) else {
+        let pair = line.strip_prefix("# Assumed: ").and_then(|rest| rest.split_once(" = "));
+        let Some(((table, leaf), value)) = pair.and_then(|(key, value)| Some((key.split_once('.')?, value))) else {
             return true;
         };
         let now = scene.get(table).and_then(|table| table.get(leaf)).and_then(Item::as_value);

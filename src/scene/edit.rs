@@ -163,8 +163,8 @@ impl Scene {
     /// The keys in which this scene differs from `original`, except for name and description, and for the defaults of keys that `original`
     /// does not have.
     pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
-        let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
-        told.filter(move |parameter| {
+        let compared = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
+        compared.filter(move |parameter| {
             let value = self.get(parameter.key);
             value != original.get(parameter.key) && (original.has(parameter) || value != self.default_of(parameter))
         })
@@ -210,7 +210,7 @@ impl Scene {
                 format!("{value} {}", scene.unit(parameter)).trim_end().to_owned()
             }
         };
-        let told = |parameter: &'static Parameter| {
+        let change = |parameter: &'static Parameter| {
             format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter))
         };
         let changes = self.changed(original).flat_map(|parameter| match parameter.kind {
@@ -218,12 +218,12 @@ impl Scene {
                 let cells = self.changed_cells(original, parameter);
                 let few = (1..=MOST_CELLS).contains(&cells.len());
                 if few {
-                    cells.into_iter().map(told).collect::<Vec<_>>()
+                    cells.into_iter().map(change).collect::<Vec<_>>()
                 } else {
                     vec![format!("another {}", parameter.key)]
                 }
             }
-            _ => vec![told(parameter)],
+            _ => vec![change(parameter)],
         });
         let changes = changes.collect::<Vec<_>>().join("; ");
         let title = self.title(original);
@@ -250,10 +250,10 @@ impl Scene {
                 None => Parameter::find(change.split_once(" = ")?.0),
             };
             let quantity = |parameter: &Parameter| parameter.instead_of.unwrap_or(parameter.key);
-            let kept = |change: &&str| {
+            let unvaried = |change: &&str| {
                 key(change).is_none_or(|key| !varied.iter().any(|axis| quantity(axis) == quantity(key)))
             };
-            let changes: Vec<&str> = changes.filter(kept).collect();
+            let changes: Vec<&str> = changes.filter(unvaried).collect();
             if changes.is_empty() {
                 return Some(original.to_owned());
             }

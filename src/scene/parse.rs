@@ -36,7 +36,7 @@ impl Scene {
     /// Reads a preset from text. `origin` is the path that messages name; CSV files are looked for in its folder.
     pub fn from_toml(text: &str, origin: impl AsRef<Path>) -> Result<Self, SceneError> {
         let origin = origin.as_ref();
-        let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
+        let mut reader = PresetReader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
         let scene = reader.read();
         // Without a scene there is a fault.
         reader.faults.or(scene.unwrap_or_else(Scene::motor))
@@ -69,7 +69,7 @@ pub(super) fn array_from_text(parameter: &'static Parameter, text: &str) -> Resu
     faults.or(value)
 }
 
-struct Reader<'t> {
+struct PresetReader<'t> {
     text: &'t str,
     origin: &'t Path,
     faults: SceneError,
@@ -80,7 +80,7 @@ struct Reader<'t> {
 /// A key of the file: where its name is, the dotted key, its value.
 type Entry<'a, 't> = (Bytes<usize>, String, &'a Spanned<DeValue<'t>>);
 
-impl Reader<'_> {
+impl PresetReader<'_> {
     fn read(&mut self) -> Option<Scene> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,

@@ -132,11 +132,11 @@ pub fn number(unit: &str, text: &str) -> Option<f64> {
     }
     let (units, unit) = (kind_of(unit), spelled(unit));
     let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);
-    let mut reader = Reader { rest: &text, units, own: size, another: false, with_unit: false, unit: 1.0 };
-    let found = reader.sum()?;
-    let power = i32::from(reader.with_unit);
+    let mut calculation = Calculation { rest: &text, units, own: size, another: false, with_unit: false, unit: 1.0 };
+    let found = calculation.sum()?;
+    let power = i32::from(calculation.with_unit);
     let number = if power == 1 { found.number / size } else { found.number };
-    let good = reader.rest.is_empty() && found.power == power && number.is_finite();
+    let good = calculation.rest.is_empty() && found.power == power && number.is_finite();
     // Writing the number with limited digits and reading it back rounds it.
     if good { format!("{number:.DECIMALS$e}").parse().ok() } else { None }
 }
@@ -148,7 +148,7 @@ struct Term {
     power: i32,
 }
 
-struct Reader<'t> {
+struct Calculation<'t> {
     rest: &'t str,
     units: Kind,
     /// Size of the unit of the key, and whether there was another one.
@@ -160,7 +160,7 @@ struct Reader<'t> {
     unit: f64,
 }
 
-impl Reader<'_> {
+impl Calculation<'_> {
     fn takes(&mut self, word: &str) -> bool {
         let rest = self.rest.strip_prefix(word);
         self.rest = rest.unwrap_or(self.rest);

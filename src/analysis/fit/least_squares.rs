@@ -120,7 +120,7 @@ pub struct Minimum {
 }
 
 /// The problem in the form that the library needs.
-struct Search<'a> {
+struct LeastSquares<'a> {
     model: &'a FitModel<'a>,
     measured: &'a Measured,
     /// The measurements that are used.
@@ -133,7 +133,7 @@ struct Search<'a> {
     tried: &'a Mutex<(usize, f64)>,
 }
 
-impl Search<'_> {
+impl LeastSquares<'_> {
     /// (computed − measured)/error of the measurements that are used, at `x`; NaN if nothing can be computed.
     fn residuals(&self, x: &[f64]) -> Result<Vec<f64>, Stopped> {
         let solved = self.model.at_one(x, self.cancel).ok_or(Stopped)?;
@@ -154,7 +154,7 @@ impl Search<'_> {
     }
 }
 
-impl Constraints for Search<'_> {
+impl Constraints for LeastSquares<'_> {
     type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
 
     fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
@@ -162,7 +162,7 @@ impl Constraints for Search<'_> {
     }
 }
 
-impl Residual for Search<'_> {
+impl Residual for LeastSquares<'_> {
     type Param = Vec<f64>;
     type Output = Vec<f64>;
     type Error = Stopped;
@@ -178,7 +178,7 @@ impl Residual for Search<'_> {
     }
 }
 
-impl Jacobian for Search<'_> {
+impl Jacobian for LeastSquares<'_> {
     type Jacobian = DenseMatrix;
 
     fn jacobian(&self, x: &Vec<f64>) -> Result<DenseMatrix, Stopped> {
@@ -242,7 +242,7 @@ pub fn fit(
         )));
     }
     let tried = Mutex::new((0, f64::INFINITY));
-    let search = |fixed: &[Option<Bound>]| Search {
+    let search = |fixed: &[Option<Bound>]| LeastSquares {
         model,
         measured,
         used: &used,
@@ -308,7 +308,7 @@ fn coarse(
 }
 
 /// Searches from a point for a minimum. Returns χ² there, the point, and whether it is a minimum. `None` if cancelled.
-fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, AnalysisError> {
+fn descend(search: LeastSquares<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, AnalysisError> {
     let solver = TrustRegionReflective::new()
         .with_max_inner_attempts(MOST_ATTEMPTS)
         .with_initial_radius(0.5)

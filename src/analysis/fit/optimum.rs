@@ -201,7 +201,7 @@ impl Scan {
 }
 
 /// The problem in the form that the library needs.
-struct Search<'a> {
+struct Optimisation<'a> {
     model: &'a FitModel<'a>,
     goal: &'a Goal,
     size: f64,
@@ -218,7 +218,7 @@ struct Search<'a> {
 /// The number at a point, and its limits.
 type Outcome = (f64, Vec<f64>);
 
-impl Search<'_> {
+impl Optimisation<'_> {
     fn at(&self, x: &[f64]) -> Result<Option<Outcome>, Stopped> {
         // The library may try points beyond the bounds.
         let x: Vec<f64> = x.iter().map(|x| x.clamp(0.0, 1.0)).collect();
@@ -244,7 +244,7 @@ impl Search<'_> {
     }
 }
 
-impl Constraints for Search<'_> {
+impl Constraints for Optimisation<'_> {
     type Set =
         ConstraintSet<BoxBounds<Vec<f64>>, NoLinearConstraints, NonlinearBlocks<NoNonlinearBlock, NonlinearBlock>>;
 
@@ -255,7 +255,7 @@ impl Constraints for Search<'_> {
     }
 }
 
-impl CostFunction for Search<'_> {
+impl CostFunction for Optimisation<'_> {
     type Param = Vec<f64>;
     type Output = f64;
     type Error = Stopped;
@@ -265,7 +265,7 @@ impl CostFunction for Search<'_> {
     }
 }
 
-impl NonlinearInequalityValues for Search<'_> {
+impl NonlinearInequalityValues for Optimisation<'_> {
     type Param = Vec<f64>;
     type Values = Vec<f64>;
     type Error = Stopped;
@@ -306,7 +306,7 @@ pub fn optimise(
     // The cost with the penalties for broken limits, the point, and whether the search ended by itself.
     let mut reached: Vec<([f64; 2], Vec<f64>, bool)> = Vec::new();
     for start in std::iter::once(own.clone()).chain(starts) {
-        let search = Search {
+        let search = Optimisation {
             model: &model,
             goal,
             size,

@@ -143,13 +143,13 @@ impl Axis {
                 }
                 if from == to {
                     return Err(AnalysisError::Field {
-                        told: format!("vary {key}: from {from} to {to} is no range: the ends have to differ"),
+                        message: format!("vary {key}: from {from} to {to} is no range: the ends have to differ"),
                         in_place: "Both ends are the same: they have to differ".to_owned(),
                     });
                 }
                 if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
                     return Err(AnalysisError::Field {
-                        told: format!(
+                        message: format!(
                             "vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0"
                         ),
                         in_place: "For equal ratios both ends have to be above 0".to_owned(),
@@ -194,7 +194,7 @@ fn no_range(parameter: &Parameter) -> AnalysisError {
 /// The error for a range with too few or too many values.
 fn count_fault(key: &str, found: &str) -> AnalysisError {
     AnalysisError::Field {
-        told: format!("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}"),
+        message: format!("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}"),
         in_place: format!("{found} values: allowed 2 to {MOST_VALUES}"),
     }
 }

@@ -45,7 +45,7 @@ pub struct MeasuredSetting {
     pub times: Vec<f64>,
 }
 
-/// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds since any start. `told` is called
+/// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds since any start. `finished` is called
 /// after every run with all runs so far and the share of the work that is done, 0 to 1; `Tradeoff::of` computes the curve from them. If
 /// cancelled, the runs so far are returned.
 pub fn measure(
@@ -54,7 +54,7 @@ pub fn measure(
     effort: &Effort,
     clock: &dyn Fn() -> f64,
     cancel: &Cancel,
-    told: &mut dyn FnMut(&[MeasuredSetting], f64),
+    finished: &mut dyn FnMut(&[MeasuredSetting], f64),
 ) -> Vec<MeasuredSetting> {
     let count = candidates.len();
     let blank = |candidate| MeasuredSetting {
@@ -77,7 +77,7 @@ pub fn measure(
                 return runs;
             }
             let share = done(&runs, effort);
-            told(&runs, share);
+            finished(&runs, share);
         }
         if idle {
             return runs;

@@ -92,7 +92,7 @@ fn leading(text: &str, mut inside: impl FnMut(char) -> bool) -> &str {
 /// Reads the comparisons of a check for steps on `scene`.
 pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>, String> {
     let tokens = tokens(source)?;
-    let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
+    let mut reader = CheckReader { tokens: &tokens, at: 0, scene, depth: 0 };
     let mut comparisons = vec![reader.comparison()?];
     while reader.takes(&Token::And) {
         comparisons.push(reader.comparison()?);
@@ -106,7 +106,7 @@ pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>
 /// Reads an expression for steps on `scene`.
 pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, String> {
     let tokens = tokens(source)?;
-    let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
+    let mut reader = CheckReader { tokens: &tokens, at: 0, scene, depth: 0 };
     let sum = reader.sum()?;
     if reader.at < tokens.len() {
         return Err(reader.unexpected("expected + - * / or the end of the number"));
@@ -115,14 +115,14 @@ pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, Stri
     Ok(sum)
 }
 
-struct Reader<'a> {
+struct CheckReader<'a> {
     tokens: &'a [Token],
     at: usize,
     scene: &'a Scene,
     depth: usize,
 }
 
-impl Reader<'_> {
+impl CheckReader<'_> {
     fn takes(&mut self, token: &Token) -> bool {
         let takes = self.tokens.get(self.at) == Some(token);
         self.at += usize::from(takes);

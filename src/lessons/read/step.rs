@@ -1,6 +1,6 @@
 //! The blocks of a step: its setup, its questions and its task.
 
-use super::table::{Piece, Reader, Table};
+use super::table::{LessonReader, Piece, Table};
 use crate::lessons::check::{Check, Name, name, results};
 use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Question, QuestionKind, Step, Task};
 use crate::lessons::live::Live;
@@ -30,7 +30,7 @@ pub(super) struct Raw {
     pub(super) blocks: Vec<(&'static str, Piece)>,
 }
 
-impl Reader<'_> {
+impl LessonReader<'_> {
     pub(super) fn step(&mut self, raw: &Raw) -> Option<Step> {
         let block = |kind: &str| raw.blocks.iter().find(|(found, _)| *found == kind).map(|(_, piece)| piece);
         let setup = self.table(SETUP, SETUP_KEYS, block(SETUP), |reader, table| Some(reader.setup(&raw.title, table)));

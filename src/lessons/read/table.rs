@@ -25,7 +25,7 @@ pub(super) struct Piece {
 }
 
 /// A reader of one lesson.
-pub(super) struct Reader<'a> {
+pub(super) struct LessonReader<'a> {
     pub(super) origin: &'a Path,
     pub(super) names: WindowNames<'a>,
     pub(super) beside: Beside<'a>,
@@ -34,7 +34,7 @@ pub(super) struct Reader<'a> {
     pub(super) scene: Option<Scene>,
 }
 
-impl Reader<'_> {
+impl LessonReader<'_> {
     /// Something is wrong in this line of the file.
     pub(super) fn fault(&mut self, line: usize, what: impl ToString) {
         self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), what: what.to_string() });
