@@ -134,7 +134,7 @@ pub fn startup(
     let cancel = &cancel.started();
     let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
     let mut plan = plan(problem, settings, known, cancel)?;
-    let mut run = Run::new(problem, settings, periodic.as_ref(), each);
+    let mut run = StartupRun::new(problem, settings, periodic.as_ref(), each);
     let mut stopped = match run.march(&plan, None, cancel) {
         // A polynomial across may oscillate to negative pressure; finite volumes cannot.
         Err(SolveError::Motor(_) | SolveError::Plate(_)) if plan.spectral => {
@@ -199,7 +199,7 @@ fn need(problem: &Problem, plan: &Plan, kept: usize) -> Need {
 }
 
 /// A start-up that is being marched.
-struct Run<'a> {
+struct StartupRun<'a> {
     problem: &'a Problem,
     settings: &'a Settings,
     each: &'a mut dyn FnMut(Cycle),
@@ -215,7 +215,7 @@ struct Run<'a> {
     unsettled: Option<(f64, f64)>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> StartupRun<'a> {
     fn new(
         problem: &'a Problem,
         settings: &'a Settings,
