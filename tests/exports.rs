@@ -217,6 +217,7 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
         ]
     );
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(!html.contains(">difference<"), "the differences of three runs are below the values");
     let page = page(&html);
     assert_eq!((count(&page, "svg"), count(&page, "img")), (5, 1));
     // Each curve of each run is in the figure of the waves: tops, rotor, and one in either panel of pressures.
@@ -254,6 +255,7 @@ fn motors_and_plates_are_compared_as_far_as_they_go() {
     assert!(said.contains("plate.length_mm") && said.contains("film.slip"), "{said}");
     let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert_eq!((count(&page(&html), "svg"), count(&page(&html), "img")), (9, 2));
+    assert!(html.contains(">difference<"), "a column of the differences between two runs");
 }
 
 #[test]
